@@ -128,7 +128,7 @@ void Pipeline::State::measureDepth(const VideoFrame& frame, const Pose& pose,
     if (task.matches) {
         const DepthStage::StillSearch search{epipolar->search(), epipolar->rotation(),
                                              epipolar->unit(), epipolar->lengthError(),
-                                             epipolar->inverseDepthOf(task.matches->vectors)};
+                                             epipolar->sOf(task.matches->vectors)};
         depth->stage.run(epipolar->luma(), pose, search, where);
         forgetMoving(*task.matches);
     } else {

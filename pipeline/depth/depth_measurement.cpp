@@ -38,7 +38,7 @@ void DepthMeasurement::takeField(const EpipolarSearch& search, std::span<const f
                                  const PixelRect& where) {
     const int width = lens_.size().width;
     const PixelRect& area = search.area();
-    const std::vector<float>& searched = search.inverseDepth();
+    const std::vector<float>& searched = search.s();
     const auto same = static_cast<float>(kSameSurface / search.pixelsPerUnit());
     const simd::CellField field{cells.data(), cellsOf(lens_.size())};
     const auto count = static_cast<std::size_t>(where.x1 - where.x0);

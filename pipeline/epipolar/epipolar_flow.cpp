@@ -71,7 +71,7 @@ EpipolarFlow::EpipolarFlow(const StereoRig& rig, std::shared_ptr<Workers> worker
             middleRaysY_.push_back(0.5F * (lens_.rayY(first) + lens_.rayY(last)));
         }
     }
-    nearness_.resize(count);
+    s_.resize(count);
     nearest_.resize(count);
 }
 
@@ -123,7 +123,7 @@ void EpipolarFlow::run(const Rows<const std::uint8_t>& video, const Pose& pose,
     fillForward();
     testDepth();
     if (search_.pixelsPerUnit() > 0)
-        prediction_.keep(nearness_, search_.pose(), unit_);
+        prediction_.keep(s_, search_.pose(), unit_);
     else
         prediction_.forget();
 }
@@ -154,11 +154,11 @@ std::span<const float> EpipolarFlow::ofArea(std::span<const float> cells) {
     return predicted_;
 }
 
-float EpipolarFlow::nearnessAt(int x, int y) const {
+float EpipolarFlow::sAt(int x, int y) const {
     const PixelRect& area = search_.area();
     const int column = std::clamp(x, area.x0, area.x1 - 1) - area.x0;
     const int row = std::clamp(y, area.y0, area.y1 - 1) - area.y0;
-    return search_.inverseDepth()[static_cast<std::size_t>(row) * (area.x1 - area.x0) + column];
+    return search_.s()[static_cast<std::size_t>(row) * (area.x1 - area.x0) + column];
 }
 
 // Returns the position of a ray's point with inverse depth s in the still drawn with the video's
@@ -181,7 +181,7 @@ std::vector<float> EpipolarFlow::flow() const {
     for (int y = 0; y < size.height; ++y) {
         for (int x = 0; x < size.width; ++x) {
             const std::size_t i = static_cast<std::size_t>(y) * size.width + x;
-            const auto q = endOf(lens_.rayX(i), lens_.rayY(i), nearnessAt(x, y));
+            const auto q = endOf(lens_.rayX(i), lens_.rayY(i), sAt(x, y));
             out.push_back(q.x - static_cast<float>(x));
             out.push_back(q.y - static_cast<float>(y));
         }
@@ -204,8 +204,8 @@ simd::CellRow EpipolarFlow::cellRow(int j, const float* raysX, const float* rays
             static_cast<std::size_t>(cells_.width)};
 }
 
-const std::vector<float>& EpipolarFlow::inverseDepthOf(const Cells& flow) {
-    aligned_ = nearness_;
+const std::vector<float>& EpipolarFlow::sOf(const Cells& flow) {
+    aligned_ = s_;
     if (!(search_.pixelsPerUnit() > 0)) return aligned_;
     const auto pixel = static_cast<float>(1 / search_.pixelsPerUnit());
     const simd::FlowEnds ends = flowEnds();
@@ -222,7 +222,7 @@ const std::vector<float>& EpipolarFlow::inverseDepthOf(const Cells& flow) {
 
 float EpipolarFlow::offLine(int x, int y, float flowX, float flowY) const {
     const std::size_t i = static_cast<std::size_t>(y) * rig_.video.size.width + x;
-    const float s = nearnessAt(x, y);
+    const float s = sAt(x, y);
     const auto on = endOf(lens_.rayX(i), lens_.rayY(i), s);
     const float dx = static_cast<float>(x) + flowX - on.x,
                 dy = static_cast<float>(y) + flowY - on.y;
@@ -242,7 +242,7 @@ void EpipolarFlow::fillForward() {
             fillDepths(j);
             const std::size_t cell = static_cast<std::size_t>(j) * cells_.width;
             simd::cellFlow(ends, cellRow(j, middleRaysX_.data(), middleRaysY_.data()),
-                           nearness_.data() + cell, forward_.data() + cell);
+                           s_.data() + cell, forward_.data() + cell);
             simd::cellLandings(forward_.data() + cell, j, cells_, landing_.data() + cell);
         }
     });
@@ -252,15 +252,15 @@ void EpipolarFlow::fillForward() {
 // between these pixels does not distort it.
 float EpipolarFlow::depthOf(int i, int j) const {
     const Middle x = middleOf(i, rig_.video.size.width), y = middleOf(j, rig_.video.size.height);
-    std::array<float, 4> s{nearnessAt(x.first, y.first), nearnessAt(x.last, y.first),
-                           nearnessAt(x.first, y.last), nearnessAt(x.last, y.last)};
+    std::array<float, 4> s{sAt(x.first, y.first), sAt(x.last, y.first), sAt(x.first, y.last),
+                           sAt(x.last, y.last)};
     std::sort(s.begin(), s.end());
     return 0.5F * (s[1] + s[2]);
 }
 
 void EpipolarFlow::fillDepths(int j) {
     const PixelRect& area = search_.area();
-    float* out = nearness_.data() + static_cast<std::size_t>(j) * cells_.width;
+    float* out = s_.data() + static_cast<std::size_t>(j) * cells_.width;
     const int y = kCell * j;
     int first = (area.x0 + kCell - 1) / kCell, last = area.x1 / kCell;
     if (y < area.y0 || y + kCell > area.y1 || first >= last) first = last = 0;
@@ -270,8 +270,7 @@ void EpipolarFlow::fillDepths(int j) {
         out[i] = depthOf(i, j);
     if (first == last) return;
     const std::ptrdiff_t pitch = area.x1 - area.x0;
-    const float* pixels =
-        search_.inverseDepth().data() + (y - area.y0 + 1) * pitch + kCell * first - area.x0;
+    const float* pixels = search_.s().data() + (y - area.y0 + 1) * pitch + kCell * first - area.x0;
     simd::cellDepths(pixels, pixels + pitch, last - first, out + first);
 }
 
@@ -280,9 +279,9 @@ void EpipolarFlow::testDepth() {
     for (std::size_t cell = 0; cell < landing_.size(); ++cell) {
         if (landing_[cell] < 0) continue;
         float& nearest = nearest_[static_cast<std::size_t>(landing_[cell])];
-        nearest = std::max(nearest, nearness_[cell]);
+        nearest = std::max(nearest, s_[cell]);
     }
-    simd::cellsHidden(landing_.data(), nearest_.data(), nearness_.data(),
+    simd::cellsHidden(landing_.data(), nearest_.data(), s_.data(),
                       {static_cast<float>(search_.pixelsPerUnit()), kSlope, kNowhere},
                       hidden_.size(), hidden_.data());
 }

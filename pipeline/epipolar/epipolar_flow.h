@@ -45,7 +45,7 @@ public:
     [[nodiscard]] const Cells& occlusion() const { return hidden_; }
     /// Returns for every cell the s whose flow along the epipolar line is closest to `flow`, for
     /// example to forward() after it was refined in both dimensions.
-    [[nodiscard]] const std::vector<float>& inverseDepthOf(const Cells& flow);
+    [[nodiscard]] const std::vector<float>& sOf(const Cells& flow);
     /// Returns the flow at every video pixel, x and y interleaved. Where the still camera cannot
     /// see the pixel, the flow ends far outside the picture.
     [[nodiscard]] std::vector<float> flow() const;
@@ -70,7 +70,7 @@ private:
     [[nodiscard]] simd::CellRow cellRow(int j, const float* raysX, const float* raysY) const;
     void search(const UnitPose& relative, const PixelRect& where);
     [[nodiscard]] std::span<const float> ofArea(std::span<const float> cells);
-    [[nodiscard]] float nearnessAt(int x, int y) const;
+    [[nodiscard]] float sAt(int x, int y) const;
     void fillForward();
     void fillDepths(int j);
     [[nodiscard]] float depthOf(int i, int j) const;
@@ -91,9 +91,9 @@ private:
     Rows<const std::uint8_t> frame_;
     Cells forward_, hidden_;
     std::vector<float> predicted_;
-    // nearness_, aligned_: s of each video cell. nearest_: for each cell of the still, the largest
+    // s_, aligned_: s of each video cell. nearest_: for each cell of the still, the largest
     // s of the video cells that land on it.
-    std::vector<float> nearness_, aligned_, nearest_;
+    std::vector<float> s_, aligned_, nearest_;
     std::vector<std::int32_t> landing_;
     // Rays through the middle of each cell's four central pixels.
     std::vector<float> middleRaysX_, middleRaysY_;

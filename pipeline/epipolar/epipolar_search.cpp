@@ -130,9 +130,9 @@ void EpipolarSearch::setArea(const PixelRect& pixels) {
         level.base.resize(count);
         level.labels.resize(count);
     }
-    inverseDepth_.resize(levels_[0].labels.size());
-    scratch_.resize(inverseDepth_.size());
-    valleys_.resize(inverseDepth_.size());
+    s_.resize(levels_[0].labels.size());
+    scratch_.resize(s_.size());
+    valleys_.resize(s_.size());
 }
 
 void EpipolarSearch::setStill(const ImageView& still) {
@@ -160,8 +160,7 @@ bool EpipolarSearch::run(const Rows<const std::uint8_t>& video, const RigidTrans
     for (int l = 1; l < drawn; ++l)
         halve(levels_[l - 1].video, levels_[l].video);
     const bool found = place(T_still_video, drawn) && matchAll(covariance, predicted, searched);
-    if (!found || !(pixelsPerUnit_ > 0))
-        std::fill(inverseDepth_.begin(), inverseDepth_.end(), 0.0F);
+    if (!found || !(pixelsPerUnit_ > 0)) std::fill(s_.begin(), s_.end(), 0.0F);
     return found;
 }
 
@@ -193,7 +192,7 @@ void EpipolarSearch::readInverseDepth() {
     const Level& level = levels_[finest];
     const auto perLabel = static_cast<float>((1 << finest) / pixelsPerUnit_);
     if (finest == 0) {
-        median3x3(level.labels, level.lens.size(), *workers_, inverseDepth_, perLabel);
+        median3x3(level.labels, level.lens.size(), *workers_, s_, perLabel);
         return;
     }
     median3x3(level.labels, level.lens.size(), *workers_, scratch_, perLabel);
@@ -202,7 +201,7 @@ void EpipolarSearch::readInverseDepth() {
     workers_->forRange(size.height, 32, [&](int first, int last) {
         for (int y = first; y < last; ++y) {
             const float* from = scratch_.data() + static_cast<std::size_t>(y >> finest) * columns;
-            float* to = inverseDepth_.data() + static_cast<std::size_t>(y) * size.width;
+            float* to = s_.data() + static_cast<std::size_t>(y) * size.width;
             for (int x = 0; x < size.width; ++x)
                 to[x] = from[x >> finest];
         }
@@ -230,7 +229,7 @@ void EpipolarSearch::refine(const Matrix6& covariance, std::span<const float> pr
     const PosePrior prior{translation_.cast<double>(), covariance};
     const Level& half = levels_[std::min<std::size_t>(1, levels_.size() - 1)];
     const double noise = std::max(videoNoise_, stillNoise_);
-    const auto nearness = [&](const Eigen::Vector2d& pixel) {
+    const auto sAt = [&](const Eigen::Vector2d& pixel) {
         if (!predicted.empty()) {
             const float s = predicted[coarseIndex(pixel, cellsOf(video_.size), kPredictedLevel)];
             const double perUnit = std::max(pixelsPerUnit_, 1e-12);
@@ -242,7 +241,7 @@ void EpipolarSearch::refine(const Matrix6& covariance, std::span<const float> pr
                (1 << coarsest) / pixelsPerUnit_;
     };
     const auto matches = matchPatches(levels_[0].pair(), half.pair(),
-                                      {video_, prior, noise, pixelsPerUnit_, nearness}, *workers_);
+                                      {video_, prior, noise, pixelsPerUnit_, sAt}, *workers_);
     refinement_ = refineRelativePose(matches, prior, video_.fx);
     normalError_ = refinement_.patches < kEnoughPatches ? normalErrorOf(covariance, video_.fx)
                                                         : refinement_.normalAfter;

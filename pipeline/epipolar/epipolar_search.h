@@ -52,7 +52,7 @@ public:
     /// `covariance` is that of a small motion x in T_still_video * exp(x). If given, the pose is
     /// first refined from the pictures, otherwise it counts as exact. `predicted` is an approximate
     /// s of every cell in the area, row-major. If given, the coarser pyramid levels are skipped.
-    /// Returns false and sets inverseDepth() to zero if the pose is invalid (soundMotion()) or no
+    /// Returns false and sets s() to zero if the pose is invalid (soundMotion()) or no
     /// part of the still can show the area.
     bool run(const Rows<const std::uint8_t>& video, const RigidTransform& T_still_video,
              const std::optional<Matrix6>& covariance = std::nullopt,
@@ -68,7 +68,7 @@ public:
 
     /// s [1/unit of length] of each pixel of the area, see EpipolarLens. Noise or pose errors can
     /// make it negative, which is beyond infinity.
-    [[nodiscard]] const std::vector<float>& inverseDepth() const { return inverseDepth_; }
+    [[nodiscard]] const std::vector<float>& s() const { return s_; }
     /// Largest motion of any pixel along its epipolar line [px] per unit of s. Zero if there is no
     /// parallax; then nothing was searched.
     [[nodiscard]] double pixelsPerUnit() const { return pixelsPerUnit_; }
@@ -135,7 +135,7 @@ private:
     Eigen::Vector3f translation_ = Eigen::Vector3f::Zero();
     double pixelsPerUnit_ = 0;
     int labels_ = 0;
-    std::vector<float> inverseDepth_, scratch_, predicted_;
+    std::vector<float> s_, scratch_, predicted_;
     LocalRange range_;
 };
 

@@ -18,9 +18,9 @@ constexpr int kWidestGap = 3;
 
 FieldPrediction::FieldPrediction(const CameraModel& video) : cells_(video, kCellLevel) {}
 
-void FieldPrediction::keep(std::span<const float> nearness, const RigidTransform& T_still_frame,
+void FieldPrediction::keep(std::span<const float> s, const RigidTransform& T_still_frame,
                            double unit) {
-    kept_.assign(nearness.begin(), nearness.end());
+    kept_.assign(s.begin(), s.end());
     keptPose_ = T_still_frame;
     unit_ = unit;
 }

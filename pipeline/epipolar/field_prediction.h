@@ -15,10 +15,9 @@ class FieldPrediction {
 public:
     explicit FieldPrediction(const CameraModel& video);
 
-    /// Stores the result of a frame. `nearness` is s of every cell [1/unit], row-major, see
-    /// EpipolarLens. `T_still_frame` has its translation in units. `unit` is the length of a unit
-    /// [unit of length of the poses].
-    void keep(std::span<const float> nearness, const RigidTransform& T_still_frame, double unit);
+    /// Stores s of every cell of a frame [1/unit], row-major, see EpipolarLens. `T_still_frame` has
+    /// its translation in units. `unit` is the length of a unit [unit of length of the poses].
+    void keep(std::span<const float> s, const RigidTransform& T_still_frame, double unit);
     /// Must be called when the still is replaced or the depths are no longer valid.
     void forget() { kept_.clear(); }
 

@@ -66,7 +66,7 @@ private:
         PatchWindow out{{}, {1, 0}, 0, 0};
         double s = 0;
         if (prior_.pixelsPerUnit > 0) {
-            s = prior_.nearness(toFull(place.middle()));
+            s = prior_.sAt(toFull(place.middle()));
             const double ahead = s + kAlongSlack / prior_.pixelsPerUnit;
             const Eigen::Vector2d way = pointAt(ray, ahead) - pointAt(ray, s);
             const double length = way.norm();

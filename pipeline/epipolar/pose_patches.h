@@ -27,7 +27,7 @@ struct PatchPrior {
     double pixelsPerUnit;  ///< largest motion of a pixel per unit of s; 0: no parallax
     /// Returns s at a pixel of the frame, with an error of at most kAlongSlack pixels along the
     /// epipolar line.
-    std::function<double(const Eigen::Vector2d&)> nearness;
+    std::function<double(const Eigen::Vector2d&)> sAt;
 };
 inline constexpr int kAlongSlack = 6;
 

@@ -66,8 +66,8 @@ HWY_INLINE Point StillPixel(const LookUpParams& lookUp, V x, V y) {
     };
     const V z = turned(2);
     const auto ahead = hn::Gt(z, Const(params::kLeastTurnedDepth));
-    const V nearness = hn::Div(Const(1), hn::IfThenElse(ahead, z, Const(1)));
-    Point at{hn::Mul(turned(0), nearness), hn::Mul(turned(1), nearness)};
+    const V inverseDepth = hn::Div(Const(1), hn::IfThenElse(ahead, z, Const(1)));
+    Point at{hn::Mul(turned(0), inverseDepth), hn::Mul(turned(1), inverseDepth)};
     if (lookUp.still.distorts) at = Distort(lookUp.still, at);
     const V far = Const(params::kFarOutside);
     return {hn::IfThenElse(ahead, hn::MulAdd(at.x, Const(lookUp.still.fx), Const(lookUp.still.cx)),

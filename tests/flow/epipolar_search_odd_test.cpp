@@ -41,9 +41,9 @@ LumaImage wholePictureOf(Size size, const std::function<int(int, int)>& grey) {
 
 void expectSane(const EpipolarSearch& search, Size size) {
     ASSERT_TRUE(test::isFinite(search));
-    ASSERT_EQ(search.inverseDepth().size(), static_cast<std::size_t>(size.width) * size.height);
+    ASSERT_EQ(search.s().size(), static_cast<std::size_t>(size.width) * size.height);
     ASSERT_TRUE(std::isfinite(search.pixelsPerUnit()));
-    for (const float s : search.inverseDepth()) {
+    for (const float s : search.s()) {
         ASSERT_GE(s * search.pixelsPerUnit(), -size.width);
         ASSERT_LE(s * search.pixelsPerUnit(), 2 * size.width + 32);
     }
@@ -84,8 +84,7 @@ TEST(EpipolarSearchOdd, UniformPicturesGiveAUniformField) {
     search.setStill(test::viewOf(wholePictureOf(size, [](int, int) { return 90; })));
     ASSERT_TRUE(search.run(wholePictureOf(size, [](int, int) { return 140; }),
                            motion({0, 0, 0}, {0.2, 0, 0})));
-    const auto [least, greatest] =
-        std::minmax_element(search.inverseDepth().begin(), search.inverseDepth().end());
+    const auto [least, greatest] = std::minmax_element(search.s().begin(), search.s().end());
     EXPECT_LT((*greatest - *least) * search.pixelsPerUnit(), 8);
 }
 
@@ -177,8 +176,8 @@ TEST(EpipolarSearchOdd, TheResultDoesNotDependOnTheNumberOfThreads) {
         search.setStill(test::viewOf(still));
         for (int again = 0; again < 3; ++again) {
             ASSERT_TRUE(search.run(video, view.T_still_video));
-            if (one.empty()) one = search.inverseDepth();
-            ASSERT_EQ(search.inverseDepth(), one) << threads << " threads";
+            if (one.empty()) one = search.s();
+            ASSERT_EQ(search.s(), one) << threads << " threads";
         }
     }
 }
@@ -198,7 +197,7 @@ TEST(EpipolarSearchOdd, TheResultDoesNotDependOnEarlierFrames) {
     (void)used.run(other, motion({0, 5, 0}, {0, 0, 0}));
     used.setStill(test::viewOf(still));
     ASSERT_TRUE(used.run(video, pose));
-    EXPECT_EQ(used.inverseDepth(), fresh.inverseDepth());
+    EXPECT_EQ(used.s(), fresh.s());
     EXPECT_EQ(used.labels(), fresh.labels());
 }
 

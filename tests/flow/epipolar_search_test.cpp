@@ -92,7 +92,7 @@ TEST(EpipolarSearch, FindsInverseDepth) {
     const View view{plain(), stepScene(), motion({0, 0, 0}, {-0.3, 0, 0})};
     const EpipolarSearch search = searched(view);
     const auto depthAt = [&](int x, int y) {
-        return 1 / search.inverseDepth()[static_cast<std::size_t>(y) * 200 + x];
+        return 1 / search.s()[static_cast<std::size_t>(y) * 200 + x];
     };
     EXPECT_NEAR(depthAt(105, 70), 2, 0.05);
     EXPECT_NEAR(depthAt(170, 20), 3, 0.1);
@@ -134,7 +134,7 @@ TEST(EpipolarSearch, PureRotationNeedsNoSearch) {
             const EpipolarSearch search = searched({camera, stepScene(), motion(turn, {0, 0, 0})});
             EXPECT_EQ(search.labels(), 0);
             EXPECT_EQ(search.pixelsPerUnit(), 0);
-            for (const float s : search.inverseDepth())
+            for (const float s : search.s())
                 ASSERT_EQ(s, 0);
         }
     }
@@ -221,9 +221,7 @@ double alikeIn(const PixelRect& area, const EpipolarSearch& part, const Epipolar
             const auto i =
                 static_cast<std::size_t>(y - from.y0) * (from.x1 - from.x0) + x - from.x0;
             const auto j = static_cast<std::size_t>(y) * 200 + x;
-            if (std::abs(part.inverseDepth()[i] - whole.inverseDepth()[j]) <
-                1 / whole.pixelsPerUnit())
-                ++alike;
+            if (std::abs(part.s()[i] - whole.s()[j]) < 1 / whole.pixelsPerUnit()) ++alike;
         }
     }
     return static_cast<double>(alike) / all;
@@ -243,7 +241,7 @@ TEST(EpipolarSearch, SearchingAPartGivesTheSameResultAsTheWhole) {
     }
     search.setArea({0, 0, 200, 150});
     ASSERT_TRUE(search.run(view.video(), view.T_still_video));
-    EXPECT_EQ(search.inverseDepth(), whole.inverseDepth());
+    EXPECT_EQ(search.s(), whole.s());
 }
 
 TEST(EpipolarSearch, GainAndGammaLowerTheAccuracyOnlyALittle) {

@@ -88,7 +88,7 @@ EpipolarSearch searchWith(const CameraModel& camera, int threads) {
 
 Eigen::Vector2d landing(const EpipolarSearch& search, const View& view, int x, int y) {
     const CameraModel& camera = view.camera;
-    const double s = search.inverseDepth()[static_cast<std::size_t>(y) * camera.size.width + x];
+    const double s = search.s()[static_cast<std::size_t>(y) * camera.size.width + x];
     const Eigen::Vector2d r = camera.unproject({x, y});
     const Eigen::Vector3d t = search.translation().cast<double>();
     const Eigen::Vector2d moved = r + s * (t.head<2>() - r * t.z());
@@ -123,7 +123,7 @@ FlowErrors errorsOf(const EpipolarSearch& search, const View& view) {
 }
 
 bool isFinite(const EpipolarSearch& search) {
-    return std::all_of(search.inverseDepth().begin(), search.inverseDepth().end(),
+    return std::all_of(search.s().begin(), search.s().end(),
                        [](float s) { return std::isfinite(s); });
 }
 

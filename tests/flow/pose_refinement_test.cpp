@@ -79,7 +79,7 @@ double depthErrorOf(const EpipolarSearch& search, const View& view) {
         for (int x = 0; x < size.width; ++x) {
             const double z = view.scene.depth({}, view.camera.unproject({x, y}));
             if (!(z > 0)) continue;
-            const double s = search.inverseDepth()[static_cast<std::size_t>(y) * size.width + x];
+            const double s = search.s()[static_cast<std::size_t>(y) * size.width + x];
             ++all;
             if (std::abs(s - 1 / z) * search.pixelsPerUnit() > 1) ++bad;
         }
@@ -124,7 +124,7 @@ TEST(PoseRefinement, KeepsAGoodPose) {
         EpipolarSearch exact = test::searchWith(view.camera, 2);
         exact.setStill(test::viewOf(view.still()));
         ASSERT_TRUE(exact.run(view.video(), view.T_still_video));
-        EXPECT_EQ(search.inverseDepth(), exact.inverseDepth());
+        EXPECT_EQ(search.s(), exact.s());
     }
 }
 
@@ -238,8 +238,8 @@ TEST(PoseRefinement, TheResultDoesNotDependOnTheNumberOfThreads) {
         search.setStill(test::viewOf(still));
         for (int again = 0; again < 2; ++again) {
             ASSERT_TRUE(search.run(video, prior, kUsual));
-            if (one.empty()) one = search.inverseDepth();
-            ASSERT_EQ(search.inverseDepth(), one) << threads << " threads";
+            if (one.empty()) one = search.s();
+            ASSERT_EQ(search.s(), one) << threads << " threads";
         }
     }
 }

@@ -120,7 +120,7 @@ TEST(Mended, ANonFinitePredictionIsSearchedFromInfinity) {
         lumaOf(picture.view(), luma);
         const std::vector<float> cells(16UL * 12, predicted);
         EXPECT_TRUE(search.run(luma, {Eigen::Quaterniond::Identity(), {0.1, 0, 0}}, {}, cells));
-        return search.inverseDepth();
+        return search.s();
     };
     EXPECT_EQ(searched(kNan), searched(-1e30F));
     EXPECT_EQ(searched(-kInf), searched(-1e30F));

@@ -25,13 +25,13 @@ void checkSearch(Context& c, const EpipolarSearch& search) {
     const PixelRect area = search.area();
     const Size size{area.x1 - area.x0, area.y1 - area.y0};
     c.checks.through("EpipolarSearch", pixelsOf(size));
-    c.checks.require(search.inverseDepth().size() == static_cast<std::size_t>(pixelsOf(size)),
+    c.checks.require(search.s().size() == static_cast<std::size_t>(pixelsOf(size)),
                      "the field of inverse depths has a wrong size");
     // The limit is relative to the length of the translation, which may be 1e18 in an invalid pose.
     c.checks.within(search.pixelsPerUnit(), 0, 1e9 * search.translation().cast<double>().norm(),
                     "pixels per unit of inverse depth");
     c.checks.within(search.normalError(), 0, 1e7, "expected distance from epipolar lines [px]");
-    for (const float s : search.inverseDepth())
+    for (const float s : search.s())
         c.checks.within(s * search.pixelsPerUnit(), -2e4, 2e4, "inverse depth in pixels");
 }
 
@@ -96,8 +96,8 @@ void planeSearch(Context& c) {
         metres.run(video, view.T_still_video) == other.run(video, scaled),
         "the search runs in the original world but not in a scaled one, or the reverse");
     checkSearch(c, metres);
-    for (std::size_t i = 0; i < metres.inverseDepth().size(); ++i)
-        c.checks.within(metres.inverseDepth()[i] - other.inverseDepth()[i] * unit, -1e-5, 1e-5,
+    for (std::size_t i = 0; i < metres.s().size(); ++i)
+        c.checks.within(metres.s()[i] - other.s()[i] * unit, -1e-5, 1e-5,
                         "inverse depth in a scaled world");
     EpipolarSearch back({camera, camera, {}}, workers());
     back.setStill(viewOf(video));
@@ -143,7 +143,7 @@ void hostileFlowOfPoses(Context& c) {
             c.checks.within(v[0], 0, 1e4, "two-way error of a cell [px]");
         for (const float v : flow.flow())
             c.checks.within(v, -2e4, 2e4, "flow of a pixel");
-        for (const float s : flow.inverseDepthOf(flow.forward()))
+        for (const float s : flow.sOf(flow.forward()))
             c.checks.require(std::isfinite(s), "inverse depth of a cell is not finite");
         c.checks.require(std::isfinite(flow.offLine(0, 0, 1, 1)),
                          "distance from the epipolar line is not finite");
