@@ -21,7 +21,7 @@ namespace {
 using Seconds = std::chrono::duration<double>;
 
 constexpr Seconds kLookTime{1};
-/// Until this number of pictures was shown, all time limits are kFirstPatience times as long.
+/// All time limits are kFirstPatience times as long until this number of pictures was shown.
 constexpr std::uint64_t kFirstPictures = 10;
 
 std::ofstream openSummary(const Options& options, const Config& config) {

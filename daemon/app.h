@@ -130,7 +130,8 @@ private:
     std::optional<int> stopSignal_;
     std::optional<Ready> running_;
     std::optional<Over> ended_;
-    /// True when all shaders are compiled: kFirstPatience is not used any more.
+    /// True after kFirstPictures pictures, whose shaders are then compiled. Until then, all time
+    /// limits are kFirstPatience times as long.
     bool isProven_ = false;
     bool patienceEnded_ = false;  ///< true: systemd's watchdog has its normal timeout again
     HealthRecord health_;

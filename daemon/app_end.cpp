@@ -101,7 +101,8 @@ void App::removeControl() const {
     if (options_.control) std::filesystem::remove(*options_.control, ignored);
 }
 
-// Handles the failure here, because run() cannot return to main() while a thread hangs.
+// Reports the failure and ends the process. run() cannot return to main() for this while a thread
+// hangs.
 void App::leaveFailed(const std::exception_ptr& error) {
     try {
         std::rethrow_exception(error);
@@ -128,7 +129,8 @@ ExitCode App::finish(std::future<std::string>& end) {
         if (*one)
             (*one)->said.set_exception(
                 std::make_exception_ptr(std::runtime_error("mfard is ending")));
-    // ControlSocket's destructor waits for pending answers. The lines above made these fail.
+    // ControlSocket's destructor waits for pending answers. They end now with the errors that the
+    // lines above have set.
     control_.reset();
     onReady();
     const Counted counted = stats_.count();
@@ -156,8 +158,8 @@ ExitCode App::finish(std::future<std::string>& end) {
         }
         (void)writeResults(fmt::format("error: {}", error.what()), exitCode(error));
         if (!stopSignal_) throw;
-        // Returns instead of throwing: main() would pause before a restart by systemd, but after a
-        // signal systemd does not restart mfard.
+        // Does not throw, because main() would then wait before systemd's restart. After a signal,
+        // systemd does not restart mfard.
         log_.error(error.what());
         return exitCode(error);
     }

@@ -25,8 +25,8 @@ constexpr milliseconds kMain{500};
 constexpr milliseconds kWatchdog{10'000};
 static_assert(kCapture + kPicture + kControl + kMain < kWatchdog / 2);
 
-/// Thread of a camera: opening, stopping or closing it once. Other threads show the banner in the
-/// meantime. The driver of USB cameras waits 5 s for an answer, several times in a row.
+/// Thread of a camera: opening, stopping or closing the camera once. The driver of USB cameras
+/// waits 5 s for an answer, several times in a row. Meanwhile, other threads show a banner.
 constexpr milliseconds kOpener{20'000};
 
 // If one of the following threads hangs, pictures can still be made.

@@ -40,7 +40,7 @@ enum class CameraKind {
 class CameraWatch {
 public:
     /// The user is warned if the frame rate differs from the configured one by more than
-    /// kRateTolerance (a share) for longer than kRateTime.
+    /// kRateTolerance (0.1: 10 %) for longer than kRateTime.
     static constexpr double kRateTolerance = 0.1;
     static constexpr std::chrono::seconds kRateTime{3};
     /// The user is warned if the camera repeats a picture at least kRepeats times and for longer

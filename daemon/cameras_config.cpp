@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::array<std::pair<std::string_view, CameraDriver>, 2> kDrivers = {
     {{"libcamera", CameraDriver::Libcamera}, {"v4l2", CameraDriver::V4l2}}};
-constexpr double kLeastRate = 0.01;  // [Hz], of a camera that is not triggered
+constexpr double kLeastRate = 0.01;  // smallest valid frame rate of an untriggered camera [Hz]
 
 std::optional<std::string> rateFault(double value) {
     if (value == 0 || value >= kLeastRate) return std::nullopt;

@@ -55,7 +55,7 @@ void CaptureThread::stop() {
 void CaptureThread::join() {
     if (!thread_.joinable()) return;
     while (isOver_.wait_for(kStopTime) != std::future_status::ready)
-        // The capture thread hangs in its camera, so this thread finishes the recording instead.
+        // The capture thread still waits for its camera, so this thread finishes the recording.
         if (rig_.handOver() == HandOver::NewestWins && video_.isWaiting())
             return rig_.finishRecording();
     thread_.join();

@@ -143,7 +143,7 @@ std::vector<std::string> FilterLearning::takeWarnings() {
 }
 
 void FilterLearning::run(const std::stop_token& stop) {
-    // If the picture thread waits for learning, a low priority would only delay the frames.
+    // If the picture thread waits for this thread, a low priority would delay the frames.
     if (!options_.waits) lowerThreadPriority();
     Heartbeat heart(options_.watched);
     for (;;) {

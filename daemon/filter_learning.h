@@ -86,7 +86,7 @@ private:
     std::optional<RgbPlanes> olderVideo_;
     bool hasOlder_ = false;    // true: `older_` is the still before the one in `pictures_`
     bool olderTaken_ = false;  // picture thread only; true: `older_` was set since the last still
-    // `older_`'s frame, matched with the new still. Used by thread_ only, like matcher_.
+    // The frame of `older_`, matched with the new still. Only thread_ uses truth_ and matcher_.
     MatchedPictures truth_;
     std::unique_ptr<FrameMatcher> matcher_;
 

@@ -8,8 +8,8 @@
 namespace mfar {
 namespace {
 
-// A level may be chosen if its expected time is at most this share of the deadline. kRoom is for a
-// change to a better level, kDownRoom for a change to a faster one.
+// Largest expected time of a level that may be chosen, as a share of the deadline. kRoom is for
+// changes to a better level, kDownRoom for changes to a faster one.
 constexpr double kRoom = 0.85;
 constexpr double kDownRoom = 0.95;
 // A faster level is chosen when more than kMostLate of the last kLateWindow counted frames are

@@ -75,7 +75,8 @@ private:
     double deadline_;
     std::size_t level_ = 0;
     Choice next_;
-    std::optional<Pending> pending_;  // the previous frame; the next add() reports if it changed
+    // The previous frame. The next call of add() tells if anything changed in it.
+    std::optional<Pending> pending_;
     std::array<double, kWindow> ratios_{};  // measured time / table time, ring buffer
     std::size_t ratioCount_ = 0;
     std::uint64_t frame_ = 0;            // number of counted frames

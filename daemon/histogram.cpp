@@ -11,7 +11,7 @@ constexpr double kLeastMs = 1e-3;
 }  // namespace
 
 double TimeBuckets::of(double ms) const {
-    // This comparison is false for NaN, which is counted in the bucket of the shortest times.
+    // This comparison is false for NaN, so NaN counts as the shortest time.
     return ms > kLeastMs ? std::log2(ms / kLeastMs) * perOctave : 0;
 }
 

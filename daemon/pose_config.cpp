@@ -79,9 +79,9 @@ TrackerOptions trackerOptions(const PoseConfig& pose, TagMap map, double rateHz)
     out.fullSearchInterval = pose.fullSearchInterval;
     PoseFilterOptions& filter = out.pose.filter;
     filter.bridgeFrames = pose.bridgeFrames;
-    // The tracker ends predictions after a number of frames or after a time. The time must be the
-    // longer one, so that the number of frames decides. Half a frame is added for the poses of
-    // stills, which may be older than the frame.
+    // The tracker limits predictions by a number of frames and by a time. Here, the time is made so
+    // long that only the number of frames matters. Half a frame is added, because the times of
+    // stills lie between those of frames.
     if (rateHz > 0) {
         const std::chrono::duration<double> frames((pose.bridgeFrames + 0.5) / rateHz);
         filter.bridge =

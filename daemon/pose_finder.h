@@ -38,18 +38,18 @@ public:
     /// Returns the pose of a frame, or nothing if it is unknown. Frames must come in the order of
     /// their times.
     [[nodiscard]] std::optional<Pose> ofVideo(const Frame& video);
-    /// Searches tags in a still. Another thread than that of the other functions may call it,
-    /// because it takes long.
+    /// Searches tags in a still. This takes long, so a second thread may call this function while
+    /// the first thread calls the others.
     [[nodiscard]] StillMeasurement measure(const Frame& still);
-    /// Returns the pose of a still that is not later than the last frame. It is the measured pose,
-    /// or else one that PoseHistory interpolates between the poses of frames.
+    /// Returns the pose of a still that is not later than the last frame. Without a measured pose,
+    /// PoseHistory interpolates one between the poses of frames.
     [[nodiscard]] std::optional<Pose> place(const StillMeasurement& measured, Timestamp time);
 
     /// Returns true if the pose was measured or recorded, false if it was only predicted.
     [[nodiscard]] bool isMeasured(const Pose& pose) const { return recorded_ || pose.tags > 0; }
     [[nodiscard]] const TagMap& tags() const { return tags_; }
-    /// If there was no tag map at the start, returns the map that the first picture gave: the tag
-    /// that defines the world frame. Returns the map only once. Thread-safe.
+    /// If there was no tag map at the start, returns the map that was made from the first picture
+    /// with tags. Its only tag defines the world frame. Returns the map only once. Thread-safe.
     [[nodiscard]] std::optional<TagMap> takeFoundTags() { return found_.tryTake(); }
     [[nodiscard]] bool mayFindTags() const { return tracker_ && tags_.empty(); }
     [[nodiscard]] const std::string& description() const { return description_; }

@@ -29,8 +29,8 @@ struct QualityLevel {
 
 [[nodiscard]] std::string toToml(std::span<const QualityLevel> levels);
 
-/// Changes the mode of each level to `best` if it is better than `best`. Of levels that become
-/// equal, only the fastest is kept.
+/// Limits the levels to the mode `best`: in a level with a better mode, `best` replaces that mode.
+/// Of levels that become equal, only the fastest is kept.
 [[nodiscard]] std::vector<QualityLevel> limitedTo(std::span<const QualityLevel> levels,
                                                   SuperResMode best);
 

@@ -16,8 +16,8 @@ namespace {
 using nlohmann::ordered_json;
 using svg::escaped;
 
-/// Bins are merged until they have this number of pictures on average. With fewer, quantiles would
-/// mean little.
+/// Bins are merged until they have this number of pictures on average. A quantile of fewer pictures
+/// would mean little.
 constexpr double kPicturesPerBin = 2;
 
 constexpr std::string_view kStyle = R"(

@@ -75,8 +75,8 @@ public:
     [[nodiscard]] std::uint64_t notRecorded() const;
     /// Returns an empty path if there is no recording. Thread-safe.
     [[nodiscard]] std::filesystem::path recordingFolder() const;
-    /// If the recording cannot be written any more, ends it and returns the reason. The part that
-    /// is already on the disk can be played. Thread-safe. Never waits.
+    /// If the recording cannot be written any more, ends it and returns the reason. The part on the
+    /// disk stays playable. Thread-safe. Never waits.
     [[nodiscard]] std::optional<std::string> endBrokenRecording();
     /// Waits until the whole recording is written. Throws Failure if the recording of --record
     /// cannot be written. Failures of other recordings are reported by endBrokenRecording().

@@ -89,7 +89,8 @@ private:
     void open() {
         if (open_) return;
         tried_ = Timestamp::now();
-        // The note is written before the line is opened, so that it exists after a crash.
+        // The line's name is noted before the line is opened, so that a crash cannot leave an open
+        // line without a note.
         if (const auto file = takenLineFile(); !file.empty()) noteTakenLine(file, line_);
         open_ = openGpioTrigger(options_);
     }
@@ -141,7 +142,7 @@ std::unique_ptr<ReopeningCamera> waitingCamera(const CameraConfig& config, const
     const auto periods = [&](double count) {
         return std::chrono::milliseconds(std::lround(count * periodMs));
     };
-    // A triggered camera may send no frame for any length of time, so it is never silent.
+    // A triggered camera sends no frames without pulses, so it never counts as silent.
     options.silent = onTrigger ? std::chrono::milliseconds(0)
                                : std::max(options.silent, periods(kSilentPeriods));
     if (!onTrigger) options.stalled = std::max(options.stalled, periods(kStalledPeriods));

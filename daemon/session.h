@@ -45,9 +45,11 @@ struct Tunables {
 }
 
 struct StopTokens {
-    /// Fetch no more frames. Frames that are being processed are still shown and written.
+    /// After a stop request, no more frames are fetched. Frames that are being processed are still
+    /// shown and written.
     std::stop_token input;
-    std::stop_token cancel;  ///< do not wait any more for a slow reader of the display's pictures
+    /// After a stop request, nothing waits any more for a slow reader of the display's pictures.
+    std::stop_token cancel;
 };
 
 /// One run, from the devices to the display. The GL thread creates, runs and destroys it.
@@ -143,7 +145,7 @@ private:
     StopTokens stop_;
     Config config_;
     Rig rig_;
-    /// Valid while the recording's folder is being created.
+    /// The recording of beginRecording(). Valid while its folder is being created.
     std::future<std::shared_ptr<Recorder>> firstRecording_;
     PoseFinder poses_;
     GlDevice device_ = GlDevice::Preferred;

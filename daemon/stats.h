@@ -73,16 +73,19 @@ struct Counted {
     PoseCounts poses;
     QualityCounts quality;
     std::uint64_t epipolarFrames = 0;
-    /// Frames that were matched along epipolar lines, but only near the last frame's matches.
+    /// Frames whose search along epipolar lines was limited to positions near the previous matches.
     std::uint64_t predictedFrames = 0;
     /// Frames matched along epipolar lines whose pose was refined from the pictures.
     std::uint64_t refinedFrames = 0;
     double meanEpipolarError = 0;  ///< mean over the frames with enough patches [video px]
     std::uint64_t depthTiles = 0;  ///< tiles with measured depth, summed over all frames
-    /// Tiles whose depth was not measured, because the real surface lies behind the objects.
+    /// Tiles under an object without a depth measurement, because the real surface is known to lie
+    /// behind the object.
     std::uint64_t depthTilesSkipped = 0;
     std::uint64_t keyframeSearches = 0;
-    std::uint64_t tilesSearched2d = 0;  ///< tiles that had no reliable match on epipolar lines
+    /// Tiles that were searched in both dimensions, because they had no reliable match on epipolar
+    /// lines.
+    std::uint64_t tilesSearched2d = 0;
     /// Frames with virtual objects in view, and those in which all objects were hidden.
     std::uint64_t objectFrames = 0;
     std::uint64_t hiddenFrames = 0;
@@ -100,7 +103,7 @@ struct Counted {
     std::optional<std::string> displayFault{};
     std::optional<std::string> gpuFault{};
     std::uint64_t gpuFailures = 0;
-    std::optional<Rendering> rendering{};  ///< set if it has changed since the start
+    std::optional<Rendering> rendering{};  ///< the current rendering; not set: as at the start
     ValidationCounts validation{};         ///< all 0 if shader outputs are not validated
     std::optional<ProcessUse> atFirstPicture;
     std::optional<LearningCounts> learning{};

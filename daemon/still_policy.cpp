@@ -54,7 +54,7 @@ bool StillPolicy::wanted(Timestamp now, Timestamp statsOf, const FrameStats& sta
     if (firedAt_ && now - *firedAt_ < toNanoseconds(config_.minIntervalS)) return false;
     if (movedInUse_ && now - *still_ > toNanoseconds(config_.maxAgeS)) return true;
     // While the scene is at rest, no still is requested, even if the current one explains little of
-    // the picture: a new still would show the same.
+    // the picture. A new still would look the same and explain no more.
     return movedSinceTrigger_ && statsOf >= *usedSince_ && stats.explained < config_.explainedBelow;
 }
 
@@ -70,8 +70,9 @@ bool StillPolicy::timedOut(Timestamp now) {
 }
 
 void StillPolicy::fire(Timestamp now) {
-    // The next trigger is due one period after the due time of this trigger. One period after
-    // `now`, the time of a frame, would make the rate too low.
+    // The next trigger is due one period after the due time of this trigger, not after `now`.
+    // `now` is the time of a frame, which comes a little later than the due time. Counting from it
+    // would make the rate too low.
     const std::chrono::nanoseconds period = toNanoseconds(1 / config_.rateHz);
     due_ = due_ && now >= *due_ && now - *due_ < period ? *due_ + period : now + period;
     firedAt_ = now;

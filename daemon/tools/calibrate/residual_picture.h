@@ -6,10 +6,12 @@
 
 namespace mfar::calibration {
 
-/// Writes a PNG file of the calibration's residuals, with one row for each sensor. The left panel
-/// is the area of the sensor's picture, with a dot for each corner. Each cell has an arrow for its
-/// mean residual, enlarged as the scale shows. Where the lens model fits, arrows are short and have
-/// no pattern. The right panel shows all residuals as points around zero. Throws ImageFileError.
+/// Writes a PNG file of the calibration's residuals, with two panels for each sensor. The left
+/// panel has a dot at each corner's position in the sensor's pictures. It is divided into cells. In
+/// each cell, an arrow shows the mean residual of the cell's corners. The scale below the panel
+/// gives the arrows' lengths in pixels. If the lens model fits, the arrows are short and have no
+/// common direction. The right panel shows each residual as a point; zero is in its middle. Throws
+/// ImageFileError.
 void saveResidualPicture(const std::filesystem::path& file, const Calibration& calibration);
 
 }  // namespace mfar::calibration

@@ -56,12 +56,13 @@ RigStart startOfRig(const PoseTrack& video, const std::vector<StillPose>& stills
     RigStart out;
     Agreement best;
     const double step = std::max(1e-3, video.interval() / 8);
-    // The search begins at offset 0. If nothing moved, all offsets agree equally well, and 0 stays.
+    // The search begins at offset 0. If nothing moved, no other offset gives a smaller spread, so 0
+    // is the result.
     for (int i = 0; i * step <= maxOffset; ++i) {
         for (const double offset : {i * step, -i * step}) {
             const Agreement now = agreementAt(video, stills, offset);
-            // An offset that puts many stills outside of the video's time is refused, because fewer
-            // stills agree more easily.
+            // An offset is refused if it puts many stills before the start or after the end of the
+            // video. The few other stills would have a small spread by chance.
             if (now.stills * 4 < best.stills * 3 || !(now.spread < best.spread)) continue;
             best = now;
             out = {now.T_still_video, offset, now.stills};

@@ -148,8 +148,8 @@ private:
     }
 
     bool leaveOut(const RigBundle& bundle) {
-        // The poses of track_ come from the video alone. In RigBundle, a still would move the video
-        // poses around it, because a still is more precise, and so hide its own error.
+        // Uses the poses of track_, which come from the video alone. The bundle adjusted its video
+        // poses to the more precise stills, so a still with an error would seem to fit.
         const auto shift = static_cast<std::int64_t>(std::llround(bundle.offset() * 1e9));
         std::vector<double> errors;
         for (const Member& m : stillMembers_) {

@@ -11,12 +11,13 @@ namespace mfar::calibration {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
-// Smallest tilt and depth. With less, focal length and target distance cannot be separated.
+// Smallest tilt and depth of the views. With less, many pairs of focal length and target distance
+// fit equally well.
 constexpr double kLeastTilt = 12 * kDegree;
 constexpr double kLeastDepth = 1.2;  // distance of the farthest / distance of the nearest corner
 constexpr double kLeastCoverage = 0.6;
-// This quantile replaces the largest tilt or depth, because a single view has little influence on
-// it. The quantile 1 - kMostlyAt replaces the smallest.
+// Quantiles are used instead of the extremes, so that no single view decides: kMostlyAt for the
+// largest tilt and depth, 1 - kMostlyAt for the smallest depth.
 constexpr double kMostlyAt = 0.9;
 
 double quantile(std::vector<double> values, double q) {
