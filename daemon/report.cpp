@@ -177,13 +177,13 @@ std::string cards(const ordered_json& summary) {
     out += card(fmt::format("{:.0f}", frames), "frames");
     out += card(fmt::format("{:.3g} s", number("/seconds")), "from first to last picture");
     out += card(fmt::format("{:.1f} ms", number("/latency_ms/median")), "latency, median");
-    out += card(fmt::format("{:.1f} ms", number("/latency_ms/p99")), "latency, 99 %");
+    out += card(fmt::format("{:.1f} ms", number("/latency_ms/p99")), "latency, 99 % quantile");
     out += card(fmt::format("{:.0f}", dropped), "frames dropped", dropped > 0);
     if (number("/quality/deadline_ms") > 0)
         out += card(fmt::format("{:.1f} %", frames > 0 ? 100 * late / frames : 0), "frames late",
                     late > 0.05 * frames);
     out += card(fmt::format("{:.2f}", number("/mean_confidence")), "mean confidence");
-    out += card(fmt::format("{:.0f} %", 100 * number("/pose/tracked_share")), "frames tracked");
+    out += card(fmt::format("{:.0f} %", 100 * number("/pose/tracked_share")), "frames with a pose");
     out += card(fmt::format("{:.0f}", number("/stills/used")), "stills used");
     return out + card(fmt::format("{:.0f}", number("/faults") + number("/gpu_failures")), "faults",
                       number("/faults") + number("/gpu_failures") > 0);

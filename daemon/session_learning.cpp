@@ -37,7 +37,8 @@ void Session::endLearning() {
 }
 
 void Session::resetLearning() {
-    if (!learning_) throw std::runtime_error("no filters are learned");
+    if (!learning_)
+        throw std::runtime_error("mfard does not learn filters, because superres.learn is false");
     learning_->reset();
 }
 

@@ -31,7 +31,8 @@ std::string_view valueOf(std::string_view key, std::string_view& text) {
     if (end == text.npos || !text.starts_with(key))
         throw std::runtime_error(fmt::format("has no line {}", key));
     const std::string_view value = text.substr(key.size(), end - key.size());
-    if (!isName(value)) throw std::runtime_error(fmt::format("{} is not a valid name", key));
+    if (!isName(value))
+        throw std::runtime_error(fmt::format("the value of {} is not a valid name", key));
     text.remove_prefix(end + 1);
     return value;
 }
@@ -42,7 +43,7 @@ TriggerLineConfig parsed(std::string_view text) {
     out.line = valueOf("line=", text);
     const std::string_view activeLow = valueOf("active_low=", text);
     if (activeLow != "true" && activeLow != "false")
-        throw std::runtime_error("active_low= is neither true nor false");
+        throw std::runtime_error("the value of active_low= is neither true nor false");
     if (!text.empty()) throw std::runtime_error("has more than three lines");
     out.activeLow = activeLow == "true";
     return out;
@@ -58,7 +59,7 @@ std::filesystem::path takenLineFile() {
 
 void noteTakenLine(const std::filesystem::path& file, const TriggerLineConfig& line) {
     if (!isName(line.chip) || !isName(line.line))
-        throw std::runtime_error("invalid name of chip or line");
+        throw std::runtime_error("the name of the GPIO chip or line is too long or not printable");
     const std::string text =
         fmt::format("chip={}\nline={}\nactive_low={}\n", line.chip, line.line, line.activeLow);
     writeWholeFile(file, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});

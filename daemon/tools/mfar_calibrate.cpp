@@ -31,8 +31,8 @@ SensorViews look(const std::vector<RecordedImage>& pictures, Size size, const Ta
         const bool last = now.done == now.of;
         if (!last && (!terminal || now.done % 5 != 0)) return;
         const std::string title =
-            fmt::format("{}: {} of {} pictures searched, target in {}, {:.0f} % covered   ", name,
-                        now.done, now.of, now.found, 100 * now.coverage.share());
+            fmt::format("{}: {} of {} pictures searched, {} show the target, {:.0f} % covered   ",
+                        name, now.done, now.of, now.found, 100 * now.coverage.share());
         if (terminal && !shown.empty()) fmt::print("\x1b[{}A", Coverage::kRows + 3);
         shown = mapText(now.coverage, title);
         fmt::print("{}", shown);

@@ -38,8 +38,8 @@ SimParser::SimParser() {
         ->check(CLI::IsMember(simSceneNames()))
         ->capture_default_str();
     app.add_option("--path", a.path,
-                   "how the camera moves (default: handheld; rest in scene still, "
-                   "survey in calibration)")
+                   "how the camera moves; default: \"rest\" in the scene \"still\", \"survey\" in "
+                   "the scene \"calibration\", \"handheld\" in all other scenes")
         ->check(CLI::IsMember(simPathNames()));
     app.add_option("--seconds", a.seconds, "length of the recording [s]")
         ->check(CLI::Range(0.01, 3600.0))

@@ -60,9 +60,9 @@ TEST(TakenLine, InvalidContentIsReported) {
         {"line=1\nchip=a\nactive_low=true\n", "has no line chip="},
         {"chip=a\nline=1\nactive_low=yes\n", "neither true nor false"},
         {"chip=a\nline=1\nactive_low=true\n[cameras]\n", "more than three lines"},
-        {"chip=a\x01\nline=1\nactive_low=true\n", "chip= is not a valid name"},
+        {"chip=a\x01\nline=1\nactive_low=true\n", "the value of chip= is not a valid name"},
         {"chip=" + std::string(300, 'a') + "\nline=1\nactive_low=true\n",
-         "chip= is not a valid name"},
+         "the value of chip= is not a valid name"},
         {std::string(2000, 'a'), "has 2000 bytes; the limit is 1024"},
     };
     for (const auto& [text, what] : texts) {

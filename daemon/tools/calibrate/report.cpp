@@ -14,7 +14,7 @@ constexpr int kViewsInALine = 4;
 
 std::string viewsOf(const SensorResult& sensor, const char* name) {
     std::string out =
-        fmt::format("{} views (time, number of corners, RMS reprojection error)\n", name);
+        fmt::format("{} views: time, corners, RMS reprojection error; out: not used\n", name);
     const auto first = sensor.views.empty() ? Timestamp{} : sensor.views.front().time;
     int column = 0;
     for (const ViewResult& view : sensor.views) {

@@ -58,8 +58,8 @@ Target checkerboard(int columns, int rows, double square) {
                         "number must be odd, the other even",
                         columns, rows));
     if (!(square > 0 && square <= 10))
-        throw std::runtime_error(
-            fmt::format("the edge of a square, {} m, is not above 0 and at most 10 m", square));
+        throw std::runtime_error(fmt::format(
+            "the edge of a square must be above 0 and at most 10 m, but is {} m", square));
     Target out{TargetKind::Checkerboard, columns, rows, square, 0, 0, {}};
     for (int row = 0; row < rows; ++row)
         for (int column = 0; column < columns; ++column)
