@@ -66,10 +66,11 @@ constexpr Option kTop[] = {
     argument(
         "--size",
         text("size", R"("screen")",
-             "Size of finished pictures: \"screen\", the size of the screen that is connected at "
-             "the start, or \"still\" without a screen; \"still\", the still's resolution; or a "
-             "size into which they must fit, like \"1280x720\". Pictures are never smaller than "
-             "the video or larger than the still. Smaller pictures take less time.")),
+             "Size of finished pictures: \"screen\", as large as fits on the screen that is "
+             "connected at the start, or like \"still\" without a screen; \"still\", the still's "
+             "resolution; or a size into which they must fit, like \"1280x720\". Pictures are "
+             "never smaller than the video or larger than the still. Smaller pictures take less "
+             "time.")),
     argument(
         "--pace",
         word("pace", "auto realtime consumer", R"("auto")",
@@ -219,9 +220,11 @@ constexpr Option kPose[] = {
            "Factor by which the video is reduced before it is searched for tags: 1.5 or a whole "
            "number. A larger factor is faster but misses small tags."),
     whole("threads", kThreads, "1", "Number of threads that search tags, for each sensor."),
-    whole("full_search_interval", {1, 1'000'000, "frames"}, "15",
-          "Interval at which the whole picture is searched for tags. In other frames, only the "
-          "expected positions of tags are searched."),
+    whole(
+        "full_search_interval", {1, 1'000'000, "frames"}, "15",
+        "Longest interval at which the whole picture is searched for tags. In other frames, mfard "
+        "first searches at the expected positions, and in the whole picture only if it finds no "
+        "known tag there."),
     whole("bridge_frames", {0, 300, "frames"}, "12",
           "Largest number of consecutive frames without a tag for which the pose is predicted."),
 };
