@@ -61,7 +61,7 @@ void Warp::setTracedPicture(TracedPicture traced) {
     step_->setTracedPicture(*traced_);
 }
 
-// Keeps re-rendered pictures, because they belong to the scene.
+// Keeps re-rendered pictures, because they stay valid until the scene changes.
 void Warp::dropTracedPicture() {
     traced_.reset();
     lastRequest_ = {};

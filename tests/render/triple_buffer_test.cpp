@@ -23,7 +23,7 @@ TEST(TripleBuffer, ReaderGetsTheNewestValue) {
 
 TEST(TripleBuffer, ValueOfTheReaderStaysAndMemoryIsReused) {
     TripleBuffer<std::vector<int>> buffer;
-    for (int i = 0; i < 3; ++i) {  // allocates memory
+    for (int i = 0; i < 3; ++i) {  // gives each of the three values its memory
         buffer.back().assign(100, i);
         buffer.publish();
         buffer.fetch();
