@@ -162,7 +162,7 @@ TEST(NoiseFilter, FiltersBothLightPartsSeparately) {
     EXPECT_LT(errorOf(pixels, flat), kSigma / 2);
 }
 
-TEST(NoiseFilter, ReadsNothingOutsideItsPixels) {
+TEST(NoiseFilter, ReadsNothingOutsideTheGivenRectangle) {
     const PixelRect where{8, 4, 30, 20};
     const auto inside = [&](float outside) {
         NoiseFilter filter;

@@ -39,7 +39,7 @@ TEST(TripleBuffer, ValueOfTheReaderStaysAndMemoryIsReused) {
         EXPECT_EQ(buffer.front()[99], 2);
     }
     EXPECT_TRUE(buffer.fetch());
-    EXPECT_NE(buffer.front().data(), held) << "the new value lies in another slot";
+    EXPECT_NE(buffer.front().data(), held) << "fetch() must change to another of the three values";
     EXPECT_EQ(buffer.front()[99], 19);
 }
 
