@@ -114,8 +114,8 @@ std::optional<Frame> CameraV4l2::next(std::chrono::milliseconds timeout) {
         if (filled) {
             if (auto frame = frameOf(*filled)) return frame;
             // Broken pictures do not end the wait at once, because whole pictures may be queued
-            // behind them. After as many as there are buffers, the timeout ends it. Otherwise a
-            // driver that delivers broken pictures without pause would never let it end.
+            // behind them. Once as many broken pictures came as there are buffers, the timeout ends
+            // the wait. Otherwise it would never end if the driver delivers only broken pictures.
             if (++broken >= stream_->buffers() && steady_clock::now() >= until) return std::nullopt;
         } else if (waited == Wait::Trouble) {
             // The device is not lost; otherwise take() would have thrown. Drivers also set POLLERR

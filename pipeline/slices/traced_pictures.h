@@ -19,7 +19,7 @@ enum class TracedStep : unsigned char {
     Refine,    ///< trace more samples of the shown picture
     Continue,  ///< trace more samples of the next picture
     Start,     ///< begin a next picture, and discard an unfinished one
-    Drop,      ///< discard the next picture: the camera is back near the shown one's view
+    Drop,      ///< discard the next picture: the view is near the shown picture's again
 };
 
 /// `sinceShown` and `sinceNext` are viewChange() since the views of the shown and the next picture.
