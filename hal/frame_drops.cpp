@@ -8,11 +8,11 @@ namespace mfar {
 namespace {
 
 constexpr std::size_t kNeeded = 8;
-/// If an interval between two frames is longer than this number of frame periods, the camera was
-/// stopped. Then no drops are counted.
+/// If an interval between two frames is longer than this number of frame periods, no drops are
+/// counted: the camera was probably stopped.
 constexpr double kMostMissing = 1000;
-/// If the driver's frame numbers skip more than kMostNumbers numbers, or more than about kDoubtful
-/// times as many as the frame times suggest, the numbers count as restarted.
+/// The driver's frame numbers count as restarted after a jump of more than kMostNumbers, or of more
+/// than about kDoubtful times the jump that the frame times suggest.
 constexpr std::uint32_t kMostNumbers = 10000;
 constexpr int kDoubtful = 8;
 

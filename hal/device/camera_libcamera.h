@@ -32,7 +32,7 @@ struct LibcameraOptions {
 struct LibcameraCounters {
     std::uint64_t frames = 0;
     std::uint64_t dropped = 0;
-    /// `broken`, `startup` and `badTimes` are the numbers of frames that were not delivered.
+    /// `broken`, `startup` and `badTimes` count frames that were not delivered; see CameraCounters.
     std::uint64_t broken = 0;
     std::uint64_t startup = 0;
     /// Frames whose timestamp is in the future, too old, or not later than the previous frame's.

@@ -113,8 +113,9 @@ std::optional<Frame> CameraV4l2::next(std::chrono::milliseconds timeout) {
         const auto filled = stream_->take();
         if (filled) {
             if (auto frame = frameOf(*filled)) return frame;
-            // After each buffer was tried once, the timeout ends the loop. Otherwise a driver that
-            // delivers broken pictures without pause would keep the loop running.
+            // Broken pictures do not end the wait at once, because whole pictures may be queued
+            // behind them. Once as many broken pictures came as there are buffers, the timeout ends
+            // the wait. Otherwise it would never end if the driver delivers only broken pictures.
             if (++broken >= stream_->buffers() && steady_clock::now() >= until) return std::nullopt;
         } else if (waited == Wait::Trouble) {
             // The device is not lost; otherwise take() would have thrown. Drivers also set POLLERR

@@ -98,7 +98,7 @@ Screen* ScreenDisplay::look(bool changed) {
         if (presence == Screen::Presence::Ready) ready = &screen;
     };
     // A device without a connected monitor is held open until a monitor is connected. The later
-    // devices in the list are not used meanwhile, because nobody would see their pictures.
+    // devices in the list are not used meanwhile: they usually drive the same missing monitor.
     for (const auto& screen : screens_)
         if (holder == nullptr && screen.get() != failed_) ask(*screen);
     if (holder == nullptr && failed_ != nullptr) ask(*failed_);

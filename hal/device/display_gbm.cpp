@@ -19,8 +19,8 @@ namespace {
 using GbmDevice = std::unique_ptr<gbm_device, FreedBy<gbm_device_destroy>>;
 using GbmBuffer = std::unique_ptr<gbm_bo, FreedBy<gbm_bo_destroy>>;
 
-// GBM buffers are not used with a software renderer, because it is fastest in its own memory.
-// Mesa's software renderer also crashes if it cannot map an imported buffer.
+// GBM buffers are not used with a software renderer, because it draws fastest into its own memory.
+// Besides, Mesa's software renderer crashes if it cannot map an imported buffer.
 bool isSoftware(std::string_view renderer) {
     return renderer.find("llvmpipe") != renderer.npos ||
            renderer.find("softpipe") != renderer.npos || renderer.find("swrast") != renderer.npos;

@@ -85,7 +85,7 @@ Screen::Presence KmsScreen::look(bool thorough) {
         if (!card_) return Presence::Absent;
         auto found = card_->findOutput(spec_, thorough);
         if (!found && thorough && spec_.device.empty() && cardPaths().size() > 1) {
-            // A monitor may have been connected to another card.
+            // A monitor may have been connected to another card, so the card is chosen anew.
             close();
             openCard();
             if (!card_) return Presence::Absent;
@@ -184,7 +184,7 @@ void KmsScreen::commit(ScanoutBuffers::Ready ready, Commit kind) {
 
 void KmsScreen::waitForLastFlip() {
     if (waitForFlip(card_->fd(), flipPending_, kFlipTimeout)) return;
-    // The event may never come, so later calls must not wait for it.
+    // The driver may never report this flip, so later calls must not wait for the report.
     flipPending_ = false;
     throw std::runtime_error(
         fmt::format("{}, {}: the display driver did not show the new picture in time",

@@ -36,12 +36,13 @@ ScalePicture scaleParams(Size picture, Size screen, ScreenScaler::Order order) {
             .blueFirst = order == ScreenScaler::Order::Bgra ? 1 : 0};
 }
 
-// Returns the number of texel pairs that cover the footprint of a screen pixel along a row. A
-// footprint that begins and ends inside a texel touches one texel more. Returns 0 if the picture
-// needs no scaling.
+// Returns the number of texel pairs that the shader reads along a row for one screen pixel. They
+// cover the pixel's footprint, the averaged part of the picture. Returns 0 if the picture needs no
+// scaling.
 int pairsFor(const ScalePicture& p) {
     if (p.width == p.pictureWidth && p.height == p.pictureHeight) return 0;
     const float footprint = std::max(p.footprintX, p.footprintY);
+    // A footprint that begins and ends inside a texel touches one texel more than its width.
     const int texels = static_cast<int>(std::ceil(footprint)) + 1;
     return footprint <= 1.0F ? 1 : (texels + 1) / 2;
 }

@@ -37,7 +37,7 @@ struct V4l2Control {
 /// The controls of a device. They are found by foldedName(), because vendors use the same id for
 /// different controls: 0x981901 is one vendor's trigger mode and another vendor's flash.
 ///
-/// If a control is busy or the bus fails, a value is set up to three times. All calls throw
+/// If a control is busy or the bus fails, setting it is tried three times at most. All calls throw
 /// std::runtime_error if the control is unknown, the value is out of range, or the control is
 /// read-only, busy or refuses the value. They throw DeviceLost if the device is lost. The device
 /// must outlive this object.

@@ -20,7 +20,8 @@ namespace mfar {
 /// error and not thousands.
 class BackgroundWriter {
 public:
-    /// `watched` registers each thread with Heartbeats. Its time budget is for one job.
+    /// Each thread is registered with `watched.all`. `watched.budget` is the longest allowed time
+    /// of one job.
     explicit BackgroundWriter(int threads, const WatchedThread& watched = {});
     BackgroundWriter(const BackgroundWriter&) = delete;
     BackgroundWriter& operator=(const BackgroundWriter&) = delete;

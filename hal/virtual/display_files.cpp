@@ -196,7 +196,7 @@ public:
     PngDisplay(fs::path folder, std::stop_token cancel, const FileDisplayPolicy& policy)
         : FileDisplay(2, std::move(cancel), policy), folder_(std::move(folder)) {
         if (folder_.empty())
-            throw std::runtime_error("png: the folder is missing; expected png:FOLDER");
+            throw std::runtime_error("png: no folder is given; expected png:FOLDER");
         std::error_code error;
         fs::create_directories(folder_, error);
         if (error)

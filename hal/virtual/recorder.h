@@ -25,7 +25,7 @@ struct RecorderOptions {
     std::uint64_t mostBytes = 0;  ///< largest size of a recording [bytes]; 0: no limit
     WatchedThread writer{};
     /// Least interval between synchronisations of the disk, which protect the recording from a
-    /// power cut. A picture or pose starts one if there was none in this time before.
+    /// power cut. A picture or pose starts one if the last one is at least this time ago.
     std::chrono::milliseconds syncEvery{1000};
 };
 

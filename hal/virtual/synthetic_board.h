@@ -16,8 +16,8 @@ namespace mfar {
 
 struct SyntheticOptions {
     synthetic::Scene scene = synthetic::Scene::Office;
-    /// Path along which the camera moves. Not set: Rest in scene Still, Survey in scene
-    /// Calibration, otherwise Handheld.
+    /// Path along which the camera moves. Not set: Path::Rest for Scene::Still, Path::Survey for
+    /// Scene::Calibration, and Path::Handheld for all other scenes.
     std::optional<synthetic::Path> path{};
     std::uint64_t seed = 1;
     Pace pace = Pace::Realtime;
@@ -52,8 +52,8 @@ class SyntheticStudio;
 /// timeout of video().next() applies only while the consumer holds all buffers. The call waits for
 /// the renderer without a limit.
 ///
-/// A pulse is lost, as with a real sensor, in three cases. The previous exposure has not ended. Or
-/// stillBuffers - 1 stills are pending. Or the still camera is not started.
+/// As with a real sensor, a pulse is lost if the previous exposure has not ended, if
+/// stillBuffers - 1 stills are pending, or if the still camera is not started.
 ///
 /// The program must link a createGlContext(); the board's thread has its own GL context. The
 /// cameras and the trigger live as long as the board; frames may outlive it. All functions are

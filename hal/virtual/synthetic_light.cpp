@@ -105,8 +105,8 @@ private:
         return light.key * key + skyAt(index, origin, normal, turn, shift);
     }
 
-    /// Returns the cosine-weighted light of the sky, and of solids within reach() that reflect
-    /// light with their colours.
+    /// Returns the cosine-weighted light from the sky. A solid within reach() hides a part of the
+    /// sky and reflects coloured light instead.
     Eigen::Vector3d skyAt(int index, const Eigen::Vector3d& origin, const Eigen::Vector3d& normal,
                           double turn, double shift) const {
         const Eigen::Vector3d side = normal.unitOrthogonal(), up = normal.cross(side);

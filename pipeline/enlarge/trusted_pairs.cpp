@@ -25,7 +25,8 @@ constexpr double kStructure = 36;   // least variance of a pixel with structure 
 
 /// Returns the mean squared difference between video and still that noise alone can cause: 1.5
 /// times the 20 % quantile of `differences`, which are means over 7x7 pixels. At this quantile,
-/// noise is the only cause. The factor 1.5 keeps a pixel's noise from deciding if it is trusted.
+/// noise is the only cause. The factor 1.5 is a margin, so that noise alone rarely exceeds the
+/// result.
 double noiseOf(std::vector<double>& differences) {
     if (differences.empty()) return kLeastNoise;
     const auto fifth = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 5);

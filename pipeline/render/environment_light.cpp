@@ -53,8 +53,8 @@ EnvironmentLight::EnvironmentLight(std::shared_ptr<const Environment> environmen
             std::cos(kTurn / 2 * static_cast<float>(row) / static_cast<float>(size_.height)));
     rows_.resize(static_cast<std::size_t>(size_.height) + 1);
     texels_.resize((width + 1) * static_cast<std::size_t>(size_.height));
-    // Interpolation spreads the light of a texel over half of each neighbouring texel. The picture
-    // is sampled by the brightness after interpolation.
+    // Interpolation spreads the light of a texel over half of each neighbouring texel. So the
+    // probability of a texel is computed from its brightness after interpolation.
     std::vector<double> brightnesses;
     double sum = 0;
     for (int row = 0; row < size_.height; ++row)

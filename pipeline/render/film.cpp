@@ -26,7 +26,7 @@ constexpr auto kRanks = [] {
 }();
 
 constexpr float kGreyLevels = 255;
-constexpr float kEnough = 16;  // number of samples after which light counts as unchanged
+constexpr float kEnough = 16;  // number of samples from which a pixel may stay unfiltered
 // Assumed contrast [grey levels] between an object and the unknown background: half the range.
 constexpr float kEdgeContrast = 0.5F * kGreyLevels;
 
@@ -307,7 +307,8 @@ void Film::remember(std::size_t pixel, const LightPixel& light) {
     Pixel& p = begun(pixel);
     if (p.taken > 0 || p.carried.firstCount > 0) return;
     const Eigen::Vector3f first = light.first.matrix(), second = light.second.matrix();
-    // The filter found no change in the neighbourhood, so this pixel is called unchanged.
+    // Around this pixel of the shadow catcher, objects change no light. So the pixel counts as
+    // unchanged, too.
     const bool untouched = light.id == kCatcherId && first.isZero(0);
     p.carried = {first,
                  second,

@@ -35,9 +35,9 @@ struct SeenSurface {
 
 struct FilmSample {
     FirstHit hit;
-    Eigen::Vector3f radiance{0, 0, 0};  ///< radiance of the object, or of the catcher with
+    Eigen::Vector3f radiance{0, 0, 0};  ///< radiance of the object, or of the shadow catcher with
                                         ///< objects
-    Eigen::Vector3f without{0, 0, 0};   ///< radiance of the catcher without objects
+    Eigen::Vector3f without{0, 0, 0};   ///< radiance of the shadow catcher if no object existed
     SurfaceLight light{};               ///< light on the hit object
     SurfaceLight far{{1, 1, 1}, {1, 1, 1}};
     Paint paint{};
@@ -70,7 +70,8 @@ public:
     [[nodiscard]] std::uint64_t dropped() const;
 
     void add(std::size_t pixel, const FilmSample& sample);
-    /// Mean radiance of each surface type that a pixel's samples hit, and its share of the samples.
+    /// Mean radiance over a pixel's samples that hit an object, and over those that hit the shadow
+    /// catcher (with and without objects). The shares are these samples' numbers, divided by all.
     struct Means {
         Eigen::Vector3f object{0, 0, 0};
         Eigen::Vector3f with{0, 0, 0}, without{0, 0, 0};
@@ -89,7 +90,7 @@ public:
     /// surfaces are ignored.
     [[nodiscard]] KnownLight known(std::size_t pixel) const;
 
-    /// True if the pixel shows only the real surface, with unchanged light.
+    /// True if the pixel shows only the real surface, and no object changes its light.
     [[nodiscard]] bool isUntouched(std::size_t pixel) const;
 
     /// Estimated standard error of the displayed value [grey levels of 255]. It is infinite with

@@ -10,9 +10,9 @@ namespace mfar {
 namespace {
 
 constexpr float kNearest = 1e-3F;
-// Limits for a pixel that shows the same surface as the point. kOffPlane is the largest distance of
-// the pixel's surface point from the tangent plane, relative to depth. kSameBend is the least
-// cosine between the normals.
+// A pixel shows the surface of the given point if it keeps two limits. kOffPlane is the largest
+// distance of its surface point from the given point's tangent plane, relative to depth. kSameBend
+// is the least cosine between both normals.
 constexpr float kOffPlane = 0.01F, kSameBend = 0.9F;
 constexpr float kLeastWeight = 0.1F;
 // The weight of a specular lobe of width alpha falls to 1/e when the eye moves by the angle

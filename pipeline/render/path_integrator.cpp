@@ -11,12 +11,12 @@ namespace {
 constexpr std::uint32_t kSunPair = 0, kEnvironmentPair = 1, kScatterPair = 2, kRoulettePair = 3;
 constexpr std::uint32_t kPairsOfVertex = 4;
 constexpr std::uint32_t kPairsOfPath = kPairsOfVertex * 64;
-// A path that carries at least this share of the light always survives. Ending it would add noise
-// that no sampler makes up for.
+// A path that carries at least this share of the light always survives. Ending such paths at random
+// would add much noise, also with a good sampler.
 constexpr float kSurvives = 0.25F;
 
 /// Balance heuristic for one sample from each of two densities (Veach 1997, equation 9.8). The
-/// environment's density requires this heuristic.
+/// density of EnvironmentLight is made for this heuristic (MIS compensation).
 float balanceWeight(float taken, float other) {
     return taken / (taken + other);
 }
@@ -184,8 +184,8 @@ PathIntegrator::Sent PathIntegrator::knownSun(const Vertex& vertex, const Eigen:
     if (sun_.dark()) return {};
     const SurfacePoint& point = vertex.point;
     const Eigen::Vector3f towards = vertex.frame.transpose() * sun_.towards();
-    // A lobe sharper than the sun's disc would show the shape of the disc. The roughness is
-    // therefore raised until the lobe is about as wide as the disc.
+    // The lobe is evaluated only at the centre of the sun's disc. A lobe narrower than the disc
+    // would give a wrong value, so the roughness is raised until it is about as wide.
     SurfaceLook look = point.look;
     look.roughness = std::max(look.roughness, std::sqrt(sun_.angularRadius()));
     const ScatterValue f =
@@ -219,7 +219,8 @@ PathIntegrator::Parts PathIntegrator::walk(SurfacePoint point, Eigen::Vector3f w
     for (int depth = 1;; ++depth, pair += kPairsOfVertex) {
         const bool first = depth == 1, last = depth == options_.maxDepth;
         const Lobes here = first ? lobes : Lobes::Both;
-        // Emission mirrored by the first surface counts as direct light.
+        // The walk with Lobes::Broad already adds the first surface's own emission. Emission of the
+        // second surface counts as direct light (depth 1).
         if (!first || lobes != Lobes::Mirrored) add(out.rest, point.emission, depth - 1);
         const Vertex vertex(point, wo);
         const Arrived lit = direct(vertex, here, sampler, pair, world);

@@ -85,7 +85,7 @@ private:
     struct Escaped {
         Eigen::Vector3f light{0, 0, 0}, far{0, 0, 0};
     };
-    /// Approximates direct light without objects, without a ray.
+    /// Approximates the direct light that would arrive if no object existed. Traces no ray.
     [[nodiscard]] Sent known(const Vertex& vertex, const Eigen::Vector3f& wo, Lobes lobes,
                              bool withSun) const;
     [[nodiscard]] Sent knownSky(const Vertex& vertex, const Eigen::Vector3f& wo, Lobes lobes) const;

@@ -143,7 +143,8 @@ private:
         const TracedScene& scene = parts_.scene;
         SeenSurface seen;
         if (object.found())
-            // The first picture must be ready soon, so lookAgain() smooths it later.
+            // Smoothing the normal takes time, and the first picture (without a history) must be
+            // ready soon. There, lookAgain() smooths the normal at the first sample.
             seen = surfaceOf(pixel, ray, object, history_ != nullptr);
         else if (real.found())
             seen = {{real.t, kCatcherId}, scene.catcherPoint(real, ray.direction).shading, {}, 1};
@@ -223,7 +224,8 @@ PathTracer::PathTracer(std::shared_ptr<const Scene> scene, const PathTracerOptio
     validate(options);
     if (!scene) throw std::invalid_argument("path tracer: there is no scene");
     validate(*scene);
-    // Computes the tables now, because that takes as long as the first samples of a picture.
+    // Computes the albedo tables now. At first use, they would delay the first picture: they take
+    // as long as its first samples.
     static_cast<void>(meanSpecularAlbedo(1));
     parts_ = std::make_unique<const Parts>(std::move(scene), options);
 }

@@ -11,8 +11,8 @@ namespace {
 // Number of samples in the first portion, before the time per sample is known. It is small enough
 // for any scene.
 constexpr std::int64_t kFirstSamples = 64;
-// Fewer samples are not worth a call. If this portion exceeds the budget, the next frame repays the
-// excess.
+// Least number of samples in a portion; fewer are not worth a call. If they exceed the budget, the
+// next frame repays the excess.
 constexpr std::int64_t kLeastSamples = 16;
 constexpr double kPortionsPerFrame = 16;
 // Upper limit of unused time carried over to the next frame, as a share of the budget. Time remains

@@ -37,12 +37,13 @@ public:
     explicit BudgetController(double msPerFrame);
 
     /// Begins a frame. `workWaits` must be true if work was left over in the last frame. Only then
-    /// a small part of its unused time is added to the new frame, and kept() counts it.
+    /// kept() counts the last frame, and a small part of its unused time is added to the new frame.
     void beginFrame(bool workWaits);
 
     [[nodiscard]] BudgetGrant grant();
-    /// Returns a grant for work that traces no samples and is expected to take `expectedMs`. Its
-    /// `samples` is 1, or 0 if this frame's budget is used up.
+    /// Returns a grant for work that traces no samples and is expected to take `expectedMs`. In
+    /// this grant, `samples` only tells if the work may run: 1, or 0 if this frame's budget is used
+    /// up.
     [[nodiscard]] BudgetGrant grant(double expectedMs);
     [[nodiscard]] double portionMs() const;
     /// Reports a granted portion's processor time. Negative and non-finite values count as 0.

@@ -20,7 +20,8 @@ public:
     explicit HoleTracer(std::size_t mostPixels) : mostPixels_(mostPixels) {}
 
     [[nodiscard]] bool idle() const { return stage_ == Stage::Idle; }
-    /// Takes a request; requires idle(). `request` gets the memory of an older request.
+    /// Takes a request; requires idle(). In exchange, `request` gets the memory of an older
+    /// request.
     void take(HoleRequest& request);
     [[nodiscard]] bool taken() const { return stage_ == Stage::Taken; }
     /// Sorts the pixels and drops duplicates and pixels outside the picture. Drops all pixels if

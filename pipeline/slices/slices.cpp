@@ -99,7 +99,7 @@ void Slices::beginTurn() {
     for (Tile& tile : tiles_) {
         if (tile.active == 0) continue;
         tile.most = mostOfTurn(tile);
-        // The tile has no active pixel for this sparse turn.
+        // This sparse turn samples none of the tile's active pixels.
         if (tile.handed >= tile.most) --ofTurn_;
     }
     if (ofTurn_ == 0) samples_ = samplesOfTurn();

@@ -6,13 +6,13 @@
 namespace mfar {
 namespace {
 
-// With TracedPolicy::soon, a moving camera gets a new picture at this share of the limits. The new
-// picture reuses the light of the shown picture.
+// With TracedPolicy::soon, a new picture begins when the camera's motion reaches this share of
+// ViewLimits. The new picture reuses the light of the shown picture.
 constexpr double kSoon = 0.75;
 // The next picture is discarded if the view change falls below this share of the change that
 // started it.
 constexpr double kBack = 0.5;
-// From this multiple of the limits on, a noisy new picture is better than the shown picture.
+// From this multiple of ViewLimits on, a noisy new picture is better than the shown picture.
 constexpr double kHopeless = 3;
 // The shown picture is converted again when its number of samples has grown by this factor. That
 // halves the error.
@@ -74,8 +74,8 @@ TracedStep TracedPictures::chosenStep() const {
     const TracedStep step =
         nextStep(sinceShown, hasBegun ? changeSince(pictures_[1 - shown_]) : std::nullopt,
                  policy_.soon ? kSoon : 1);
-    // While the shown picture still serves, it gets samples first. Without samples, a new picture
-    // could not reuse its light.
+    // While the shown picture is still near enough to this view, it gets its first samples before a
+    // new picture begins. Without samples, the new picture could not reuse its light.
     const bool serves = sinceShown && *sinceShown < 1;
     if (step == TracedStep::Start && !hasBegun && serves && shown.slices.samples() == 0)
         return TracedStep::Refine;

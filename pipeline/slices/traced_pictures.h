@@ -19,7 +19,7 @@ enum class TracedStep : unsigned char {
     Refine,    ///< trace more samples of the shown picture
     Continue,  ///< trace more samples of the next picture
     Start,     ///< begin a next picture, and discard an unfinished one
-    Drop,      ///< discard the next picture, because the shown picture serves again
+    Drop,      ///< discard the next picture: the view is near the shown picture's again
 };
 
 /// `sinceShown` and `sinceNext` are viewChange() since the views of the shown and the next picture.
@@ -52,7 +52,7 @@ struct PictureScene {
 };
 
 /// The two traced pictures: the shown picture, and the next picture, which will replace it. The
-/// shown picture gets more samples while it serves.
+/// shown picture gets more samples as long as the view is within ViewLimits.
 /// Only one thread at a time may call this class, with two exceptions. Any number of threads may
 /// call trace() at once. trace() and done() may run during begin() and between beginShow() and
 /// endShow().
@@ -96,7 +96,7 @@ public:
     [[nodiscard]] bool turnComplete() const { return pictures_[working()].slices.turnComplete(); }
     /// True if nothing is left to do while the camera rests.
     [[nodiscard]] bool settled() const;
-    /// Progress of the picture in progress (see Slices); 1 if there is none.
+    /// Finished share of the picture in progress, [0, 1] (see Slices); 1 if there is none.
     [[nodiscard]] double progress() const;
     [[nodiscard]] std::size_t pixels() const;
     [[nodiscard]] std::uint64_t finished() const { return finished_; }

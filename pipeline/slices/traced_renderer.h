@@ -38,7 +38,7 @@ public:
     [[nodiscard]] const RenderedPicture* newest();
 
     /// Requests single pixels. Only the newest request is used, but a request in progress is still
-    /// answered. `request` gets the memory of an older request.
+    /// answered. In exchange, `request` gets the memory of an older request.
     void requestHoles(HoleRequest& request);
     /// Newest answer to a hole request since the last call, or null. It is valid until the next
     /// call.

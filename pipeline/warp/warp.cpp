@@ -61,7 +61,7 @@ void Warp::setTracedPicture(TracedPicture traced) {
     step_->setTracedPicture(*traced_);
 }
 
-// Keeps re-rendered pictures, because they belong to the scene.
+// Keeps re-rendered pictures, because they stay valid until the scene changes.
 void Warp::dropTracedPicture() {
     traced_.reset();
     lastRequest_ = {};
@@ -164,12 +164,12 @@ void Warp::answer(const HoleAnswer& answer) {
     if (answer.colour.size() != pixels.size() || answer.depth.size() != pixels.size() ||
         answer.id.size() != pixels.size() ||
         (!answer.light.empty() && answer.light.size() != pixels.size()))
-        throw std::invalid_argument("a hole answer must have a colour, a depth and an id for each "
-                                    "pixel, and a light for each pixel or for none");
+        throw std::invalid_argument("individually rendered pixels must each have a colour, a depth "
+                                    "and an id, and either all or none of them a light");
     if (std::ranges::any_of(pixels, [&](std::uint32_t p) { return p >= count; }))
-        throw std::invalid_argument("a pixel of a hole answer is outside the layer");
+        throw std::invalid_argument("an individually rendered pixel is outside the layer");
     if (!isFinite(answer.view.T_world_camera))
-        throw std::invalid_argument("the camera pose of a hole answer is not finite");
+        throw std::invalid_argument("individually rendered pixels: the camera pose is not finite");
     if (answer.scene != scene_) return;
     asked_ = false;
     if (pixels.empty()) return;

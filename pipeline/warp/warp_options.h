@@ -16,9 +16,9 @@ struct WarpOptions {
     /// Upper limit of the pixels in one request, at least 1. The default is 5 % of 640x480.
     int mostRequested = 15360;
     int holeSamples = 4;  ///< samples per pixel, [1, 4096]
-    /// While the camera rests, edge pixels are rendered individually, because the warp blurs edges.
-    /// This is the upper limit of their number as a share of the objects' pixels, [0, 1]. 0: no
-    /// pixels.
+    /// Upper limit of the number of edge pixels that are rendered individually, as a share of the
+    /// objects' pixels, [0, 1]; 0: none. They are rendered while the camera rests, because the warp
+    /// blurs edges.
     double sharpenShare = 0.4;
     int sharpenSamples = 40;  ///< samples per edge pixel, [1, 4096]
     /// Number of frames in which rendered pixels fade in, [0, 100]. Used only with

@@ -29,7 +29,7 @@ std::string faultOf(std::span<const std::uint8_t> bytes, const std::string& key 
     return "";
 }
 
-TEST(LearnerState, RestoredStateIsIdenticalAndContinuesEqually) {
+TEST(LearnerState, RestoredLearnerEqualsTheStoredOneAndLearnsTheSameFromANewStill) {
     EnlargerLearner first = learned();
     ASSERT_GT(first.counts().classes, 0);
     const auto bytes = first.stored("a, b");

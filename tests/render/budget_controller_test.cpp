@@ -64,7 +64,8 @@ TEST(BudgetController, FramesKeepTheBudgetWithinTenPercentIfTheCostVaries) {
         BudgetController budget(kBudget);
         const std::vector<double> used = usedIn(budget, 300, 128, cost);
         EXPECT_NEAR(meanShare(used), 1, 0.01);
-        EXPECT_LE(framesOff(used, 0.1), 15) << "95 of 100 frames within a tenth";
+        EXPECT_LE(framesOff(used, 0.1), 15)
+            << "in 95 of 100 frames, the used time must be within 10 % of the budget";
         budget.beginFrame(true);
         EXPECT_EQ(budget.kept().frames, BudgetController::kFrames);
         EXPECT_NEAR(budget.kept().mean, 1, 0.02);
@@ -86,7 +87,7 @@ TEST(BudgetController, OutliersChangeNeitherTheEstimatedCostNorTheMeanTime) {
     });
     EXPECT_DOUBLE_EQ(least, 0.002);
     EXPECT_DOUBLE_EQ(most, 0.002);
-    EXPECT_NEAR(meanShare(used), 1, 0.02) << "the time of an outlier is saved in later frames";
+    EXPECT_NEAR(meanShare(used), 1, 0.02) << "frames after an outlier must save its excess time";
 }
 
 TEST(BudgetController, AdaptsToAJumpOfTheCostInThreeFrames) {

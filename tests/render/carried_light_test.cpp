@@ -77,7 +77,8 @@ TEST(CarriedLight, NewPictureIsShownWhenItHasEnoughSamples) {
     EXPECT_FALSE(driver.step()) << "the picture suffices for this view";
     driver.look(26);
     driver.untilShown(before + 1);
-    EXPECT_GT(driver.shown.back().samples, 4) << "8 on objects, 2 on other surfaces";
+    EXPECT_GT(driver.shown.back().samples, 4)
+        << "the mean of 8 samples per object pixel and 2 per pixel of other surfaces";
 }
 
 TEST(CarriedLight, NewSamplesSoonOutweighLightOfAnOldLighting) {
@@ -118,14 +119,14 @@ TEST(CarriedLight, SurfacesWithUnchangedLightAreTracedOnce) {
     driver.pictures.setScene(prepared(sunlit, 1, 2));
     driver.look(20);
     driver.settle();
-    EXPECT_GE(driver.pictures.pixels(), all) << "new light may change all surfaces";
+    EXPECT_GE(driver.pictures.pixels(), all) << "with new light, all pixels must be traced again";
 }
 
 TEST(CarriedLight, CameraAtRestGetsOwnSamplesInEachPixel) {
     Driver driver(kThirtyTwo, kProduct);
     driver.look(20);
     driver.settle();
-    EXPECT_LT(driver.shown.back().samples, 32) << "a quarter of the samples on the real surface";
+    EXPECT_LT(driver.shown.back().samples, 32) << "the real surface gets a quarter of the samples";
     for (int i = 0; i < 12; ++i)
         driver.look(20);
     driver.settle();
@@ -133,7 +134,7 @@ TEST(CarriedLight, CameraAtRestGetsOwnSamplesInEachPixel) {
     EXPECT_TRUE(driver.pictures.settled());
 }
 
-// Silhouettes have no reusable light.
+// At silhouettes, a picture cannot reuse the light of an earlier picture.
 TEST(CarriedLight, CameraAtRestSeesSmoothSilhouettes) {
     Driver driver({Slicing::Time, 64, 2, 1, 16}, kProduct), exact({Slicing::Time, 256, 16, 0, 16});
     driver.look(20);

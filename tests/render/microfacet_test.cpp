@@ -28,7 +28,7 @@ double overHemisphere(F f) {
     return sum;
 }
 
-TEST(Microfacet, VisibleNormalsIntegrateToOne) {
+TEST(Microfacet, DensityOfVisibleNormalsIntegratesToOne) {
     for (const float alpha : {0.1F, 0.4F, 1.0F})
         for (const float mu : {0.1F, 0.5F, 0.95F}) {
             const Ggx ggx(alpha);

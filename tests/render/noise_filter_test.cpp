@@ -90,8 +90,8 @@ TEST(NoiseFilter, KeepsDifferencesAboveNoise) {
     EXPECT_GT(errorOf(known, flat), 0.95 * kSigma);
 }
 
-// A step of two standard errors. Only ids, depths or normals, set by `mark`, can show that it is
-// not noise.
+// Returns the error after filtering a picture whose halves differ by two standard errors. From the
+// light alone, this step looks like noise. `mark` sets ids, depths or normals that differ, too.
 template <class Mark>
 double errorAtStep(Mark mark) {
     Pixels pixels = noisyPicture(step, 0);
@@ -162,7 +162,7 @@ TEST(NoiseFilter, FiltersBothLightPartsSeparately) {
     EXPECT_LT(errorOf(pixels, flat), kSigma / 2);
 }
 
-TEST(NoiseFilter, ReadsNothingOutsideItsPixels) {
+TEST(NoiseFilter, ReadsNothingOutsideTheGivenRectangle) {
     const PixelRect where{8, 4, 30, 20};
     const auto inside = [&](float outside) {
         NoiseFilter filter;

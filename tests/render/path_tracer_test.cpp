@@ -86,7 +86,7 @@ TEST(PathTracer, FineNormalMapRaisesTheRoughnessAboutTheMeanNormal) {
     }
 }
 
-TEST(PathTracer, WhiteSphereInUniformLightIsInvisible) {
+TEST(PathTracer, WhiteSphereLooksLikeTheUniformLightAroundIt) {
     for (const float metallic : {0.0F, 1.0F})
         for (const float roughness : {0.2F, 0.6F, 1.0F}) {
             auto scene =
@@ -239,7 +239,7 @@ TEST(PathTracer, TexturesAlphaMasksAndSingleSidesAffectThePicture) {
     EXPECT_GT(resolved(traced(PathTracer(scene), under, 2), under).samples, 0);
 }
 
-TEST(PathTracer, NormalMapBrightensLightFromTheSideToWhichItTilts) {
+TEST(PathTracer, NormalsTiltedTowardsTheSunBrightenTheSurface) {
     // All normals are tilted towards +u, which is +x.
     SurfaceTexture map{{1, 1}, false, {{218, 128, 218, 255}}};
     Material leaning = materialOf({1, 1, 1}, 0, 1);

@@ -29,7 +29,7 @@ prepared(const std::shared_ptr<const Scene>& scene, std::uint64_t objects, std::
 }
 
 /// Policies for tests. kPlain has no noise filter and no history, and samples every pixel. kProduct
-/// has both, as the daemon.
+/// has both, as in the daemon.
 inline constexpr TracedPolicy kPlain{{4, 0.2}, 8, false, false};
 inline constexpr TracedPolicy kProduct{{4, 0.2}, 8, true, true};
 

@@ -27,7 +27,7 @@ Film::Means groundAt(const PathTracer& tracer, const Eigen::Vector3d& point, int
     return traced(tracer, view, samples).means(0);
 }
 
-TEST(ShadowCatcher, SphereBlocksItsFormFactorOfAUniformSky) {
+TEST(ShadowCatcher, SphereBlocksTheShareOfTheSkyGivenByItsFormFactor) {
     auto scene = sphereOverGround(1, 2);
     scene->lighting.environment = evenLight(1);
     PathTracerOptions directly;

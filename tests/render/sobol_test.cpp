@@ -24,7 +24,7 @@ TEST(Sobol, CoordinatesMatchTheDirectionNumbers) {
     }
 }
 
-TEST(Sobol, ShuffleKeepsAlignedBlocks) {
+TEST(Sobol, ShuffleKeepsIndicesOfAnAlignedBlockTogether) {
     for (const std::uint32_t seed : {1U, 77U, 0xDEADBEEFU}) {
         std::set<std::uint32_t> seen;
         for (std::uint32_t i = 48; i < 64; ++i)

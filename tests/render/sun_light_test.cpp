@@ -12,7 +12,7 @@ Sun sunOf(float radius) {
     return {Eigen::Vector3f(0.2F, -0.5F, 0.6F).normalized(), {3, 2, 1}, radius};
 }
 
-TEST(SunLight, SamplesSumToTheIrradianceOfAFacingSurface) {
+TEST(SunLight, SamplesGiveTheIrradianceOfASurfaceThatFacesTheSun) {
     for (const float radius : {0.00465F, 0.1F, 0.8F}) {
         const Sun sun = sunOf(radius);
         const SunLight light(sun);

@@ -150,7 +150,7 @@ TEST(TracedPictures, MovingCamerasGetPicturesOfPredictedViews) {
     driver.step();
     driver.look(29);
     driver.untilShown(5);
-    EXPECT_TRUE(driver.shows(26)) << "its view is nearer than that of the shown picture";
+    EXPECT_TRUE(driver.shows(26)) << "26 degrees is nearer to the camera than the shown 20 degrees";
     driver.look(33);
     driver.settle();
     EXPECT_TRUE(driver.shows(33));
@@ -165,7 +165,7 @@ TEST(TracedPictures, ReversingCameraDiscardsThePredictedPicture) {
     driver.look(14);
     driver.settle();
     EXPECT_TRUE(driver.shows(14));
-    EXPECT_EQ(driver.pictures.finished(), 2U) << "the picture for 26 degrees was given up";
+    EXPECT_EQ(driver.pictures.finished(), 2U) << "the picture for 26 degrees must be discarded";
 }
 
 TEST(TracedPictures, NewObjectsAreShownAtOnceButNewLightOnlyWithEnoughSamples) {
@@ -192,7 +192,7 @@ TEST(TracedPictures, WaitsForPortionsOfTheReplacedPicture) {
     driver.step();
     const TracedPictures::Portion out = driver.pictures.next(1000);
     driver.look(14);
-    EXPECT_FALSE(driver.pictures.toBegin()) << "its film is in use";
+    EXPECT_FALSE(driver.pictures.toBegin()) << "the film of the replaced picture is in use";
     EXPECT_TRUE(driver.pictures.next(1000).slice.pixels.empty());
     driver.pictures.trace(out);
     driver.pictures.done(out, {});

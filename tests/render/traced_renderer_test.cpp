@@ -239,7 +239,7 @@ TEST(TracedRenderer, MakesTheNextPictureForAPredictedView) {
         azimuth += 0.25;
         frames.frame(render_scenes::viewFrom(kRenderSize, azimuth));
         azimuths[frames.now()] = azimuth;
-        ASSERT_TRUE(frames.seen()) << "rare frames would give no rate of motion";
+        ASSERT_TRUE(frames.seen()) << "each frame must arrive, so that a velocity can be measured";
         chosen = *frames.renderer.counters().shownSince;
     }
     ASSERT_TRUE(azimuths.contains(chosen));

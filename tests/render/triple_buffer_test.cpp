@@ -23,7 +23,7 @@ TEST(TripleBuffer, ReaderGetsTheNewestValue) {
 
 TEST(TripleBuffer, ValueOfTheReaderStaysAndMemoryIsReused) {
     TripleBuffer<std::vector<int>> buffer;
-    for (int i = 0; i < 3; ++i) {  // allocates memory
+    for (int i = 0; i < 3; ++i) {  // gives each of the three values its memory
         buffer.back().assign(100, i);
         buffer.publish();
         buffer.fetch();
@@ -39,7 +39,7 @@ TEST(TripleBuffer, ValueOfTheReaderStaysAndMemoryIsReused) {
         EXPECT_EQ(buffer.front()[99], 2);
     }
     EXPECT_TRUE(buffer.fetch());
-    EXPECT_NE(buffer.front().data(), held) << "the new value lies in another slot";
+    EXPECT_NE(buffer.front().data(), held) << "fetch() must change to another of the three values";
     EXPECT_EQ(buffer.front()[99], 19);
 }
 

@@ -334,7 +334,7 @@ TEST(OpenFileDisplay, ErrorsAreReported) {
     EXPECT_EQ(refusal("jpg:/tmp"),
               "unknown display 'jpg:/tmp'; expected png:FOLDER, y4m:FILE, y4m:- or none");
     EXPECT_EQ(refusal(""), "unknown display ''; expected png:FOLDER, y4m:FILE, y4m:- or none");
-    EXPECT_EQ(refusal("png:"), "png: the folder is missing; expected png:FOLDER");
+    EXPECT_EQ(refusal("png:"), "png: no folder is given; expected png:FOLDER");
     EXPECT_EQ(refusal("y4m:"), "y4m: needs a file name, or - for standard output");
     const std::string under = (folder / "file/under").string();
     EXPECT_EQ(refusal("png:" + under), under + ": Not a directory");
