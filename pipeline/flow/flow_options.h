@@ -43,8 +43,8 @@ struct EpipolarOptions {
     bool operator==(const EpipolarOptions&) const = default;
 };
 
-/// Returns `now` with the members of `wanted` that may change between frames: all except levels and
-/// longestParallax, which determine the memory layout.
+/// Returns `wanted`, but with levels and longestParallax of `now`: they determine the memory
+/// layout, so they cannot change between frames.
 [[nodiscard]] Flow2dOptions changed(const Flow2dOptions& now, const Flow2dOptions& wanted);
 [[nodiscard]] EpipolarOptions changed(const EpipolarOptions& now, const EpipolarOptions& wanted);
 
