@@ -77,7 +77,8 @@ public:
     void setMode(SuperResMode mode);
     void setSkipUnchanged(bool skip);
     /// Sets the learned filters that enlarge the video. Null: the built-in filters. They are used
-    /// from the next still on, because the picture changes then anyway, or at once without a still.
+    /// from the next still on, because the picture changes then anyway. Without a still, they are
+    /// used at once.
     void setFilters(std::shared_ptr<const FilterBank> filters);
     /// Sets the object that receives each matched still while filters enlarge the video. Null: no
     /// listener. The listener must outlive the pipeline.

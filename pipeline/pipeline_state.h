@@ -56,8 +56,8 @@ struct Pipeline::State {
         const CellWeights* second = nullptr;
     };
 
-    /// Starts a thread that creates the epipolar search unless it exists. So the first pictures
-    /// need not wait for it.
+    /// Starts a thread that creates the epipolar search, so that the first pictures need not wait.
+    /// Does nothing if the search exists or is being created.
     void beginEpipolar();
     /// Returns the epipolar search. Creates it, or waits for the thread that creates it.
     EpipolarFlow& needEpipolar();

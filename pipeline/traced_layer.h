@@ -27,7 +27,7 @@ struct TracedLayerCounters {
     std::uint64_t unmoved = 0;    ///< frames that showed a traced picture without warping it
     std::uint64_t requested = 0;  ///< pixels requested to be traced individually
     std::uint64_t answered = 0;
-    /// Number of pixels that no picture shows, in the newest frame with a known number.
+    /// Number of pixels that no picture shows, in the last frame whose pixels were counted.
     int openHoles = 0;
 };
 

@@ -31,7 +31,7 @@ struct alignas(16) Colour {
 };
 
 struct alignas(16) PreviewObject {
-    /// Lengths are in metres, the size of the target in pixels.
+    /// targetWidth and targetHeight are in pixels, other lengths in metres.
     Transform object;
     Projection projection;
     Colour colours[2];

@@ -75,7 +75,7 @@ params::PreviewObject PreviewRenderer::paramsOf(const VirtualObject& object,
 PixelRect PreviewRenderer::boundsOf(const VirtualObject& object,
                                     const RigidTransform& T_world_video) {
     const Size size = projection_.lens().camera.size;
-    // The margin of one pixel allows for vertices that the GPU computes in single precision.
+    // The margin of one pixel allows for the GPU's rounding errors in the positions of vertices.
     const Eigen::AlignedBox2d picture(Eigen::Vector2d(-1, -1),
                                       Eigen::Vector2d(size.width, size.height));
     Eigen::AlignedBox2d box;

@@ -16,8 +16,8 @@ namespace mfar {
 inline constexpr double kShadowReach = 1;
 
 /// Returns the part of the tag map's plane (z = 0 in the world) below and around the objects'
-/// bounding box. Empty if all objects are below the plane, or farther above it than their shadows
-/// are expected (kShadowReach).
+/// bounding box. Empty if all objects are below the plane, or so far above it that no shadow is
+/// expected on it (kShadowReach).
 [[nodiscard]] ShadowCatcher planeCatcher(const Eigen::AlignedBox3d& objects);
 
 /// Returns the measured surface of the real scene around the objects. Its vertices are video pixels

@@ -16,11 +16,11 @@ constexpr int kMargin = 8;
 // known to lie behind the objects. Then depth is measured again, because something may have moved
 // in front of the objects.
 constexpr int kMostRelied = 8;
-// If the objects move in the picture by at most this [px], they count as unmoved: the error of a
-// pose from tags moves them as far.
+// Objects that moved in the picture by at most this [px] count as unmoved, because errors of the
+// camera's pose move them by as much.
 constexpr double kLeastMotion = 0.3;
 // The objects in a tile count as hidden only if at most this number of the tile's pixels have
-// unknown depth. Unknown depth hides nothing, so more such pixels would show specks of the objects.
+// unknown depth. Unknown depth hides nothing, so specks of an object are visible at these pixels.
 constexpr int kMostGaps = 4;
 // Depth is measured in a tile if more than this number of its pixels have unknown depth.
 constexpr int kMostUnknown = kTileSize * kTileSize / 4;

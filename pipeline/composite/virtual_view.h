@@ -37,18 +37,18 @@ public:
 
     /// Places the objects for a camera at this pose and hides them without a pose. Returns the
     /// rectangle of the video pixels whose real depth decides which parts of the objects are
-    /// visible. The rectangle is empty if no object is in the picture, and in most frames in which
-    /// the known depth certainly lies behind all objects. `known` is the approximate depth of the
-    /// real scene as the camera sees it.
+    /// visible. The rectangle is empty if no object is in the picture. It is also empty in most
+    /// frames if the real scene certainly lies behind all objects. `known` is the approximate depth
+    /// of the real scene as the camera sees it.
     PixelRect place(const std::optional<RigidTransform>& T_world_video, Timestamp time,
                     const InverseDepthField& known);
     [[nodiscard]] const PixelRect& region() const { return region_; }
     /// True if the real scene completely hides all placed objects. Shadows are ignored.
     [[nodiscard]] bool isHidden() const { return hidden_; }
-    /// Returns how much of the video must change until the objects are drawn again. Always: they
-    /// are drawn in any case, because objects changed, appeared or disappeared (or
-    /// SkipOptions::objectsAtRest is off). WithOthers: the camera has moved, and a change anywhere
-    /// suffices. WithThem: only a change near the objects counts.
+    /// Returns which change of the video causes the objects to be drawn again. Always: no change is
+    /// necessary, because objects changed, appeared or disappeared (or SkipOptions::objectsAtRest
+    /// is off). WithOthers: a change anywhere, because the camera has moved. WithThem: a change
+    /// near the objects.
     [[nodiscard]] WorkPlan::Redraw redraw() const;
     /// Tiles of the video that must be drawn again before draw().
     [[nodiscard]] PixelRect staleTiles() const;

@@ -16,8 +16,8 @@ namespace {
 constexpr float kNearestShare = 0.05F;
 // Relative standard deviation that each second of camera motion adds to inverse depth.
 constexpr double kDrift = 0.02;
-// At most this time between two predictions counts as camera motion [s]. If more time has passed,
-// the camera must have rested.
+// Upper limit of the time since the points were last moved that counts as camera motion [s]. If
+// more time has passed, the camera must have rested meanwhile.
 constexpr double kMostMoving = 0.2;
 // Points are moved only after a motion of the picture by at least this [px], because each move
 // rounds them to pixels.
@@ -25,7 +25,8 @@ constexpr float kLeastMotion = 0.25F;
 // Smallest fused variance, as a fraction of the variance of one measurement. Averaging cannot
 // reduce it further, because measurements with the same still share errors.
 constexpr float kLeastShare = 0.09F;
-// Largest squared difference of two values that agree, divided by the sum of their variances.
+// Two inverse depths agree if their squared difference is at most this multiple of the sum of their
+// variances.
 constexpr float kGate = 9;
 constexpr std::uint8_t kMostOutliers = 2;
 

@@ -73,7 +73,7 @@ private:
     PixelRect known_;
     Points points_, carriedPoints_;
     /// The points of the pixels in known_ after a camera motion. `bounds` has one entry for each
-    /// row of points: the bounds of the pixels that they move to.
+    /// row of pixels: the bounds of the pixels to which the row's points move.
     struct Moved {
         std::vector<std::int32_t> pixel;
         std::vector<float> x, y, inverseDepth, variance;

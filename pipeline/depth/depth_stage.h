@@ -47,7 +47,8 @@ public:
 private:
     struct Summary {
         double inverseDepth = 0;
-        double share = 1;  ///< median of the relative standard deviation, or 1 if no depth is known
+        /// median of the relative standard deviations of inverse depth, or 1 if no depth is known
+        double share = 1;
     };
     struct Need {
         PixelRect part;

@@ -49,7 +49,7 @@ public:
         switch (picture_.format) {
         case PixelFormat::Gray8: return {p[0], p[0], p[0]};
         case PixelFormat::Rgba8:
-        // colour distances ignore the channel order
+        // the order of the channels has no influence on colour distances
         case PixelFormat::Bgra8: return {p[0], p[1], p[2]};
         case PixelFormat::Yuyv: {
             const std::uint8_t* pair = p - 2 * (x % 2);

@@ -9,7 +9,7 @@ namespace mfar {
 
 struct FlowCell {
     float x = 0, y = 0;  ///< points from pixel p to p + flow [px of the field's pyramid level]
-    float cost = 0;      ///< 0: equal patches up to gain and offset; 1: unrelated; 2: negatives
+    float cost = 0;      ///< 0: equal up to gain and offset; 1: unrelated patches; 2: inverted
     /// Sum of the squared deviations from the mean in the 8x8 patch around the cell [grey
     /// levels^2].
     float texture = 0;

@@ -52,7 +52,7 @@ public:
         device_ = nullptr;
         editable_ = {};
     }
-    /// Reports new rows in CPU memory that edit() may return for drawing.
+    /// Reports new rows in CPU memory that other steps are allowed to change: edit() returns them.
     void writtenOnHost(Rows<T> rows)
         requires(!std::is_const_v<T>)
     {

@@ -17,12 +17,13 @@ struct CompositeOptions {
     /// Standard deviation of the virtual depth, caused by the error of the pose [fraction of the
     /// depth].
     double virtualSigma = 0.003;
-    /// Distance between the colours of a depth sample and of the output pixel that multiplies the
-    /// sample's weight by exp(-1/2) (RGB, Euclidean) [grey levels]. At least 0.1.
+    /// Distance of two colours (RGB, Euclidean) [grey levels], at least 0.1. If the colours of a
+    /// depth sample and of the output pixel differ by this, the sample's weight is exp(-1/2) of the
+    /// weight for equal colours.
     double likeness = 12;
 
-    /// True if this sample of the real depth (inverse depth and its sigma [1/m]) alone completely
-    /// hides a virtual surface at inverse depth `inverse` [1/m].
+    /// True if a real surface with this inverse depth and sigma [1/m] completely hides a virtual
+    /// surface at inverse depth `inverse` [1/m].
     [[nodiscard]] bool hides(double inverseDepth, double sigma, double inverse) const {
         const double sigmas = bias + softness;
         return inverseDepth - sigmas * sigma >= inverse * (1 + sigmas * virtualSigma);

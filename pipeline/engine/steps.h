@@ -93,7 +93,7 @@ public:
     using Cells = std::span<const std::array<float, 4>>;
 
     virtual ~FlowStep() = default;
-    /// Sets the options that may change between frames, see changed() in flow_options.h. Throws
+    /// Sets the options that can change between frames, see changed() in flow_options.h. Throws
     /// std::invalid_argument if an option is out of range.
     virtual void setOptions(const Flow2dOptions& options) = 0;
     /// Searches the flow from video to still (forward) and back. With `usePrior`, the flow of the
@@ -104,8 +104,8 @@ public:
     /// vectors prove to be wrong are searched in both dimensions.
     virtual const FlowCells& refine(const LumaPyramid& luma, const TileWork& work, Cells vectors,
                                     Cells errors) = 0;
-    /// Returns a flag for each tile, row-major: true if the last refine() searched the tile. May
-    /// wait for the GPU.
+    /// Returns a flag for each tile, row-major: true if the last refine() searched the tile. Waits
+    /// for the GPU if necessary.
     [[nodiscard]] virtual std::vector<bool> searchedTiles() const = 0;
     [[nodiscard]] virtual int searchedCount() const = 0;
     /// Returns searchedCount() without waiting: for the last frame on a CPU, for the frame before
@@ -159,7 +159,7 @@ public:
     /// The output picture: RGBA8, row 0 on top, alpha 255. Pixels that other code draws into it
     /// remain until draw() redraws their tiles.
     [[nodiscard]] virtual Field<std::uint32_t>& output() = 0;
-    /// Summary of the last frame. May wait for the GPU.
+    /// Summary of the last frame. Waits for the GPU if necessary.
     [[nodiscard]] virtual TileSummary summary() const = 0;
     /// Returns a summary without waiting: of the last frame on a CPU, of the frame before it on a
     /// GPU.
@@ -186,7 +186,7 @@ public:
                       const PixelRect& where, const VideoFrame& frame,
                       Field<std::uint32_t>& picture) = 0;
     /// Returns the visibility of the layer after the last draw(), [0, 1], for each output pixel
-    /// within the layer's bounds. May wait for the GPU.
+    /// within the layer's bounds. Waits for the GPU if necessary.
     [[nodiscard]] virtual std::vector<float> visibility() const = 0;
 };
 

@@ -13,8 +13,8 @@ namespace mfar {
 namespace {
 
 constexpr float kNowhere = 1e4F;
-// Consider the change of s that moves the fastest pixel by 1 px. A pixel that it moves by less than
-// this [px] is so near the epipole that its epipolar line counts as a point.
+// If the change of s that moves the fastest pixel by 1 px moves another pixel by less than this
+// [px], this pixel is near the epipole, and its epipolar line counts as a point.
 constexpr float kLeastWay = 0.05F;
 // Two neighbours that land on the same cell count as one slanted surface if their displacements
 // [px] differ by at most this.

@@ -28,7 +28,7 @@ public:
     [[nodiscard]] bool hasStill() const { return stillPose_.has_value(); }
 
     /// Refines the relative pose and matches the frame with the still. Requires a still. Pixels in
-    /// `where` [video px] and in a margin around it are matched; others may get the depth of the
+    /// `where` [video px] and in a margin around it are matched. All other pixels get s of the
     /// nearest matched pixel. `where` must not be empty.
     void run(const ImageView& video, const Pose& pose, const PixelRect& where);
     void run(const ImageView& video, const Pose& pose) {

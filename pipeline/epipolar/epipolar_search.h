@@ -31,7 +31,7 @@ public:
     EpipolarSearch(const StereoRig& rig, std::shared_ptr<Workers> workers,
                    const EpipolarOptions& options = {});
 
-    /// Sets the options that may change between frames (see changed() in flow_options.h) for the
+    /// Sets the options that can change between frames (see changed() in flow_options.h) for the
     /// next run. Throws std::invalid_argument if an option is out of range.
     void setOptions(const EpipolarOptions& options) { options_ = changed(options_, options); }
 

@@ -209,8 +209,9 @@ std::vector<PatchPlace> texturedPlaces(const LumaImage& picture, double noise) {
     return out;
 }
 
-// True if all pixels of the patch at (x, y) are valid, and one more row and column, which bilinear
-// samples need. Testing the corners suffices, because the valid area is nearly convex.
+// True if all pixels of the patch at (x, y) and of the next row and column are valid. Bilinear
+// samples need the next row and column. Testing the corners suffices, because the valid area is
+// nearly convex.
 bool PatchMatcher::shows(int x, int y) const {
     const int w = to_.size.width;
     if (x < 0 || y < 0 || x + kPatch >= w || y + kPatch >= to_.size.height) return false;

@@ -50,7 +50,7 @@ public:
                                                       const PatchWindow& window) const;
 
     /// Refines the match `near` to a fraction of a pixel by inverse-compositional steps. Empty if
-    /// they lead too far away from it. Source: Baker and Matthews, IJCV 2004.
+    /// the steps lead too far away from `near`. Source: Baker and Matthews, IJCV 2004.
     [[nodiscard]] std::optional<Eigen::Vector2d> polish(PatchPlace place,
                                                         const Eigen::Vector2d& near) const;
 

@@ -80,8 +80,8 @@ private:
         out.middle = expected - originOf(half_);
         const Eigen::Vector2d across(-out.along.y(), out.along.x());
         out.acrossSteps = stepsFor(across.dot(spread * across));
-        // If the error of s is at most one step long, the error of the prior pose along the line
-        // may be larger. Then the search covers this error instead.
+        // If the error of s requires at most one step, the error of the prior pose along the line
+        // can be larger, and then determines the number of steps.
         if (out.alongSteps <= 1) out.alongSteps = stepsFor(out.along.dot(spread * out.along));
         return out;
     }

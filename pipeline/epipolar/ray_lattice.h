@@ -30,7 +30,8 @@ public:
 private:
     void cover(const PixelRect& points);
 
-    // Has size 0x0, and its principal point is within the first step.
+    // The camera of the stored rays, moved by whole steps, so that its principal point is in
+    // [0, kStep). Its size is always 0x0.
     CameraModel camera_;
     PixelRect known_;
     std::vector<float> x_, y_;

@@ -29,8 +29,8 @@ struct EpipolarOptions {
     int levels = 4;  ///< Largest number of pyramid levels, [1, 4]. All have at least 60x60 px.
     /// largest searched parallax, as a share of the picture's width, (0, 1]
     double longestParallax = 0.8;
-    /// A pixel's candidates of s cover the results of the coarser pyramid level within this radius
-    /// [px], [0, 8].
+    /// Radius of a pixel's neighbourhood at the coarser pyramid level [px], [0, 8]. At the finer
+    /// level, a pixel's candidates of s lie around the range that was found in this neighbourhood.
     int windowRadius = 2;
     int stepPenalty = 12;  ///< Smoothness::step for a picture without noise, [1, 30]
     int jumpPenalty = 60;  ///< see Smoothness::jump, [1, 60]
@@ -43,8 +43,8 @@ struct EpipolarOptions {
     bool operator==(const EpipolarOptions&) const = default;
 };
 
-/// Returns `now` with the members of `wanted` that may change between frames: all except levels and
-/// longestParallax, which determine the memory layout.
+/// Returns `wanted`, but with levels and longestParallax of `now`: they determine the memory
+/// layout, so they cannot change between frames.
 [[nodiscard]] Flow2dOptions changed(const Flow2dOptions& now, const Flow2dOptions& wanted);
 [[nodiscard]] EpipolarOptions changed(const EpipolarOptions& now, const EpipolarOptions& wanted);
 

@@ -13,7 +13,7 @@ using params::kLumaSmoothing;
 using params::LumaLevel;
 
 /// Number of unused words after the last pyramid level. The shaders always read three words for a
-/// row of a patch, and may thus read these words.
+/// row of a patch, so they can read beyond the end of the last level.
 inline constexpr int kLumaSpareWords = 2;
 
 /// Width of a box filter [video px] that blurs as much (has the same variance) as the area of a

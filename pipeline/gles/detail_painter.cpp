@@ -160,8 +160,8 @@ PixelRect DetailPainter::outputOf(const PixelRect& tiles) const {
 void DetailPainter::draw(const gpu::Texture& video, const Matched* matched, const TileBuffer& tiles,
                          const DetailOptions& options) {
     const TileWork& work = tiles.work();
-    // draws_ stores the counters of two frames. After two frames without a change, both have the
-    // values of such a frame, and classifying again would not change them.
+    // draws_ stores the counters of the last two frames. From the third frame without a change on,
+    // classifying would give the same counters again.
     restingFrames_ = work.changed == 0 ? restingFrames_ + 1 : 0;
     if (restingFrames_ <= 2) classify(matched, tiles, options);
     // Returns before any draw, because even an empty draw would compile its shader.

@@ -20,11 +20,12 @@ class EdgeRefiner {
 public:
     static constexpr int kLevels = params::kContrastLevels;
 
-    /// See WarpOptions for the arguments. Lists at most `most` pixels, unless more than `most` have
-    /// the highest contrast level: these are all listed. Uses at most `most` pixels of an answer.
+    /// See WarpOptions for the arguments. Lists at most `most` pixels. But if more pixels than that
+    /// have the highest contrast level, all of them are listed. answer() uses at most `most`
+    /// pixels.
     EdgeRefiner(Size layer, double share, int most, int fadeFrames);
 
-    /// Discards the previous list and answer. Starts to list pixels in `where` from the results of
+    /// Discards the previous list and its colours. Starts to list pixels in `where` from results of
     /// ViewLookUp: `colour` (RGBA8 premultiplied) and `state`.
     void list(const gpu::Texture& colour, const gpu::Texture& state, const PixelRect& where);
     /// Returns the row-major indices of the listed pixels, ascending. Empty until the GPU has

@@ -28,7 +28,7 @@ public:
     /// Throws std::invalid_argument if an option is out of range.
     explicit Flow2d(Size video, const Flow2dOptions& options = {});
 
-    /// Sets the options that may change between frames (see changed() in flow_options.h) for the
+    /// Sets the options that can change between frames (see changed() in flow_options.h) for the
     /// next run. Throws std::invalid_argument if an option is out of range.
     void setOptions(const Flow2dOptions& options) { options_ = changed(options_, options); }
 

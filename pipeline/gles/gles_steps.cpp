@@ -23,7 +23,7 @@ const gpu::Texture& raisedOf(const StillPictures& still) {
                                   : textureOf(still.raised, gpu::TexelFormat::R8, linear).texture();
 }
 
-/// The GPU has the whole still, CPU memory only its luma.
+/// Copy of the still's luma. The texture is the still in colour; download() computes its luma.
 class StillLumaCopy final : public DeviceCopy {
 public:
     explicit StillLumaCopy(const gpu::PictureTexture& picture) : picture_(picture) {}

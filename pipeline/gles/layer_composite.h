@@ -19,9 +19,9 @@ public:
         : LayerComposite(video, output, output, options) {}
 
     /// `realDepth` is Rg32F of video size: inverse depth and its sigma [1/m]. If one of them is not
-    /// finite and positive, the pixel's depth is unknown and hides nothing. `video` is the depth's
-    /// video frame, RGBA8 or R8. `picture` is the same frame at output size, RGBA8. `target` draws
-    /// into the picture or into a copy of it.
+    /// finite and positive, the pixel's depth is unknown and hides nothing. `video` is the
+    /// video frame to which the depth belongs, RGBA8 or R8. `picture` is this frame at output size,
+    /// RGBA8. `target` draws into the picture or into a copy of it.
     ///
     /// Layer pixels are drawn if their depth is finite and positive. If the layer is smaller than
     /// the output, colours are interpolated linearly, and depth is that of the nearest valid pixel

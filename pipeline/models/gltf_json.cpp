@@ -41,7 +41,8 @@ std::uint64_t bytesAt(const json& object, const char* key, std::uint64_t missing
                       std::string_view place) {
     const auto it = object.find(key);
     if (it == object.end()) return missing;
-    if (!it->is_number_unsigned()) wrong(place, fmt::format("{} must be a number of bytes", key));
+    if (!it->is_number_unsigned())
+        wrong(place, fmt::format("{} must be a whole number, not negative", key));
     return it->get<std::uint64_t>();
 }
 

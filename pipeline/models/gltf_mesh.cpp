@@ -39,7 +39,7 @@ std::vector<Triangle> trianglesOf(int mode, const std::vector<std::uint32_t>& in
     std::vector<Triangle> out;
     const auto add = [&](std::size_t a, std::size_t b, std::size_t c) {
         const Triangle t{indices[a], indices[b], indices[c]};
-        // Skips triangles without an area, which only connect strips.
+        // Skips triangles with two equal corners. Files use them to connect triangle strips.
         if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) out.push_back(t);
     };
     const std::size_t count = indices.size();

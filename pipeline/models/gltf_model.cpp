@@ -136,7 +136,7 @@ private:
     void requireNear(const Mesh& mesh, const std::string& place) const {
         for (const Eigen::Vector3f& p : mesh.positions)
             if (!(p.cwiseAbs().maxCoeff() <= document_.limits.farthest))
-                document_.refuse(place, fmt::format("the model reaches farther than {} m",
+                document_.refuse(place, fmt::format("a vertex is farther than {} m from the origin",
                                                     document_.limits.farthest));
     }
 

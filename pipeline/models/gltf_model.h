@@ -16,20 +16,20 @@ class ModelError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// Largest size of a model, summed over all of its files and textures. A mesh that several nodes
-/// show counts once for each node.
+/// Upper limits for a model. Sizes are summed over all of its files and textures. A mesh that
+/// several nodes show counts once for each node.
 struct ModelLimits {
     std::size_t bytes = std::size_t{256} << 20U;
     std::size_t vertices = 4'000'000;
     std::size_t triangles = 4'000'000;
-    /// Number of entries in each list of the document: nodes, accessors, ...
+    /// Largest number of entries in each list of the document: nodes, accessors, ...
     std::size_t elements = 100'000;
     int nodeDepth = 64;
     std::size_t textures = 128;
     int textureSide = 8192;  ///< largest width and height of a texture [px]
     std::size_t texels = std::size_t{64} << 20U;
     std::size_t jsonValues = 2'000'000;
-    /// Absolute value of a coordinate after all transforms [m].
+    /// Largest absolute value of a coordinate after all transforms [m].
     float farthest = 10'000;
 };
 

@@ -5,7 +5,7 @@
 namespace mfar {
 namespace {
 
-// Reading a model needs memory for files, JSON, textures and meshes. Each may use a quarter.
+// Files, JSON, textures and meshes can each use a quarter of the memory for reading a model.
 constexpr std::size_t kParts = 4;
 // Memory for a JSON value, first in the tree of nlohmann::json and then in that of tinygltf.
 constexpr std::size_t kBytesPerJsonValue = 500;

@@ -13,9 +13,10 @@ namespace mfar {
 [[nodiscard]] bool isRadianceHdr(std::span<const std::uint8_t> bytes);
 
 /// Reads a Radiance picture (RGBE; uncompressed, or with the old or the new run-length coding;
-/// order -Y +X). Calls `size` first, which may throw, and then `row` for each row from the top. The
-/// values are finite, not negative, and divided by the header's EXPOSURE. Throws std::runtime_error
-/// with the fault. Source: Ward, Real Pixels, Graphics Gems II, 1991; Radiance's color.c.
+/// order -Y +X). First calls `size`, which can throw, then calls `row` for each row from the top.
+/// The values are finite, not negative, and divided by the header's EXPOSURE. Throws
+/// std::runtime_error with the fault. Source: Ward, Real Pixels, Graphics Gems II, 1991; Radiance's
+/// color.c.
 void readRadianceHdr(std::span<const std::uint8_t> bytes, const std::function<void(Size)>& size,
                      const std::function<void(int, std::span<const Eigen::Vector3f>)>& row);
 

@@ -15,9 +15,9 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kDegree = std::numbers::pi / 180;
-constexpr std::size_t kStarts = 8;  // number of largest tags whose solutions may become the start
-// [px]; with the pose from a single tag, the corners of distant tags may have an error of this
-// size.
+constexpr std::size_t kStarts = 8;  // number of largest tags whose solutions are compared as start
+// Scale of a tag's rms error in the robust weights at the start [px]. It is large, because a pose
+// from a single tag is inaccurate for distant tags.
 constexpr double kStartCutoff = 10;
 constexpr double kSameMinimum = 0.1 * kDegree;
 

@@ -89,7 +89,7 @@ TEST(GltfFaults, InvalidBufferRangesAreRefused) {
     EXPECT_THAT(faultAfter([](json& r) { r["images"][0]["bufferView"] = 99; }),
                 saysAt("images[0]", "must name an existing bufferView"));
     EXPECT_THAT(faultAfter([](json& r) { r["buffers"][0]["byteLength"] = 1e300; }),
-                saysAt("buffers[0]", "must be a number of bytes"));
+                saysAt("buffers[0]", "must be a whole number, not negative"));
     EXPECT_THAT(faultAfter([](json& r) { r["buffers"][0] = 3; }),
                 saysAt("buffers[0]", "must be an object"));
     EXPECT_THAT(faultAfter([](json& r) { r["nodes"] = "none"; }),
@@ -133,9 +133,11 @@ TEST(GltfFaults, InvalidSparseAccessorsAreRefused) {
                 HasSubstr("sparse index 9 is out of range; there are 3 elements"));
     EXPECT_THAT(sparse("/count", 2), HasSubstr("needs 2 bytes"));
     EXPECT_THAT(sparse("/count", -1), HasSubstr("invalid"));
-    EXPECT_THAT(sparse("/indices/byteOffset", -1),
-                saysAt("accessors[0].sparse.indices", "byteOffset must be a number of bytes"));
-    EXPECT_THAT(sparse("/values/byteOffset", "8"), HasSubstr("must be a number of bytes"));
+    EXPECT_THAT(
+        sparse("/indices/byteOffset", -1),
+        saysAt("accessors[0].sparse.indices", "byteOffset must be a whole number, not negative"));
+    EXPECT_THAT(sparse("/values/byteOffset", "8"),
+                HasSubstr("must be a whole number, not negative"));
     EXPECT_THAT(sparse("/values", 3), HasSubstr("must be an object"));
     EXPECT_THAT(sparse("/values/byteOffset", 8), HasSubstr("needs 12 bytes at offset 8"));
     EXPECT_THAT(sparse("/indices/bufferView", 77), HasSubstr("index 77"));

@@ -12,7 +12,8 @@ inline constexpr std::uint32_t kTileUpscaled = 1U;
 inline constexpr std::uint32_t kTileTrusted = 2U;
 inline constexpr std::uint32_t kTileBlended = 3U;
 
-/// With less weight, the still's detail changes all pixels by less than a grey level.
+/// If the still's detail has less weight than this, it changes each pixel by less than a grey
+/// level.
 inline constexpr float kLeastDetailWeight = 0.02F;
 /// A tile is drawn as one quad if its flow deviates from an affine function by less than kPlainFlow
 /// [video px] and its weight varies by less than kPlainWeight. 0.08 video px are 0.3 px of the
@@ -53,12 +54,12 @@ inline constexpr int kTileAround = 8;
 struct alignas(16) ClassifyTiles {
     std::int32_t columns, rows;
     std::int32_t cellColumns, cellRows;
-    /// kLeastDetailWeight, or -1: no tile gets the class Upscaled.
+    /// kLeastDetailWeight. The value -1 turns the class Upscaled off.
     float leastWeight;
-    /// kPlainFlow [video px], or 0: no tile is plain.
+    /// kPlainFlow [video px]. The value 0 means that no tile is drawn as one quad.
     float plainFlow;
     std::int32_t stillGiven;
-    /// Number of the frame, or 0: no tile depends on its neighbours.
+    /// Number of the frame. The value 0 means that drawing a tile does not read its neighbours.
     std::uint32_t detailFrame;
     std::int32_t learns;
     std::int32_t secondGiven;

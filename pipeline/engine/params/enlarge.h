@@ -40,8 +40,8 @@ inline constexpr float kHighDifference = 25.0F;
 inline constexpr int kCurvatureKinds = 28;
 inline constexpr int kCurvatureAngles = 8;
 
-/// Tangents of 22.5 and 67.5 degrees, the borders between angle bins for twice the gradient's
-/// angle.
+/// Tangents of 22.5 and 67.5 degrees. Twice the gradient's angle is sorted into bins with these
+/// borders.
 inline constexpr float kLowTangent = 0.414213562F;
 inline constexpr float kHighTangent = kLowTangent + 2.0F;
 

@@ -81,8 +81,8 @@ struct alignas(16) SearchFlow {
     std::int32_t lastFrameColumns;
     std::int32_t radius;
     std::int32_t candidates, steps;
-    /// Pixels of this pyramid level per pixel of the last frame's field, and cells of that field
-    /// per cell of this field.
+    /// Pixels of the searched pyramid level per pixel of the last frame's field, and cells of the
+    /// last frame's field per cell of the target field.
     float perLastFrame;
     float lastFrameX, lastFrameY;
     std::int32_t firstGroup;

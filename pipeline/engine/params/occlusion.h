@@ -15,8 +15,8 @@ inline constexpr float kLeastDepthSigma = 1e-20F;
 /// A virtual pixel is drawn if its z is between these limits, exclusive [m].
 inline constexpr float kLeastVirtualDepth = 1e-4F;
 inline constexpr float kMostVirtualDepth = 1e6F;
-/// Added to the weight by colour, so that the distance determines the weights where no colour is
-/// similar.
+/// Added to the colour weight of each depth sample. If no sample has a similar colour, the samples'
+/// distances therefore determine the weights.
 inline constexpr float kLikenessFloor = 1e-3F;
 
 struct alignas(16) Visibility {
@@ -28,7 +28,8 @@ struct alignas(16) Visibility {
     float layerScaleX, layerScaleY;
     float bias, softness;
     float virtualSigma;
-    /// Factor of the squared distance of colours in [0, 1], in the exponent of the weight.
+    /// The colour weight of a depth sample is exp(-likeness * d^2) + kLikenessFloor, where d is the
+    /// distance of its colour from the output pixel's colour (channels in [0, 1]).
     float likeness;
 };
 

@@ -12,7 +12,7 @@ namespace mfar::params {
 
 /// Two-way error above which the confidence is zero [video px]: alpha in eq. 2 of the paper.
 inline constexpr float kTwoWayAlpha = 2.0F;
-/// Look-up offsets are clamped to this [still px].
+/// Largest absolute value of a look-up offset along each axis [still px]. Larger ones are clamped.
 inline constexpr float kFarthestOffset = 4e3F;
 
 /// Variance of the error of rounding to 8 bits [grey levels^2].
@@ -65,8 +65,8 @@ struct alignas(16) AssessCells {
     LumaLevel video, still;
     std::int32_t columns, rows;
     std::int32_t backwardColumns, backwardRows;
-    /// Indices in cells[] of the first cells of both fields. With errorsGiven, `backward` is a
-    /// field of two-way errors.
+    /// Index in cells[] of the forward field's first cell, and of the backward field's first cell.
+    /// If errorsGiven is 1, the two-way errors (ErrorCell) begin at `backward` instead.
     std::int32_t forward, backward;
     std::int32_t errorsGiven;
     /// Video pixels per pixel of the backward field's pyramid level.
