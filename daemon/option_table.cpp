@@ -66,18 +66,16 @@ constexpr Option kTop[] = {
     argument(
         "--size",
         text("size", R"("screen")",
-             "Size of finished pictures: \"screen\", as large as fits on the screen that is "
-             "connected at the start, or like \"still\" without a screen; \"still\", the still's "
-             "resolution; or a size into which they must fit, like \"1280x720\". Pictures are "
-             "never smaller than the video or larger than the still. Smaller pictures take less "
-             "time.")),
+             "Size of finished pictures: \"screen\", as large as fits on the screen connected at "
+             "the start (without one, like \"still\"); \"still\", the still's resolution; or a "
+             "size into which they must fit, like \"1280x720\". Pictures are never smaller than "
+             "the video or larger than the still. Smaller pictures take less time.")),
     argument(
         "--pace",
         word("pace", "auto realtime consumer", R"("auto")",
              "Speed of the source: \"realtime\", as its time stamps say, and frames are dropped if "
              "mfard is too slow; \"consumer\", as fast as mfard processes frames, and no frame is "
-             "dropped; \"auto\", \"consumer\" for recordings and \"realtime\" for all other "
-             "sources.")),
+             "dropped; \"auto\", \"consumer\" for recordings and otherwise \"realtime\".")),
     argument("--seed", whole("seed", {}, "1",
                              "Seed of the synthetic source's random numbers, at least 0: the same "
                              "seed gives the same pictures.")),
@@ -105,11 +103,9 @@ constexpr Option kVideo[] = {
     number("rate_hz", kCameraRate, "30.0",
            "Frame rate, at least 0.01; 0: the camera sends a picture for each trigger pulse."),
     text("format", R"("auto")",
-         "Pixel format: \"auto\", or with driver \"v4l2\" the four characters of a format, like "
-         "\"YUYV\"."),
+         "Pixel format: \"auto\", or for \"v4l2\" the four characters of one, like \"YUYV\"."),
     flag("allow_crop", "false",
-         "Accept a sensor mode that shows only a part of the field of view; for driver "
-         "\"libcamera\" only."),
+         "Accept a sensor mode that shows a part of the field of view; \"libcamera\" only."),
     {"controls", OptionType::Values, "{}",
      "Camera controls, as the driver names them, like { ExposureTime = 8000, AnalogueGain = 2.0 }. "
      "They are set in this order before the first picture."},
@@ -220,11 +216,9 @@ constexpr Option kPose[] = {
            "Factor by which the video is reduced before it is searched for tags: 1.5 or a whole "
            "number. A larger factor is faster but misses small tags."),
     whole("threads", kThreads, "1", "Number of threads that search tags, for each sensor."),
-    whole(
-        "full_search_interval", {1, 1'000'000, "frames"}, "15",
-        "Longest interval at which the whole picture is searched for tags. In other frames, mfard "
-        "first searches at the expected positions, and in the whole picture only if it finds no "
-        "known tag there."),
+    whole("full_search_interval", {1, 1'000'000, "frames"}, "15",
+          "Longest time between searches of the whole picture for tags. Other frames are searched "
+          "at the expected positions first."),
     whole("bridge_frames", {0, 300, "frames"}, "12",
           "Largest number of consecutive frames without a tag for which the pose is predicted."),
 };
@@ -273,8 +267,7 @@ constexpr Option kVirtual[] = {
          "Which part of a path-traced picture is computed in each frame: \"time\", some samples of "
          "all pixels; \"space\", all samples of some tiles."),
     whole("samples", {1, 65536, ""}, "64",
-          "Samples per pixel of a path-traced picture. More samples make it smoother, but take "
-          "longer."),
+          "Samples per pixel of a path-traced picture. More are smoother, but take longer."),
     number("resolution", {0.05, 1, ""}, "0.28",
            "Width and height of the path-traced picture as a share of the still's. The path-traced "
            "picture is never larger than the output."),
@@ -364,8 +357,7 @@ constexpr Option kLevel[] = {
     number("detail_share", {0.001, 1, ""}, "1.0",
            "Largest share of the picture's tiles that are matched with the still."),
     number("second_share", kShare, "0.25",
-           "Largest share of tiles that are matched with a second still. 0: there is no second "
-           "still."),
+           "Largest share of tiles that are matched with a second still. 0: no second still."),
     whole("depth_every", {1, 60, "frames"}, "1",
           "Interval at which the depth of the real scene is measured."),
     whole("flow2d.search_radius", {0, 40, "px"}, "10",
@@ -373,23 +365,19 @@ constexpr Option kLevel[] = {
     whole("flow2d.candidates", {1, 4, ""}, "4",
           "Number of flow vectors of the coarser pyramid level that are compared for each cell."),
     whole("flow2d.steps", {0, 16, ""}, "4",
-          "Number of Gauss-Newton steps that refine a cell's best flow vector."),
+          "Gauss-Newton steps that refine a cell's best flow vector."),
     whole("flow2d.propagations", kFew, "0",
-          "Number of rounds at the finest pyramid level in which each cell compares its "
-          "neighbours' flow with its own."),
+          "Rounds at the finest pyramid level in which cells try their neighbours' flow."),
     whole("flow2d.coarsest_propagations", kFew, "4",
-          "Number of rounds at the coarsest pyramid level in which each cell compares its "
-          "neighbours' flow with its own."),
+          "Rounds at the coarsest pyramid level in which cells try their neighbours' flow."),
     whole("flow2d.plane_fits", kSmall, "2",
           "Number of rounds in which planes are fitted to the flow after its median filter."),
     whole("epipolar.window_radius", {0, 8, "px"}, "2",
           "Radius of the search around the match of the coarser pyramid level."),
     whole("epipolar.step_penalty", {1, 30, ""}, "12",
-          "Penalty of the smoothness term where the matches of neighbouring cells differ by one "
-          "candidate."),
+          "Smoothness penalty where neighbouring cells differ by one candidate."),
     whole("epipolar.jump_penalty", {1, 60, ""}, "60",
-          "Penalty of the smoothness term where the matches of neighbouring cells differ by more "
-          "than one candidate."),
+          "Smoothness penalty where neighbouring cells differ by more than one candidate."),
     whole("epipolar.finest", kSmall, "0",
           "Finest pyramid level that is searched: 0, 1 and 2 have the full, half and quarter width "
           "and height."),

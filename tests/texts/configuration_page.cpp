@@ -16,9 +16,9 @@ constexpr std::string_view kIntroduction =
 an unknown key, a wrong type or a value out of range is refused with file, line and column. Options of the command
 line, in brackets behind the key, override the file. Names of files are relative to the configuration file.
 
-Changes take effect with a restart, in sections marked *reload* also with `systemctl reload mfard`, `mfarctl reload`
-or SIGHUP; when the new file is faulty, mfard keeps the old configuration. [architecture.md](architecture.md) says
-how mfard works with these settings.
+Changes take effect after a restart. In sections marked *reload*, they also take effect after `systemctl reload mfard`,
+`mfarctl reload` or SIGHUP. If the new file is invalid, mfard keeps the old configuration.
+[architecture.md](architecture.md) says how mfard works with these settings.
 )";
 
 constexpr std::string_view kLevels = R"(
@@ -65,7 +65,7 @@ std::string section(const OptionSection& of) {
                            option.argument.empty() ? "" : fmt::format(" (`{}`)", option.argument),
                            typeOf(option),
                            option.isAbsent ? "absent" : fmt::format("`{}`", option.byDefault),
-                           about.empty() ? "as above" : markdown(about));
+                           about.empty() ? "see the key of the same name above" : markdown(about));
     }
     return out;
 }

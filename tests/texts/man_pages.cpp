@@ -44,9 +44,9 @@ std::string programManPage() {
 std::string configManPage() {
     std::string out = head("mfard.toml", 5, "configuration of mfard", "daemon/option_table.cpp");
     out += ".SH DESCRIPTION\n" +
-           troff("A TOML file. Every key is optional. Changes take effect with a restart, in "
-                 "sections marked (reload) also with a reload. Names of files are relative to "
-                 "this file.") +
+           troff("A TOML file. Every key is optional. Changes take effect after a restart. "
+                 "In sections marked (reload), they also take effect after a reload. Names of "
+                 "files are relative to this file.") +
            "\n";
     for (const OptionSection& section : configOptions()) {
         const bool isList = section.kind == OptionSection::Kind::List;
@@ -58,7 +58,7 @@ std::string configManPage() {
         for (const Option& option : section.options) {
             const std::string about = describe(option);
             out += entry(fmt::format("{} = {}", option.name, option.byDefault),
-                         about.empty() ? "As above." : about);
+                         about.empty() ? "See the key of the same name above." : about);
         }
     }
     return out + ".SH \"SEE ALSO\"\n.BR mfard (1)\n";
