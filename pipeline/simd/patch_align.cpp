@@ -43,7 +43,7 @@ HWY_INLINE float slopeOf(float before, float here, float after) {
     return bounded(least / 8, -kSteepest, kSteepest);
 }
 
-/// Returns 0 if a component of a flow vector is NaN or longer than any picture.
+/// Returns a component of a flow vector, or 0 if it is NaN or longer than any picture.
 HWY_INLINE float soundOf(float v) {
     constexpr float kMost = 2e4F;
     return std::abs(v) < kMost ? v : 0;

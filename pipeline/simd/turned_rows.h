@@ -28,10 +28,10 @@ struct TurnedCells {
     const float *x, *y, *nextX, *nextY;
 };
 
-/// Draws a row of a picture that lies `v` grid cells below the first row of the grid, [0, 1). Each
-/// pixel's point is interpolated bilinearly in the grid, the source bilinearly at this point.
-/// `seen` is 1 where the source has a pixel, else 0. The source must have at least two columns and
-/// two rows.
+/// Draws a row of a picture. The row lies between the two grid rows of `cells`, `v` grid cells
+/// below the upper one, [0, 1). Each pixel's point is interpolated bilinearly in the grid, and the
+/// source is interpolated bilinearly at this point. `seen` is 1 where the source has a pixel, else
+/// 0. The source must have at least two columns and two rows.
 void turnedRow(const Rows<const std::uint8_t>& source, const TurnedCells& cells, float v,
                std::size_t width, std::uint8_t* out, std::uint8_t* seen);
 

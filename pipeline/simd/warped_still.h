@@ -39,8 +39,8 @@ public:
         Guidance guidance;
     };
 
-    /// Starts with a new still and new LookUpCells. `pixels`: output columns from which cover() may
-    /// choose. Nothing is computed before cover().
+    /// Starts with a new still and new LookUpCells. Nothing is computed before cover(), whose
+    /// output columns must all be in `pixels`.
     void begin(const StillPairs& still, Rows<const LookUpCell> lookUps,
                const LookUpTaps& lookUpTaps, const WarpedStillTaps& taps, const PixelSpan& pixels,
                const Guide& guide);
