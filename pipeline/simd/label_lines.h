@@ -11,7 +11,7 @@ namespace mfar::simd {
 
 /// A label is an inverse depth, counted in steps: s = perLabel * label, see EpipolarLens.
 /// LabelLines projects a frame's pixels with given labels to the still's canvas: the still, drawn
-/// as the frame's camera would show it from the still's position, without rotation (TurnedPicture).
+/// with the lens and the orientation of the frame's camera (TurnedPicture).
 struct LabelLines {
     Lens lens;
     float tx, ty, tz;        ///< translation of points, in the axes of the frame's camera
