@@ -108,7 +108,7 @@ HWY_INLINE Moments MomentsOf(const Blocks::CellSums& sums, int tile) {
 
 /// Measurements of the luma's difference between both frames; see TileMeasure for means and bends.
 struct LumaDifference {
-    V means, bends, noise;  // noise: sum of the squared twists of Blocks
+    V means, bends, noise;  // noise: sum of the squared twists of the blocks (see Blocks)
     Moments moments;
 };
 

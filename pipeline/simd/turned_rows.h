@@ -18,7 +18,8 @@ struct TurnedLens {
     float rim;                  ///< radius of the outermost visible ray
 };
 
-/// Writes the pixels of rays (x, y, 1); far outside if a ray is not visible or NaN.
+/// Writes the pixel coordinates of rays (x, y, 1). They are far outside the picture if a ray is not
+/// visible or NaN.
 void turnedPoints(const TurnedLens& lens, const float* raysX, const float* raysY, std::size_t count,
                   float* x, float* y);
 
