@@ -41,8 +41,8 @@ inline constexpr std::uint32_t kIsGloss = 1U << 24;  ///< bit of `look`: the sur
 }
 
 /// The distant light that surfaces mirror, with one table for each of several roughnesses. A table
-/// is an octahedral map of directions. Each texel is a light word: the mean light over the lobe
-/// around its direction.
+/// is an octahedral map of directions. Each texel is a light word: the mean light over the
+/// reflection lobe around the texel's direction.
 struct MirrorLight {
     struct Table {
         float roughness = 0;
@@ -54,7 +54,7 @@ struct MirrorLight {
     std::array<float, 3> towardsSun{0, 0, 1}, sunIrradiance{};  ///< irradiance 0: there is no sun
     /// Smallest width of a lobe that mirrors the sun: the sun's angular radius [rad].
     float leastSunAlpha = 0;
-    float least = 0;  ///< small light that is added, so that mirrored light is never 0
+    float least = 0;  ///< small value added to all mirrored light, so that it is never 0
 };
 
 }  // namespace mfar

@@ -26,8 +26,9 @@ struct Rows {
     }
 };
 
-/// Rows that own their memory, see ZeroedArray. Each row begins on a cache line. At least kPadding
-/// bytes after each row may be read and written, so that SIMD loops need no scalar tail.
+/// Rows that own their memory, see ZeroedArray. Each row begins on a cache line if kAlignment is a
+/// multiple of sizeof(T). At least kPadding bytes after each row may be read and written, so that
+/// SIMD loops need no scalar tail.
 template <class T>
 class AlignedRows {
 public:

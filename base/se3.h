@@ -20,7 +20,7 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 /// translates at constant rates, given in its own frame.
 [[nodiscard]] RigidTransform exponential(const Vector6& twist);
 
-/// Returns the inverse of exponential(). The rotation must be less than pi.
+/// Returns the inverse of exponential(). The angle of rotation must be less than pi.
 [[nodiscard]] Vector6 logarithm(const RigidTransform& motion);
 
 /// Returns the adjoint of T, which satisfies T exp(x) = exp(adjoint(T) x) T.

@@ -42,8 +42,9 @@ vec2 slopeAt(ivec2 cell, ivec2 step) {
     return clamp(mix(vec2(0.0), least / 8.0, greaterThan(before * after, vec2(0.0))), -kSteepestFlow, kSteepestFlow);
 }
 
-// Reads two words (eight pixels) of row y. `wx` is the number of the first word, counted from the
-// beginning of the row's margin. The first `shift` bits (shift / 8 pixels) are left out.
+// Reads two words (eight pixels) of row y and shifts them by `shift` bits. So the result begins
+// `shift` / 8 pixels later and ends with zeros. `wx` is the number of the first word, counted from
+// the beginning of the row's margin.
 uvec2 fetchShort(LumaLevel l, int wx, int y, uint shift) {
     int at = l.offset + clamp(y, 0, l.height - 1) * l.pitch + wx;
     uvec2 w = uvec2(luma[at], luma[at + 1]);

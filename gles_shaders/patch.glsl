@@ -31,9 +31,9 @@ uvec2 cellRow(uvec3 w) {
     return uvec2((w.x >> 16) | (w.y << 16), (w.y >> 16) | (w.z << 16));
 }
 
-// State of reading, row by row, a patch whose position is between pixels.
+// State of nextRow(), which reads a patch row by row. The patch's position is between pixels.
 struct Window {
-    int first, y;   // index of the patch's first word in the level's first row; row of `above`
+    int first, y;   // first: index of the patch's first word if y were 0; y: row stored in `above`
     uint shift;     // number of bits in the first word before the patch's first pixel
     vec2 f;         // fractional part of the patch's position (x, y) [px]
     uvec3 above;

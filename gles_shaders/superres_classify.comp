@@ -28,9 +28,9 @@ layout(std430, binding = 1) buffer Classes {
 };
 layout(std430, binding = 2) buffer Draws {
     uvec4 draws[5];    // vertices, instances, first vertex, reserved
-    // Numbers of tiles of each of the four classes; unused; number of tiles that the still does not
-    // explain; 256 * the sum of the tiles' mean confidences; number of tiles that show the second
-    // still.
+    // [0] to [3]: number of tiles of each class. [4]: unused. [5]: number of tiles with many cells
+    // that match neither still. [6]: 256 * the sum of the tiles' mean confidences. [7]: number of
+    // tiles that show the second still.
     uint counts[8];
 };
 layout(std430, binding = 3) buffer Lists {

@@ -126,9 +126,9 @@ Chart chart(Surface f, int axis, vec3 p) {
     return c;
 }
 
-// Returns the factor by which the moving object's shadow darkens a point, because the light map
-// contains only shadows of static objects. The object is treated as a sphere. `light`: direction to
-// the light; w: radius of the sphere, 0 without a moving object.
+// Returns the factor by which the moving object's shadow darkens a point. (The light map contains
+// only the shadows of static objects.) The moving object is treated as a sphere around `middle`.
+// `light`: xyz: direction to the light; w: radius of the sphere, 0 without a moving object.
 float moverShade(vec3 point, vec3 middle, vec4 light) {
     vec3 v = point - middle;
     float along = dot(v, light.xyz), off = length(v - along * light.xyz);

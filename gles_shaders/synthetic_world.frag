@@ -81,7 +81,8 @@ vec3 shade(Group g, vec4 t, vec2 rays[4], mat2 perPixel) {
     vec2 scale = abs(m.mapping.xy);
     float a2 = dot(pow2(vec2(dot(across, c.u), dot(across, c.v)) * scale), vec2(1.0));
     float b2 = dot(pow2(vec2(dot(down, c.u), dot(down, c.v)) * scale), vec2(1.0));
-    // There are four samples, half a pixel apart. Each covers half the footprint.
+    // There are four samples, half a pixel apart. Along each axis, a sample covers half of the
+    // pixel's footprint.
     float texels2 = 0.25 * kLayerTexels * kLayerTexels * max(min(a2, b2), 0.5 * max(a2, b2));
     float lod = max(0.0, 0.5 * log2(texels2));
 

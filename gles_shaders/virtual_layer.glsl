@@ -1,6 +1,7 @@
 // Reads the layer of virtual objects at an output pixel. Needs visibility.glsl.
 // SCALED_LAYER: the layer's size differs from the output's. Colours are interpolated linearly. The
-// depth is that of the nearest one of the four surrounding layer pixels with a valid depth.
+// depth is copied from one of the four surrounding layer pixels: of those with a valid depth, the
+// one closest to the output pixel.
 // Variant: #define SCALED_LAYER 1
 
 bool isVirtual(float z) {

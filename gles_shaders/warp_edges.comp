@@ -28,8 +28,8 @@ shared uint least;
 #endif
 
 // Returns the contrast level at p: the largest difference of a colour channel within the 3x3 pixels
-// around p, scaled to kLevels levels. Alpha is ignored, because the silhouette already makes the
-// outlines of dark objects exact.
+// around p, scaled to kLevels levels. Alpha is ignored: an object's alpha is exact even at its
+// outline, because it comes from the silhouette at the current pose and not from the warp.
 uint levelAt(ivec2 p) {
     vec3 low = vec3(1.0), high = vec3(0.0);
     for (int i = 0; i < 9; ++i) {

@@ -1,6 +1,7 @@
 // Second pass of the warp for the pixels that warp_look_up.frag leaves: pixels at edges, whose
-// coverage is a multiple of a quarter, and pixels that only re-rendered pictures may show. A pixel
-// is composed of an object and, below it, the shadow catcher.
+// coverage is a multiple of a quarter, and pixels that the traced picture does not show. The latter
+// are looked up in re-rendered pictures, which contain pixels that were traced later to fill gaps.
+// A pixel is composed of an object and, below it, the shadow catcher.
 // In: list[] of warp_rest_list.comp. Out: colour, z and state of the pixels; holes[];
 // holeCommands[].
 // State, four components: number of the surface with unknown colour; share of the pixel with
@@ -112,8 +113,8 @@ void main() {
     if (below > 0.0) shown += below * catcherKnown * ofCatcher;
     bool missed = objectKnown < 1.0, hole = missed || catcherKnown < 1.0;
     bool nowhere = objectKnown == 0.0 || catcherKnown == 0.0;
-    // A pixel at an edge without a known colour is not rendered individually, because that would
-    // give a mixture of the surfaces at the edge. It is filled from its neighbours instead.
+    // An edge pixel without a known colour is not rendered individually: the result would be a
+    // mixture of the surfaces at the edge. It is filled from its neighbours instead.
     bool edge = (missed ? covered : below) < 1.0;
     float z = covered > 0.0 ? object.z : shown.a > 0.0 || hole ? (1.0 - kShadowLift) * catcher.z : 0.0;
     float plain = hole ? 0.0 : covered == 1.0 ? float(id) : below == 1.0 ? float(kCatcher) : 0.0;

@@ -57,9 +57,10 @@ std::optional<Size> readSize(const YamlReader& in, int camera, std::optional<Siz
 void checkGuessedSize(const YamlReader& in, const YAML::Node& node, const CameraModel& c) {
     const auto central = [](double at, int side) { return at > 0.3 * side && at < 0.7 * side; };
     if (!central(c.cx, c.size.width) || !central(c.cy, c.size.height))
-        in.fail(node, fmt::format("the file states no image size, and the principal point ({}, {}) "
-                                  "is far from the middle of the sensor's {}x{} pixels",
-                                  c.cx, c.cy, c.size.width, c.size.height));
+        in.fail(node,
+                fmt::format("the file has no key image_size, and the principal point ({}, {}) "
+                            "is far from the middle of the sensor's {}x{} pixels",
+                            c.cx, c.cy, c.size.width, c.size.height));
 }
 
 CameraModel readCamera(const YamlReader& in, int camera, std::optional<Size> wanted) {

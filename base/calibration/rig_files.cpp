@@ -75,7 +75,7 @@ RigCalibration readTwo(const fs::path& first, const fs::path& second, const Want
             euroc = a.has("T_BS") && b.has("T_BS");
             if (euroc) return;
             if (!rig_formats::isOpenCv(a) || !rig_formats::isOpenCv(b))
-                a.fail(fmt::format("does not belong together with {}; expected two sensor.yaml "
+                a.fail(fmt::format("cannot be combined with {}; expected two sensor.yaml "
                                    "files, or the intrinsics and the extrinsics file of OpenCV",
                                    second.string()));
             out =

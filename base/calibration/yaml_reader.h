@@ -25,7 +25,8 @@ public:
     [[nodiscard]] double number(const YAML::Node& node, const char* what) const;
     [[nodiscard]] std::vector<double> numbers(const YAML::Node& node, const char* what) const;
     [[nodiscard]] std::string word(const YAML::Node& node, const char* what) const;
-    /// Returns the numbers of a matrix: the entry `data` if `node` is a map, otherwise `node`.
+    /// Returns the node that lists a matrix's numbers: the entry `data` if `node` is a map,
+    /// otherwise `node` itself.
     [[nodiscard]] YAML::Node data(const YAML::Node& node, const char* what) const;
     /// Reads a matrix that is written as a list of rows, as one flat list in row-major order, or as
     /// a map whose entry `data` is such a list.

@@ -7,8 +7,8 @@
 
 namespace mfar::gpu {
 
-/// Longest wait for the GPU. The kernel normally resets a blocked GPU sooner. So a GPU that does
-/// not finish in this time hangs.
+/// Longest wait for the GPU. A GPU that does not finish in this time counts as hanging: if it were
+/// only blocked, the kernel would normally have reset it by then.
 inline constexpr std::chrono::milliseconds kLongestGpuWait{500};
 
 /// Marks a point in the stream of GL commands. Move-only.

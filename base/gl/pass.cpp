@@ -66,7 +66,8 @@ void finishLink(GLuint program, const std::string& name, std::size_t paramsBytes
         throw GlError("shader " + name + " has no active uniform block Params");
     GLint bytes = 0;
     glGetActiveUniformBlockiv(program, block, GL_UNIFORM_BLOCK_DATA_SIZE, &bytes);
-    // Some drivers add the padding after the last member to the block's size, others do not.
+    // Both sizes are compared as multiples of 16 bytes, because only some drivers count the padding
+    // after the last member.
     if ((static_cast<std::size_t>(bytes) + 15) / 16 * 16 != paramsBytes)
         throw GlError("shader " + name + ": the shader's block Params has " +
                       std::to_string(bytes) + " bytes, but the program expects " +

@@ -48,8 +48,8 @@ void cellLandings(const CellVector* flow, int j, Size cells, std::int32_t* landi
 /// cellsHidden() computes how far each cell lies behind the nearest surface that lands on the same
 /// cell of the other picture [px of parallax]. The distance is (nearest[landing] - s) *
 /// pixelsPerUnit - slope, limited to [0, nowhere]. It is `nowhere` if `landing` is -1. `nearest`:
-/// largest inverse depth that lands on each cell of the other picture. The result is written to the
-/// first entry of `out`.
+/// largest inverse depth that lands on each cell of the other picture. `slope`: parallax [px] that
+/// two cells of one slanted surface can have. The result is written to the first entry of `out`.
 struct HiddenRule {
     float pixelsPerUnit, slope, nowhere;
 };

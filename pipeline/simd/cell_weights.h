@@ -19,8 +19,8 @@ struct WeighRow {
     RowsAround flowX, flowY;
     RowsAround covariance, varianceVideo, varianceStill;
     const float *confidence, *lookX, *lookY;
-    /// Two rows of a picture's values at half resolution. `near` is the row that contains the
-    /// cells. `other` is the row above or below it, whichever is closer to the cells.
+    /// Two rows of statistics at half resolution. `near` is the row that contains the cells.
+    /// `other` is the row above or below it, whichever is closer to the cells.
     struct Half {
         const float *near, *other;
     };

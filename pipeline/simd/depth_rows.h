@@ -37,8 +37,8 @@ struct MovedPoints {
 };
 struct MoveRule {
     float pixelX, pixelY;  ///< change of a ray (x, y, 1) per pixel
-    float leastDepth;      ///< smallest valid ratio of a point's depths after and before the motion
-    float growth;          ///< variance that the motion adds / squared inverse depth
+    float leastDepth;      ///< smallest valid ratio (depth after the motion) / (depth before it)
+    float growth;          ///< ratio (variance that the motion adds) / (inverse depth)^2
 };
 /// Moves points, given as (x, y, 1, inverseDepth) in homogeneous coordinates. Extends `bounds` to
 /// the pixels on which the points land.

@@ -74,8 +74,8 @@ DetailStep::Show DetailStep::showOf(const Frame& frame, int column, int row) con
     if (work.draw != TileWork::Draw::Whole) return upscaled ? Show::Video : Show::Detail;
     const PixelRect& in = work.detailTiles;
     if (!(column >= in.x0 && column < in.x1 && row >= in.y0 && row < in.y1)) return Show::Video;
-    // Unmatched tiles are also classified as upscaled. But weights are interpolated between cells,
-    // so the still of a matched neighbouring tile may be visible in them.
+    // An unmatched tile has the class Upscaled, too, but is not necessarily free of the still:
+    // weights are interpolated between its cells and those of a matched neighbouring tile.
     const bool weightless =
         upscaled && tile.matched != 0 && frame.options.mode == SuperResMode::Detail;
     return weightless ? Show::Video : Show::Detail;

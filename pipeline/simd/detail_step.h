@@ -25,9 +25,8 @@ struct DetailOptions {
     SuperResMode mode;
     bool cubic;
     bool upscaledTiles, plainTiles;
-    /// Learned filters that enlarge the matched tiles in mode Detail. Where the still's detail has
-    /// a weight, their contribution is multiplied by one minus this weight. Null: no learned
-    /// filters, and tiles are sharpened instead.
+    /// Learned filters that enlarge the matched tiles in mode Detail. Their residual is multiplied
+    /// by one minus the weight of the still's detail. Null: tiles are sharpened instead.
     const FilterBank* learned = nullptr;
 };
 

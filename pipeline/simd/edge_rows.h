@@ -39,7 +39,7 @@ struct OpenPixel {
 struct VoteRule {
     int radius;         ///< radius of the voters' window [px]
     float likeness;     ///< colour difference at which a voter's weight is 1/2 [grey levels]
-    float leastWeight;  ///< smallest sum of weights that decides; a voter's weight is at most 1
+    float leastWeight;  ///< smallest sum of weights that decides a pixel; a weight is at most 1
 };
 
 /// Decides the depth of pixels of row y from the voters around them within `where`. The voters form

@@ -15,7 +15,7 @@ std::uint8_t channel(std::uint32_t colour, unsigned c) {
 
 /// Computes the contrast level of a row's pixels: the largest difference of a colour channel within
 /// 3x3 pixels. Outside of objects, the layer's colour is 0. So at an object's outline, the contrast
-/// level is the object's brightness, whatever the real background is.
+/// level depends only on the object's brightness, not on the real background.
 class Contrasts {
 public:
     explicit Contrasts(const PixelRect& where)

@@ -15,7 +15,7 @@ using params::kFineStep;
 static_assert(kCellsPerTile % kFineStep == 0);
 constexpr int kBlock = 2;
 constexpr int kFirst = (kCell - 2) / 2;  // first compared row of a cell
-constexpr int kRoom = 64;                // pixels that vectors may access after a row
+constexpr int kRoom = 64;                // vectors access up to this number of pixels after a row
 
 }  // namespace
 

@@ -23,9 +23,9 @@ class FineCheck {
 public:
     FineCheck(const StereoRig& stillRig, std::shared_ptr<Workers> workers);
 
-    /// Returns the share of its weight that each cell keeps, [0, 1], valid until the next run.
-    /// Cells of unmatched tiles and incomplete cells are not measured; their neighbours determine
-    /// their share.
+    /// Returns one factor for the weight of each cell, [0, 1]; valid until the next run. Cells of
+    /// unmatched tiles and incomplete cells are not measured; their neighbours determine their
+    /// factor.
     Rows<const float> run(const RgbPlanes& video, const StillPairs& still,
                           Rows<const LookUpCell> lookUps, const TileWork& work,
                           const FineMatch& match);

@@ -31,7 +31,7 @@ struct FineSumsNear {
     Pair video, both, still;
 };
 
-/// Computes the share of its weight that each cell keeps, from FineSums averaged over three columns
+/// Computes a factor for the weight of each cell, [0, 1], from FineSums averaged over three columns
 /// of cells; see params::kFineRoom.
 void fineShareRow(const FineSumsNear& sums, const FineMatch& match, int count, float* to);
 

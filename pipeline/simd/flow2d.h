@@ -26,8 +26,8 @@ public:
     /// Throws std::invalid_argument if an option is out of range.
     Flow2d(Size video, const Flow2dOptions& options, std::shared_ptr<Workers> workers);
 
-    /// The options apply from the next run on, but only those that may change between frames, see
-    /// changed() in flow_options.h. Throws std::invalid_argument if an option is out of range.
+    /// Sets the options that can change between frames, from the next run on; ignores the others
+    /// (see flow_options.h). Throws std::invalid_argument if an option is out of range.
     void setOptions(const Flow2dOptions& options) { options_ = changed(options_, options); }
 
     /// Luma pyramids of video and still, both of the video's size. `words` contains their pixels,

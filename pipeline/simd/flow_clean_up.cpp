@@ -141,8 +141,8 @@ HWY_INLINE void fitPlanes(const CleanUpStep& step, std::ptrdiff_t at, float reac
         const auto by = [&](Vec a, Vec b, Vec c) HWY_ATTR {
             return hn::MulAdd(a, u0, hn::MulAdd(b, ui, hn::Mul(c, uj)));
         };
-        // Multiplying by 0 instead would not remove NaN, which the sums of unsolvable cells may
-        // contain.
+        // Planes of unsolvable cells stay unchanged. `scale` is 0 there, but that is not enough:
+        // the sums of such cells can contain NaN, and 0 * NaN is NaN.
         const auto moved = [&](Vec v, Vec change) HWY_ATTR {
             return hn::IfThenElse(solvable, hn::MulAdd(scale, change, v), v);
         };

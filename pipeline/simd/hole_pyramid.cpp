@@ -12,7 +12,7 @@ std::uint32_t rounded(float value) {
     return static_cast<std::uint32_t>(above);
 }
 
-constexpr int kCrackLevels = 2;  // number of pyramid levels that are used to fill a crack
+constexpr int kCrackLevels = 2;  // without push-pull, cracks are filled from this number of levels
 constexpr std::uint32_t kAnyObject = 254;
 constexpr int kBlockShift = HolePyramid::kLevels;
 constexpr std::size_t kHolesAtATime = 32;
@@ -82,8 +82,8 @@ void HolePyramid::fill(const Layer& layer, std::span<Hole> holes, bool pushPull)
         body(0, count);
 }
 
-/// Marks the blocks that holes need. At each pyramid level, a hole reads texels of its own block
-/// and of the neighbouring blocks.
+/// Marks the blocks that the filling of `holes` needs. At each pyramid level, it reads texels of
+/// the hole's own block and of the neighbouring blocks.
 void HolePyramid::markBlocks(const PixelRect& where, std::span<const Hole> holes) {
     blocks_ = {where.x0 >> kBlockShift, where.y0 >> kBlockShift,
                ((where.x1 - 1) >> kBlockShift) + 1, ((where.y1 - 1) >> kBlockShift) + 1};

@@ -28,9 +28,9 @@ public:
         Rows<const std::uint32_t> state;
         PixelRect where;
     };
-    /// `holes`: the layer's holes, ascending. Cracks are holes most of whose neighbours show the
-    /// same surface. They are always filled and get Hole::isEdge. Other holes are filled only with
-    /// `pushPull`.
+    /// `holes`: the layer's holes, ascending. A hole is a crack if it is at an edge, or if most of
+    /// its neighbours show the same surface; then its isEdge becomes true. Cracks are always
+    /// filled, other holes only with `pushPull`.
     void fill(const Layer& layer, std::span<Hole> holes, bool pushPull);
 
 private:

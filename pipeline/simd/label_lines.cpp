@@ -81,9 +81,9 @@ struct NearestPixels {
     }
 };
 
-/// Returns the cost minimum of each valley, as an offset from the best label [labels]. Labels with
-/// the same nearest pixel count as one label. It lies at the point of the epipolar line that is
-/// nearest to this pixel.
+/// Returns the position of the cost minimum in each Valley, as an offset from the best label
+/// [labels]. Labels with the same nearest pixel count as one label, which lies at the point of the
+/// epipolar line that is nearest to this pixel.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V bottoms(D d, const Valleys<D>& valleys, const NearestPixels<D>& pixels) {
     const auto own = pixels.at(0);

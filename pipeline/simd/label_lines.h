@@ -10,11 +10,12 @@
 namespace mfar::simd {
 
 /// A label is an inverse depth, counted in steps: s = perLabel * label, see EpipolarLens.
-/// LabelLines projects a frame's pixels with given labels to the still's canvas.
+/// LabelLines projects a frame's pixels with given labels to the still's canvas: the still, drawn
+/// with the lens and the orientation of the frame's camera (TurnedPicture).
 struct LabelLines {
     Lens lens;
     float tx, ty, tz;        ///< translation of points, in the axes of the frame's camera
-    float originX, originY;  ///< still camera's pixel at the canvas's pixel (0, 0)
+    float originX, originY;  ///< pixel of `lens` at the canvas's pixel (0, 0)
     float perLabel;
 };
 

@@ -25,8 +25,8 @@ HWY_INLINE void Along(int count, const Body& body) {
         body(one, x);
 }
 
-/// Loads the entries of a row at ascending columns. If the layer is not larger than the output, the
-/// columns of a vector of pixels lie within one vector of the row.
+/// Loads the entries of a row at ascending columns. If the layer is not larger than the output, one
+/// vector of the row contains all of them and is permuted. Otherwise they are gathered.
 template <class D>
 HWY_INLINE hn::Vec<D> Look(D d, const hn::TFromD<D>* row, const std::int32_t* at,
                            const LayerColumns& columns) {

@@ -4,7 +4,7 @@
 
 namespace mfar::simd {
 
-/// Number of entries that vectors may read after a part of a layer's row.
+/// Number of readable entries that must follow a part of a layer's row, because vectors read them.
 inline constexpr int kLayerSpare = 64;
 
 struct LayerColumns {
@@ -28,8 +28,9 @@ void blendLayerRows(const std::uint32_t* above, const std::uint32_t* below, floa
                     const BlendedColours& out);
 void enlargeColours(const BlendedColours& part, const LayerColumns& columns, int count,
                     std::uint32_t* out);
-/// Writes, for each output pixel, z of the nearest of the four surrounding layer pixels that has a
-/// depth (virtual_layer.glsl), or 0. `share`: weight of the row `below`.
+/// Copies, for each output pixel, the z of one of the four surrounding layer pixels: of those that
+/// have a depth, the one closest to the output pixel (virtual_layer.glsl). Writes 0 if none has.
+/// `share`: weight of the row `below`.
 void enlargeDepths(const float* above, const float* below, float share, const LayerColumns& columns,
                    int count, float* out);
 

@@ -26,11 +26,11 @@ class LearnedRows {
 public:
     LearnedRows(Size picture, int outputWidth);
 
-    /// Starts with a new picture. `pixels`: output columns from which cover() may choose. Nothing
-    /// is computed before cover().
+    /// Starts with a new picture. Nothing is computed before cover(), whose columns must all be in
+    /// `pixels`.
     void begin(const RgbPlanes& picture, const LearnedTaps& taps, const FilterBank& bank,
                const PixelSpan& pixels);
-    /// Limits later calls of row() to these columns, which must be ascending.
+    /// Limits later calls of row() to these columns of the output, which must be ascending.
     void cover(const PixelSpans& pixels);
     /// Returns the residual of the covered pixels of a row [1/32 grey level], valid until the next
     /// call.

@@ -47,7 +47,8 @@ void ThinRow(const std::uint8_t* in, std::size_t width, std::uint8_t* out) {
 
 void SmoothRow(const std::uint8_t* above, const std::uint8_t* here, const std::uint8_t* below,
                std::size_t width, int side, std::uint8_t* out) {
-    // Sums of columns [1/256], with one more column at each end of a run.
+    // Weighted sum of the three pixels in each column [1/256], with one more column at each end of
+    // a run.
     constexpr std::size_t kRun = 256;
     HWY_ALIGN std::uint16_t column[kRun + 2];
     const auto s = static_cast<std::uint16_t>(side), c = static_cast<std::uint16_t>(256 - 2 * side);

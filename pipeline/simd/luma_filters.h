@@ -19,9 +19,10 @@ void thinRow(const std::uint8_t* in, std::size_t width, std::uint8_t* out);
 void smoothRow(const std::uint8_t* above, const std::uint8_t* here, const std::uint8_t* below,
                std::size_t width, int side, std::uint8_t* out);
 
-/// Sums the absolute responses of a mask over `rows` rows (at most 16), for `width` columns from
-/// (1, first) on. The mask is (1 -2 1, -2 4 -2, 1 -2 1). It does not respond to planes, nor to
-/// steps and lines along an axis. Source: Immerkaer, Fast noise variance estimation, 1996.
+/// Sums the absolute responses of a mask over `rows` rows (at most 16) from row `first` on. Does so
+/// for `width` columns from column 1 on. The mask is (1 -2 1, -2 4 -2, 1 -2 1). It does not respond
+/// to planes, nor to steps and lines along an axis. Source: Immerkaer, Fast noise variance
+/// estimation, 1996.
 void noiseColumns(const Rows<const std::uint8_t>& picture, int first, int rows, std::size_t width,
                   std::uint16_t* out);
 

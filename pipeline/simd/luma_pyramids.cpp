@@ -8,7 +8,8 @@ namespace mfar::simd {
 namespace {
 
 constexpr int kMargin = 4 * kLumaMarginWords;
-// Pyramid levels with fewer rows are processed in one thread, because waking others takes longer.
+// Pyramid levels with fewer rows are processed in one thread, because waking other threads would
+// take longer than the work.
 constexpr int kSharedRows = 200;
 
 StillLens lensOf(const StereoRig& rig) {

@@ -26,7 +26,7 @@ public:
     void buildVideo(const RgbPlanes& video);
     /// Builds the still's pyramid from its luma, of size rig.still.size. Needed once per still.
     void buildStill(Rows<const std::uint8_t> luma, const StereoRig& rig);
-    /// Builds the still's pyramid from luma with the video's geometry, for flow between two frames.
+    /// For flow between two frames: builds the still's pyramid from the luma of the second frame.
     void buildSecond(Rows<const std::uint8_t> luma);
     /// Builds the video's pyramid from the luma of a frame.
     void buildFirst(Rows<const std::uint8_t> luma);

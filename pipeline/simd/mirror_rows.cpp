@@ -134,8 +134,8 @@ HWY_INLINE V Fresnel(V facing, V cosine) {
     return hn::MulAdd(hn::Sub(F(1), facing), hn::Mul(hn::Mul(square, square), rest), facing);
 }
 
-/// Returns the sun's light in a GGX lobe, divided by the sun's irradiance and by the surface's
-/// paint.
+/// Returns the sun's light in a GGX reflection lobe, divided by the sun's irradiance and by the
+/// surface's paint (see paint_rows.h).
 HWY_INLINE V SunShare(const MirrorInput& in, const V3& normal, const V3& wo, V cosO, V facing,
                       V alpha) {
     const V3 sun{F(in.sun[0]), F(in.sun[1]), F(in.sun[2])};

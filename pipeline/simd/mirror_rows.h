@@ -34,7 +34,7 @@ struct MirrorRow {
 };
 
 /// The specular light of a pixel as two light words. `share`: share of the mirrored sky that no
-/// object hides. `rest`: the remaining specular light. The free bits of the two words have the
+/// object hides. `rest`: the remaining specular light. The free bits of the two words contain the
 /// share of the sun that no object hides.
 struct MirrorParts {
     std::uint32_t share = 0, rest = 0;
@@ -46,7 +46,7 @@ struct MirrorParts {
 void splitMirrored(const MirrorRow& row, const MirrorInput& input, const LightWords* light,
                    MirrorParts* out);
 /// Computes from `parts` the specular light that another eye sees. The veil of `light` (the share
-/// of specular light that paint does not change) stays unchanged.
+/// of specular light that does not depend on the surface's colour) stays unchanged.
 void joinMirrored(const MirrorRow& row, const MirrorInput& input, const MirrorParts* parts,
                   LightWords* light);
 

@@ -8,7 +8,7 @@ namespace mfar::simd {
 namespace {
 
 constexpr int kMirrorRows = 8;
-constexpr std::size_t kSpare = 8;  // entries that vectors may read after the last row
+constexpr std::size_t kSpare = 8;  // vectors read fewer than this number of entries after a picture
 constexpr int kRoughnesses = 256;
 constexpr float kLeastAlpha = 1e-3F;
 

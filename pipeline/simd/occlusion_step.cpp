@@ -9,7 +9,8 @@
 namespace mfar::simd {
 namespace {
 
-constexpr int kSpare = 64;  // pixels after a strip that vectors may write
+// Number of additional entries of Strip's arrays: vectors write beyond the strip's last pixel.
+constexpr int kSpare = 64;
 
 Size withMargin(Size video) {
     return {video.width + 2 * kSampleMargin, video.height};
@@ -39,10 +40,11 @@ struct OcclusionStep::Task {
     const RgbPlanes& video;
     Rows<std::uint32_t> picture;
     PixelRect bounds;
-    int first, last;  // columns [first, last) of the samples that these pixels need
+    int first, last;  // the pixels in `bounds` need columns [first, last) of the samples
 };
 
-/// A part of the output rows that lie between the same two rows of samples.
+/// Temporary values for `count` pixels of an output row, from column `x` on. Output rows between
+/// the same two rows of samples share `greatest` and `least`.
 struct OcclusionStep::Strip {
     int x = 0, count = 0;
     std::array<float, kVisibilityChunk + kSpare> greatest{}, least{}, z{}, inverse{};

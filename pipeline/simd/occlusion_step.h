@@ -52,8 +52,8 @@ public:
     /// Draws `layer` into `picture`, which is `video` at output size in RGBA8. `real`: depth of the
     /// same frame; pixels whose inverse depth or sigma is not finite and positive occlude nothing.
     /// Layer pixels are drawn only if their depth is finite and positive. If the layer is smaller
-    /// than the output, colours are interpolated linearly. Depth is then that of the nearest of the
-    /// four surrounding layer pixels that has one.
+    /// than the output, colours are interpolated linearly. The depth is then copied from one of the
+    /// four surrounding layer pixels: of those with a depth, the one closest to the output pixel.
     void run(const LayerRowsView& layer, const RealDepth& real, const RgbPlanes& video,
              Rows<std::uint32_t> picture);
 

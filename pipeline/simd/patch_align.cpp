@@ -13,14 +13,14 @@ namespace mfar::simd::HWY_NAMESPACE {
 namespace {
 
 constexpr float kSteepest = params::kSteepestFlow;
-// Number of pixels of a patch's row that share one flow vector. If the flow changes by less than
-// kGentle per pixel along the row, all eight pixels share one. The error is then no larger than
-// that of four pixels with the steepest flow.
+// Where the flow is steep, each half of a patch's row has its own flow vector for kHalf pixels. If
+// the flow changes by less than kGentle per pixel along the row, all eight pixels share one. The
+// error is then no larger than that of four pixels with the steepest flow.
 constexpr int kHalf = 4;
 constexpr float kGentle = 1.0F / 10;
 // All pixels of a patch share one flow vector if the flow changes by less than this per pixel.
 // Then the flow at the patch's corners differs by only a hundredth of a pixel from the flow at its
-// centre. This is less than the uncertainty of the flow's slope.
+// centre. The uncertainty of the flow's slope causes a larger error there.
 constexpr float kFlat = 1.0F / 256;
 // Number of bits of interpolation weights. They are stored in 16 bits, which leaves room for the
 // weights' change along the row.
@@ -43,7 +43,7 @@ HWY_INLINE float slopeOf(float before, float here, float after) {
     return bounded(least / 8, -kSteepest, kSteepest);
 }
 
-/// Returns 0 if a component of a flow vector is NaN or longer than any picture.
+/// Returns a component of a flow vector, or 0 if it is NaN or longer than any picture.
 HWY_INLINE float soundOf(float v) {
     constexpr float kMost = 2e4F;
     return std::abs(v) < kMost ? v : 0;

@@ -50,8 +50,9 @@ struct Batch {
     Each2 descent;  // right-hand side of the Gauss-Newton step
 
     Each2 trial;
-    Each active;  // 1: `trial` is to be compared; after the comparison, 1: it was better than
-                  // `best`
+    // 1 if `trial` must be compared, else 0. After the comparison: 1 if `trial` was better than
+    // `best`, else 0.
+    Each active;
 
     HWY_INLINE void add(int c, int r) {
         column[count] = c;

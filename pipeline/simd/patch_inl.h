@@ -28,7 +28,7 @@ constexpr float kPixels = params::kPatchPixels;
 constexpr int kValueBits = 5;
 constexpr float kValue = 1 << kValueBits;
 
-// One row of a patch, or one pixel on the scalar target.
+// Vectors of one row of a patch, or of one pixel on the scalar target.
 using Row16 = hn::CappedTag<std::int16_t, kPatch>;
 using Sum32 = hn::CappedTag<std::int32_t, kPatch / 2>;
 using Row8 = hn::Rebind<std::uint8_t, Row16>;

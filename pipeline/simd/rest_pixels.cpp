@@ -94,7 +94,7 @@ RestPixels::RestPixels(const ViewLookUp::Input& input, const TracedPicture& trac
     : plain_(plain), layerLens_(pointLensOf(layer)),
       traced_{traced.surface, traced.colour, lights, traced.camera.size,
               plain.toTraced, &plain_.lens,  1} {
-    // Sorts the re-rendered pictures by slot, because their order matters: if several have equal
+    // Sorts the re-rendered pictures by slot number. Their order matters: of pictures with equal
     // shares, known() uses the first.
     std::array<const RerenderedPictures::Picture*, RerenderedPictures::kPictures> bySlot{};
     for (const RerenderedPictures::Picture& rerendered : input.rerendered.pictures())

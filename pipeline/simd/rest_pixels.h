@@ -17,9 +17,10 @@ struct RestPixel {
     std::optional<Hole> hole;  ///< set if the pixel is a hole; Hole::pixel is not set
 };
 
-/// Looks up the pixels that lookUpRow() leaves out. These are edges, which are divided into
-/// quarters, and pixels that only re-rendered pictures may show. Objects and the shadow on the real
-/// surface are two layers; the shadow is the lower one (warp_rest.comp).
+/// Looks up the pixels that lookUpRow() leaves out. These are pixels at edges, which are divided
+/// into quarters, and pixels that the traced picture does not show. The latter are looked up in
+/// RerenderedPictures. Objects and the shadow on the real surface are two layers; the shadow is the
+/// lower one (warp_rest.comp).
 class RestPixels {
 public:
     /// `lights`: light of the traced picture's pixels as seen from T_world_camera.

@@ -12,8 +12,8 @@ namespace mfar::simd {
 namespace {
 
 constexpr std::array<float, 3> kRec601{params::kLumaRed, params::kLumaGreen, params::kLumaBlue};
-// Chroma is ignored if its coefficients are smaller: it then changes luma by less than a tenth of a
-// grey level.
+// Chroma is ignored if its coefficients are below this threshold: it then changes luma by less than
+// a tenth of a grey level.
 constexpr float kLeastChroma = 1e-3F;
 
 bool isYuv(PixelFormat format) {

@@ -19,8 +19,8 @@ namespace mfar::simd {
 
 /// Prepares the newest still once: its luma at full resolution, and at the resolution that the
 /// output needs. CPU version of the GLES engine's StillReference. Memory is allocated in the
-/// constructor. set() allocates only to copy a picture of another pixel format, and picture() only
-/// once.
+/// constructor, in the first call of picture(), and in set() if its copy of the still needs more
+/// memory than all copies before.
 class StillPreparation {
 public:
     /// `output`: size of the whole enlarged video.
@@ -94,7 +94,7 @@ private:
     AlignedRows<std::uint16_t> pairs_;
     ScratchSlots<Scratch> scratch_;
     std::vector<std::uint8_t> kept_;
-    std::optional<ImageView> unmade_;  // source of picture() until it is computed
+    std::optional<ImageView> unmade_;  // picture() converts this once, then resets it
     std::optional<RgbPlanes> planes_;
     AlignedRows<std::uint32_t> picture_;
 };

@@ -227,7 +227,7 @@ bool SurfaceRaster::addTriangle(Batch& batch, const RasterCorner (&c)[3],
     return true;
 }
 
-/// `c`: corners of the triangle or of a piece of it; both give the same planes.
+/// `c`: corners of the triangle, or of a piece of it that was clipped. The planes are the same.
 void SurfaceRaster::setPaint(const Placed& placed, const RasterCorner (&c)[3],
                              std::uint32_t index) {
     if (placed.part->source->material == nullptr) return;  // the shadow catcher has no paint

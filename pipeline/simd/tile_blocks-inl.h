@@ -38,8 +38,8 @@ struct Blocks {
     HWY_ALIGN Values rough;               // half the absolute twist of the new frame's luma
     HWY_ALIGN Values lumaSum, lumaTwist;  // sum and twist of the luma's difference in each block
     HWY_ALIGN CellSums redSum, blueSum;   // sum of the difference of red or blue over each cell
-    // For each cell, the largest value among the colour channels: of the absolute summed difference
-    // (farthest), and of the summed absolute difference (absolute).
+    // For each cell, the largest value of the three colour channels. farthest: absolute value of
+    // the summed difference. absolute: sum of the absolute differences.
     HWY_ALIGN CellSums farthest, absolute;
     // Sums of squared twists of the red or blue difference. A tile has four, one for each column of
     // its cells.

@@ -15,16 +15,15 @@ namespace mfar::simd {
 /// Numbers of tiles in a frame, computed as in superres_classify.comp.
 struct TileSummary {
     std::array<int, kTileClasses> tiles{};
-    int unexplained = 0;  ///< number of tiles with many cells that match no still
+    int unexplained = 0;  ///< number of tiles with many cells that match neither still
     int second = 0;
-    /// Sum of the confidence (eq. 2 of the paper) over the cells of all tiles, in 1/16. It is
-    /// rounded down to a whole number for each tile. A tile has 16 cells, so a tile with full
-    /// confidence adds 256. Zero if there is no still.
+    /// Sum, over all tiles, of 256 times the mean confidence (eq. 2 of the paper) of the tile's
+    /// cells. Each tile's part is rounded down to a whole number. Zero if there is no still.
     double confidence = 0;
 };
 
 /// Determines the TileClass of every tile of a frame. Remembers for each tile the number of cells
-/// that had no trusted match in the still when the tile was last drawn.
+/// that had no trusted match in either still when the tile was last drawn.
 class TileClasses {
 public:
     explicit TileClasses(Size video);
@@ -62,7 +61,7 @@ private:
 
     Size tiles_;
     std::vector<TileClass> classes_;
-    std::vector<int> unexplained_;  // number of a tile's cells that match no still
+    std::vector<int> unexplained_;  // number of a tile's cells that match neither still
     std::vector<std::uint8_t> second_, alone_;
     std::vector<TileSummary> rowSums_;
 };

@@ -12,9 +12,9 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 constexpr float kMeanToDeviation = 1.2533F;  // standard deviation / mean absolute value of a
                                              // Gaussian
-// A tile has certainly changed if the sum of three squares exceeds this threshold. They are the
-// squares of the mean and of both slopes of the tile's difference, each divided by its variance. A
-// share of 1e-8 of unchanged tiles exceeds it.
+// Threshold for Moments::over(): the squared mean and the two squared slopes of a tile's
+// difference, each divided by its variance, are added. Only a share of 1e-8 of unchanged tiles
+// exceeds it, so a tile above it has certainly changed.
 constexpr float kSurelyChanged = 40;
 // Threshold for the squared mean of a cell's difference, divided by its variance.
 constexpr float kCellSurelyChanged = 30;
@@ -108,7 +108,7 @@ HWY_INLINE Moments MomentsOf(const Blocks::CellSums& sums, int tile) {
 
 /// Measurements of the luma's difference between both frames; see TileMeasure for means and bends.
 struct LumaDifference {
-    V means, bends, noise;  // noise: sum of squared twists of blocks
+    V means, bends, noise;  // noise: sum of the squared twists of the blocks (see Blocks)
     Moments moments;
 };
 

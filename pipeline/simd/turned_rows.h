@@ -18,7 +18,8 @@ struct TurnedLens {
     float rim;                  ///< radius of the outermost visible ray
 };
 
-/// Writes the pixels of rays (x, y, 1); far outside if a ray is not visible or NaN.
+/// Writes the pixel coordinates of rays (x, y, 1). They are far outside the picture if a ray is not
+/// visible or NaN.
 void turnedPoints(const TurnedLens& lens, const float* raysX, const float* raysY, std::size_t count,
                   float* x, float* y);
 
@@ -28,10 +29,10 @@ struct TurnedCells {
     const float *x, *y, *nextX, *nextY;
 };
 
-/// Draws a row of a picture that lies `v` grid cells below the first row of the grid, [0, 1). Each
-/// pixel's point is interpolated bilinearly in the grid, the source bilinearly at this point.
-/// `seen` is 1 where the source has a pixel, else 0. The source must have at least two columns and
-/// two rows.
+/// Draws a row of a picture. The row lies between the two grid rows of `cells`, `v` grid cells
+/// below the upper one, [0, 1). Each pixel's point is interpolated bilinearly in the grid, and the
+/// source is interpolated bilinearly at this point. `seen` is 1 where the source has a pixel, else
+/// 0. The source must have at least two columns and two rows.
 void turnedRow(const Rows<const std::uint8_t>& source, const TurnedCells& cells, float v,
                std::size_t width, std::uint8_t* out, std::uint8_t* seen);
 

@@ -25,7 +25,7 @@ class SurfaceRaster;
 struct Hole {
     std::uint32_t pixel;
     std::uint32_t colour;  ///< known part of the colour, RGBA8 premultiplied
-    bool isEdge, isOpen;   ///< isOpen: no part of the colour is known
+    bool isEdge, isOpen;   ///< isOpen: one surface fills the pixel, and no picture shows it
 };
 
 class RerenderedStore {
@@ -48,9 +48,9 @@ private:
 };
 
 /// Looks up the colour of every layer pixel that shows a surface. The colour comes from the traced
-/// picture or, if that does not show the surface, from the re-rendered pictures. CPU version of the
-/// GLES engine's ViewLookUp. Plain pixels (see lookUpRow()) are processed in vectors, all others
-/// one by one. Threads share the rows.
+/// picture or, if that does not show the surface, from RerenderedPictures. CPU version of the GLES
+/// engine's ViewLookUp. Plain pixels (see lookUpRow()) are processed in vectors, all others one by
+/// one. Threads share the rows.
 class ViewLookUp {
 public:
     ViewLookUp(const LensProjection& layer, std::shared_ptr<Workers> workers);

@@ -8,8 +8,8 @@
 
 namespace mfar::simd {
 
-/// Number of pixels of an output row that are processed at a time. Rows of this length have 64
-/// bytes of padding.
+/// Number of pixels of an output row that are processed at a time. Arrays for them have 64 bytes of
+/// padding.
 inline constexpr int kVisibilityChunk = 256;
 
 struct VisibilityParams {
@@ -53,8 +53,8 @@ struct OpenRow {
     std::uint8_t* visibility;
 };
 
-/// Computes the visibility of open pixels. Samples are weighed by distance and by the similarity of
-/// picture and video (visibility_sample.frag).
+/// Computes the visibility of the pixels that decideRow() left open. Samples are weighed by
+/// distance and by the similarity of picture and video (visibility_sample.frag).
 void weighOpenPixels(const OpenRow& row, const SampleWindow& samples,
                      const VisibilityParams& params);
 

@@ -39,8 +39,8 @@ public:
         Guidance guidance;
     };
 
-    /// Starts with a new still and new LookUpCells. `pixels`: output columns from which cover() may
-    /// choose. Nothing is computed before cover().
+    /// Starts with a new still and new LookUpCells. Nothing is computed before cover(), whose
+    /// output columns must all be in `pixels`.
     void begin(const StillPairs& still, Rows<const LookUpCell> lookUps,
                const LookUpTaps& lookUpTaps, const WarpedStillTaps& taps, const PixelSpan& pixels,
                const Guide& guide);
@@ -68,7 +68,7 @@ private:
     // Columns that are computed for covered_: of the still at the video's resolution (means_), and
     // of the warped still (warped_).
     PixelSpans means_, warped_;
-    PixelSpans compared_;  // means_; with guidance, also kGuideReach columns on each side
+    PixelSpans compared_;  // like means_; with guidance, kGuideReach columns wider on each side
     std::vector<int> warpedRows_;
     std::array<int, 4> lowRows_{};
     std::vector<const std::int16_t*> weighed_;

@@ -24,12 +24,12 @@ struct WeighInput {
     const std::vector<LumaLevel>& videoLuma;
     const std::vector<LumaLevel>& stillLuma;
     std::span<const std::uint32_t> words;  ///< must end with kLumaSpareWords
-    Rows<const FlowCell> forward;          ///< flow from video to still; 4x4 video pixels a cell
+    Rows<const FlowCell> forward;          ///< flow from video to still, per 4x4 video pixels
     /// Flow from still to video, in pixels of pyramid level `backwardLevel`. Read only if
     /// errors.data is null.
     Rows<const FlowCell> backward;
     int backwardLevel = 0;
-    Rows<const ErrorCell> errors;  ///< two-way errors of the cells of `forward`, or without data
+    Rows<const ErrorCell> errors;  ///< two-way errors of the cells of `forward`; can be empty
     const TileWork& work;
 };
 
@@ -43,11 +43,12 @@ public:
     WeighStep(const StereoRig& stillRig, std::shared_ptr<Workers> workers);
 
     /// Weighs every cell. If no tile has changed, keeps the last results. If no changed tile is
-    /// matched, keeps the last frame's photometric gain. Cells of unmatched tiles get no weight of
-    /// their own. The results have one entry per cell and are valid until the next run.
+    /// matched, keeps the last frame's photometric gain. Cells of unmatched tiles are not compared;
+    /// they get a weight only from neighbouring cells of matched tiles. The results have one entry
+    /// per cell and are valid until the next run.
     void run(const WeighInput& in);
 
-    /// Multiplies the weight of each cell by its share. `shares` has one entry per cell.
+    /// Multiplies the weight of each cell by the cell's entry in `shares`.
     void lower(Rows<const float> shares);
 
     [[nodiscard]] Rows<const WeighedCell> weighed() const { return shown(weighed_); }
