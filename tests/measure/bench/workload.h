@@ -50,7 +50,7 @@ inline constexpr int kLessons = 4;
 /// frames, resized to the given sizes. Needs no current GL context. Repeated calls give equal
 /// pictures.
 [[nodiscard]] Workload handheldWorkload(Size video, Size still, int frames, int lessons = 0);
-/// Uses any `board` of Pace::Consumer that has not been started.
+/// Gets the pictures from `board`, which must have Pace::Consumer and must not have been started.
 [[nodiscard]] Workload handheldWorkload(SyntheticBoard& board, Size video, Size still, int frames,
                                         int lessons = 0);
 

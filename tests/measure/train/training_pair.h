@@ -9,7 +9,7 @@ namespace mfar::train {
 
 struct Sensor {
     double noise = 0;  ///< standard deviation [grey levels]
-    double blur = 0;   ///< weight of each of the two neighbours along both axes, [0, 1/3]
+    double blur = 0;   ///< weight of each of a pixel's two neighbours along an axis, [0, 1/3]
     unsigned seed = 1;
 };
 
