@@ -106,7 +106,7 @@ TEST(Rectification, PutsEveryPointOnTheSameRowAndNearerPointsFartherLeft) {
             }
 }
 
-TEST(Rectification, RectifiedPicturesStayUnchanged) {
+TEST(Rectification, AlreadyRectifiedViewsAreOnlyPaddedOnTheLeft) {
     CameraModel camera = crookedPairRig().video;
     camera.distortion = {};
     camera.fy = camera.fx;

@@ -142,7 +142,7 @@ TEST(FlowError, UnknownTruthIsIgnoredAndMissingResultsCountAsWrong) {
     EXPECT_DOUBLE_EQ(error.coverage, 0.5);
 }
 
-TEST(FlowError, UnknownTruthGivesNan) {
+TEST(FlowError, WithoutAnyKnownTruthTheErrorIsNan) {
     const cv::Mat truth(2, 2, CV_32FC2, cv::Scalar(2e9, 2e9));
     const FlowError error = flowError(truth, truth);
     EXPECT_EQ(error.known, 0U);
