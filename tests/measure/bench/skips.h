@@ -27,7 +27,7 @@ struct SkipResult {
 struct SkipCase {
     std::string scene;
     double ms = 0;
-    long depthTiles = 0;  ///< sum over the frames of the tiles in which depth was searched
+    long depthTiles = 0;  ///< number of tiles in which depth was searched, summed over the frames
     long framesInView = 0;
     double changed = 0;
 };

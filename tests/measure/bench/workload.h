@@ -55,8 +55,8 @@ inline constexpr int kLessons = 4;
                                         int lessons = 0);
 
 /// Frames of a recording with poses and with the stills that mfar-eval would use. A short recording
-/// starts again from its first frame. A lesson is a still with its first frame. Throws EvalError
-/// and RecordingError.
+/// starts again from its first frame. A lesson is a still with the first frame that uses it. Throws
+/// EvalError and RecordingError.
 [[nodiscard]] Workload recordedWorkload(const std::filesystem::path& folder, int frames);
 
 /// Repeats the first frame, as a camera at rest would see it. `noise`: standard deviation of sensor

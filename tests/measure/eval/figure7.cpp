@@ -20,7 +20,7 @@ namespace mfar::eval {
 namespace {
 
 constexpr int kStillEvery = 10;
-constexpr int kScoredFrame = 5;  // number of the measured frame since the request of a still
+constexpr int kScoredFrame = 5;  // the fifth frame after the request of a still is measured
 
 class Figure7Run {
 public:

@@ -108,8 +108,8 @@ TEST(FlowTruth, ASlantedSurfaceDoesNotOccludeItself) {
     }
 }
 
-/// flowOfInverseDepth() finds occluded pixels by projecting depth. Rays through the exact world
-/// must agree.
+/// flowOfInverseDepth() finds occluded pixels by projecting depth. Rays through the exact scene
+/// must give the same flow and the same occluded pixels.
 TEST(FlowTruth, AgreesWithRaysThroughTheSyntheticScene) {
     using synthetic::Path;
     StereoRig rig = synthetic::boardRig();
