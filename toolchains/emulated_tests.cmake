@@ -19,7 +19,7 @@ set(mfar_emulated
 
 function(gtest_discover_tests target)
     cmake_parse_arguments(PARSE_ARGV 1 arg "" "TEST_FILTER;TEST_LIST" "PROPERTIES")
-    # If the tests of a program are registered in two parts, TEST_LIST is the name of each part.
+    # The tests of some programs are registered in two parts. TEST_LIST is then the name of the part.
     set(name ${target})
     if(arg_TEST_LIST)
         set(name ${arg_TEST_LIST})

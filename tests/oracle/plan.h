@@ -13,8 +13,8 @@
 namespace mfar::twin {
 
 struct TileChange {
-    /// Absolute mean difference and mean absolute difference of each cell, row by row. Each is the
-    /// largest value over the channels.
+    /// For each cell, row by row: absolute value of the mean difference, and mean of the absolute
+    /// difference. Each is the largest value over the channels.
     std::array<double, 16> mean{}, absolute{};
     double cellNoise = 0;
     double noise = 0;  ///< standard deviation of the luma's noise [grey levels]
@@ -25,8 +25,8 @@ struct TileChange {
     /// means, and scaled twist() of 2x2 means. For white noise, each equals the variance of a
     /// pixel.
     std::array<double, 3> energy{};
-    /// Squared residuals of a plane that is fitted to the luma's 2x2 means in 8x8 pixels. Their
-    /// sum, averaged over nine such windows.
+    /// Sum of the squared residuals of a plane that is fitted to the luma's 2x2 means in a window
+    /// of 8x8 pixels. Mean over nine windows.
     double structure = 0;
 };
 
@@ -144,8 +144,8 @@ inline TileChange tileChange(const TestPicture& now, const TestPicture& drawn, c
     return out;
 }
 
-/// A tile counts as changed if a cell's absolute mean difference or its mean absolute difference
-/// exceeds these bounds.
+/// A tile counts as changed if TileChange::mean or TileChange::absolute of a cell exceeds these
+/// bounds.
 struct ChangeBounds {
     double mean, absolute;
     static constexpr double kMoments = 40, kCell = 30;

@@ -57,8 +57,8 @@ inline Grey enlarged(const Grey& g, Size to, bool linear = false) {
 
 inline constexpr double kNearTap = params::kSharpenNear, kFarTap = params::kSharpenFar;
 
-/// Sharpens along both axes. `strengthAt(x, y)`: strength at a pixel. Diagonal neighbours get the
-/// product of the two nearest taps.
+/// Sharpens along both axes. `strengthAt(x, y)`: strength at a pixel. A diagonal neighbour has the
+/// square of the weight of a direct neighbour.
 template <class F>
 Grey sharpened(const Grey& g, F strengthAt) {
     return greyOf(g.size, [&](int x, int y) {

@@ -42,7 +42,8 @@ inline std::array<Samples, 3> yuvSamples(const ImageView& v) {
 
 inline std::array<double, 3> rgbOfYuv(double y, double u, double v, const ImageView& of) {
     const bool full = of.range == YuvRange::Full, hd = of.matrix == YuvMatrix::Bt709;
-    // Factors of Y in all channels, V in R, U in G, V in G, U in B.
+    // Indices: range (limited, full), matrix (BT.601, BT.709), factor. Factors: of Y in all
+    // channels, of V in R, U in G, V in G, U in B.
     constexpr double kTable[2][2][5] = {
         {{1.164384, 1.596027, -0.391762, -0.812968, 2.017232},
          {1.164384, 1.792741, -0.213249, -0.532909, 2.112402}},

@@ -86,8 +86,7 @@ ENDS = re.compile(r'(j\w+|call\w*|ret\w*|b|bl|br|blr|cbn?z|tbn?z|b\.\w+)( |$)')
 
 def basic_blocks(counts, base, texts):
     """Returns the basic blocks: [(addresses of the instructions, number of executions)]. QEMU's own blocks are not
-    used, because they end at page borders and may begin inside each other; so they change whenever the linker
-    moves code."""
+    used, because they end at page borders and can overlap; so they change whenever the linker moves code."""
     ran = {}
     for (offset, size), (_, count) in counts.blocks.items():
         for address in range(base + offset, base + offset + size):

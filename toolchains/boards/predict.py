@@ -1,5 +1,5 @@
-"""Predicts the time of a frame on each board: of its steps on both engines, of the whole frame for each placement of
-steps, and which engine is faster."""
+"""Predicts the time of a frame on each board: the time of each step on both engines, the faster engine of each step,
+and the time of the whole frame for each assignment of steps to engines."""
 import gpu_model
 
 STEPS = ('plan', 'pyramid', 'flow', 'weigh', 'detail')
@@ -54,7 +54,7 @@ def cpu_steps(board, cycles, output, model, cores, moving=True):
 
 
 def placements(cpu, gpu):
-    """Returns the time of a frame [ms] for each placement of its steps on engines. `cpu` and `gpu` are times of the
+    """Returns the time of a frame [ms] for each assignment of its steps to engines. `cpu` and `gpu` are times of the
     steps; `gpu` is None without a GPU."""
     host = cpu.get('plan', 0) + cpu.get('rest', 0)  # steps without shaders
     sums = {'simd': sum(cpu.values())}

@@ -28,7 +28,7 @@ def gpu_name(board, model):
 
 
 def placement(result):
-    """Returns the name of the fastest placement of steps on engines, for a table cell."""
+    """Returns the name of the fastest assignment of steps to engines, for a table cell."""
     names = {'simd': 'SIMD', 'gles': 'GLES', 'match simd, draw gles': 'SIMD, detail GLES',
              'match gles, draw simd': 'GLES, detail SIMD'}
     return names[result['best']]
@@ -58,8 +58,8 @@ def frames_table(model, results):
 
 
 def predicted_frames(model, results):
-    """Returns the table that pipeline/engine_guess.cpp includes: for each GPU, the time of a moving frame for each
-    placement [ms]."""
+    """Returns the table that pipeline/engine_guess.cpp includes: for each GPU, the time of a moving frame [ms] for each
+    assignment of steps to engines."""
     order = ('simd', 'match simd, draw gles', 'match gles, draw simd', 'gles')
     lines = ['// Written by ./run board-report.']
     for key, board in model['boards'].items():

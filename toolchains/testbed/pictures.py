@@ -34,9 +34,9 @@ class Pattern:
 
 class Film:
     """Pictures from a file of mfar-film, which contains them one after the other, with their times [s]
-    in a second file. The film runs forwards and backwards in turn, up to the time `span`, so that the
-    view never jumps. Films with the same span stay synchronous. `numbered`: the picture's number is drawn
-    into it. `held`: only the first picture is shown."""
+    in a second file. The film runs forwards up to the time `span`, then backwards, and so on, so that
+    the view never jumps. Films with the same span stay synchronous. `numbered`: the picture's number is
+    drawn into it. `held`: only the first picture is shown."""
 
     held = False
 

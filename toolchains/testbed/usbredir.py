@@ -24,8 +24,8 @@ CONTROL_TYPE, BULK_TYPE, NO_ENDPOINT = 0, 2, 255
 
 
 class UsbRedirLink:
-    """One connection to QEMU. It calls the methods connected(), control(), bulk_requested() and
-    bulk_cancelled() of `device` for the packets."""
+    """One connection to QEMU. It handles QEMU's packets by calls of `device`: connected(), control(),
+    bulk_requested() and bulk_cancelled()."""
 
     def __init__(self, connection, device):
         self._connection = connection

@@ -146,7 +146,7 @@ public:
         return eval::wallMs([&] { paper_.run(work_.frames[i]); });
     }
     void measure(std::size_t i) { ms_.push_back(run(i)); }
-    /// `ours`: times of the product's frames, which took turns with the frames of this peer [ms].
+    /// `ours`: times of the product for the same frames [ms].
     [[nodiscard]] PeerResult result(const CaseResult& of, const std::vector<double>& ours) const {
         const Summary own = summarise(ms_);
         std::vector<double> ratios;

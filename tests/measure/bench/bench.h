@@ -25,10 +25,10 @@ struct CaseResult {
     std::string name;
     Summary frame;
     std::vector<StageSummary> stages;  ///< from a separate run that waits after each stage
-    std::array<double, kTileClasses> tileShare{};  ///< mean share of the tiles of each TileClass
+    std::array<double, kTileClasses> tileShare{};  ///< share of each TileClass in all tiles
 };
 
-/// Times of the paper's method, built on OpenCV. Its frames and the product's took turns.
+/// Times of the paper's method, built on OpenCV. It processed each frame right after the product.
 struct PeerResult {
     std::string name;
     std::string of;  ///< name of the CaseResult with which the peer is compared
@@ -38,7 +38,7 @@ struct PeerResult {
     double low = 0, high = 0;  ///< 10th and 90th percentile of the ratios of single frames
 };
 
-/// Frame times of the cases "moving" and "handheld" with a number of threads and an output size.
+/// Frame times of the cases "moving" and "handheld" for one number of threads and one output size.
 struct ScalingResult {
     int threads = 0;
     Size output;

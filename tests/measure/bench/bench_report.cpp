@@ -139,9 +139,9 @@ std::string toTable(const BenchResult& result) {
     }
     for (const PeerResult& peer : result.peers)
         out += line("peer " + peer.name, peer.frame) +
-               fmt::format("  {0} takes {2:.2f} of the time of {1}; frame by frame {3:.2f} (10th "
-                           "percentile) to {4:.2f} (90th)\n",
-                           peer.of, peer.name, peer.ratio, peer.low, peer.high);
+               fmt::format("  mfar (case {}) takes {:.2f} of this time; ratios of single frames: "
+                           "{:.2f} (10th percentile) to {:.2f} (90th)\n",
+                           peer.of, peer.ratio, peer.low, peer.high);
     for (const ScalingResult& s : result.scaling)
         out += fmt::format("{} thread{}, output {:>4}x{:<4}  frame time: moving {:>7.2f} ms  "
                            "handheld {:>7.2f} ms\n",

@@ -10,8 +10,8 @@ namespace mfar::bench {
 /// Columns: method,knob,value,default,ms,epe_px,bad1. In rows of peers, knob and value are empty.
 [[nodiscard]] std::string curvesCsv(const Curves& curves);
 
-/// Chart with logarithmic axes: time on x, bad-1 on y. Each method has a panel, each knob a line,
-/// and the default has a ring.
+/// Chart with logarithmic axes: time on x, bad-1 on y. Each method has a panel and each knob a
+/// line. A ring marks the default value of a knob.
 [[nodiscard]] std::string curvesSvg(const Curves& curves);
 
 /// Writes curves.csv and curves.svg into `folder`. Throws EvalError if this fails.

@@ -26,7 +26,7 @@ std::size_t count(const std::string& text, const std::string& what) {
     return n;
 }
 
-TEST(CurvesCsv, HasARowForEveryValueAndPeer) {
+TEST(CurvesCsv, HasARowForEveryKnobValueAndPeer) {
     EXPECT_EQ(curvesCsv(twoCurves()), "method,knob,value,default,ms,epe_px,bad1\n"
                                       "flow2d,steps,0,0,10.000,0.5000,0.200000\n"
                                       "flow2d,steps,4,1,20.500,0.2500,0.100000\n"

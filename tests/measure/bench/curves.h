@@ -24,7 +24,8 @@ struct Curve {
     std::vector<CurvePoint> points;
 };
 
-/// One of OpenCV's flow algorithms, computed in one direction. It gets the samples of the curves.
+/// One of OpenCV's flow algorithms, computed in one direction. It is measured on the same samples
+/// as the curves.
 struct CurvePeer {
     std::string name;
     CurvePoint point;

@@ -51,8 +51,8 @@ double p95(const GovernedRun& run, std::size_t from) {
 std::string governorTable(std::span<const GovernedRun> runs) {
     std::string out;
     for (const GovernedRun& run : runs) {
-        out += fmt::format("deadline {0:.0f} ms: p95 of all frame times {1:.1f} ms; without the "
-                           "first {3} frames after each change of scene {2:.1f} ms\n",
+        out += fmt::format("deadline {0:.0f} ms: p95 of all frame times is {1:.1f} ms; without the "
+                           "first {3} frames of each scene, it is {2:.1f} ms\n",
                            run.deadlineMs, p95(run, 0), p95(run, kSettling), kSettling);
         out += fmt::format("  {:<10}{:>9}{:>9}{:>7}{:>9}  quality levels (frames)\n", "scene",
                            "med. ms", "p95 ms", "late", "settled");

@@ -33,7 +33,8 @@ constexpr const char* kHelp =
     "noise of sigma 2 grey levels.\n"
     "mfar learns its filters from stills before the measurement. Whole frames are timed without "
     "interruption until the picture is finished; stages are timed in a separate run. The peers are "
-    "the paper's method with OpenCV's flow (DIS medium, DIS fast). They run in turn with mfar.";
+    "the paper's method with OpenCV's flow (DIS medium, DIS fast). They process each frame right "
+    "after mfar.";
 
 struct Options {
     std::string recording, json, mode = "detail", engine = "auto";

@@ -15,7 +15,7 @@ struct ParetoPoint {
     double error = 0;  ///< in the unit of ParetoStage::measure; smaller is better
 };
 
-/// All methods for one stage, measured in turn in one run.
+/// All methods for one stage, measured in the same run.
 struct ParetoStage {
     std::string name;
     std::string measure;

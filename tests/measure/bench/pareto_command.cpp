@@ -44,12 +44,12 @@ std::vector<QualityLevel> levelsOf(const ParetoStage& superres) {
 
 ParetoCommand::ParetoCommand(CLI::App& app)
     : command_(app.add_subcommand("pareto",
-                                  "run time against error: measures every setting of flow, "
-                                  "super-resolution, depth, slicing and warp, and every peer, in "
-                                  "turn in one run; each gives a point (median time, error)")) {
+                                  "run time against error: measures every setting and peer of "
+                                  "flow, super-resolution, depth, slicing and warp; each gives a "
+                                  "point (median time, error)")) {
     command_
         ->add_option("--stages", stages_,
-                     fmt::format("stages to measure, of: {}", fmt::join(stages_, ", ")))
+                     fmt::format("stages to measure: any of {}", fmt::join(stages_, ", ")))
         ->delimiter(',')
         ->check(CLI::IsMember(stages_));
     command_->add_option("--data", data_,
@@ -61,15 +61,18 @@ ParetoCommand::ParetoCommand(CLI::App& app)
                      "number of samples from each folder (default 2) and number of frames of each "
                      "synthetic sequence (default 12)")
         ->check(CLI::Range(1, 1000));
-    command_->add_option("--rounds", run_.rounds, "number of times that each point is timed")
+    command_
+        ->add_option("--rounds", run_.rounds,
+                     "number of times that each point of flow, superres and depth is timed")
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
     const std::map<std::string, Clock> clocks{{"wall", Clock::Wall},
                                               {"processor", Clock::Processor}};
     command_
         ->add_option("--clock", run_.clock,
-                     "clock of the measurement: wall, or processor (processor time divided by the "
-                     "number of cores; use it if other programs run at the same time)")
+                     "clock for flow, superres and depth: wall, or processor (processor time "
+                     "divided by the number of cores; use it if other programs run at the same "
+                     "time)")
         ->transform(CLI::CheckedTransformer(clocks));
     command_->add_option("--csv", csv_, "file to write all points into");
     command_->add_option("--svg", svg_, "file to write a plot with the Pareto fronts into");

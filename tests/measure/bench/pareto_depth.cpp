@@ -129,7 +129,8 @@ std::vector<DepthSample> depthSamplesOf(const std::vector<std::filesystem::path>
     for (std::size_t i = 0; i < folders.size(); ++i) {
         const eval::FlowSet set = eval::depthSamplesOf(folders[i]);
         for (std::size_t k = 0; k < std::min(most, set.samples.size()); ++k) {
-            // The flow is NaN at pixels that are occluded in the still.
+            // The true flow is NaN at pixels that are occluded in the still. Their depth is set to
+            // NaN as well, so that no method is judged there.
             const cv::Mat flow = eval::loadTruth(set, set.samples[k]);
             FloatImage image = loadPfm(set.samples[k].truth);
             cv::Mat rho = cv::Mat(flow.size(), CV_32F, image.values.data()).clone();

@@ -71,7 +71,7 @@ ParetoStage warpStage(bool quick) {
 
 ParetoStage slicingStage(bool quick) {
     eval::SlicingRequest request;
-    request.frames = 8;  // few, because time and error, which are used below, do not depend on it
+    request.frames = 8;  // few, because only the times and errors of pictures are used below
     if (quick) {
         request.size = {48, 36};
         request.samples = 8;

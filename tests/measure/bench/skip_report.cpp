@@ -44,8 +44,11 @@ std::string verdicts(const SkipReport& report) {
             if (loses(r)) costs += " " + r.scene;
         }
         out += fmt::format(
-            "  {:<20} saves time in {}{}\n", name, where.empty() ? "no case" : "case:" + where,
-            costs.empty() ? "" : "; loses more than 0.1 dB or percentage points in case:" + costs);
+            "  {:<20} saves time in {}{}\n", name,
+            where.empty() ? "no case" : "these cases:" + where,
+            costs.empty()
+                ? ""
+                : "; loses more than 0.1 dB or 0.1 percentage points in these cases:" + costs);
     }
     return out;
 }
@@ -60,7 +63,7 @@ std::string skipTable(const SkipReport& report) {
                            c.framesInView, 100 * c.changed);
     out +=
         "\nTime of a frame [ms] with and without each skip, and the accuracy that the skip loses "
-        "(bad-1, overlap: percentage points)\n";
+        "(bad-1, overlap: percentage points; losses above 0.1 are marked)\n";
     out += fmt::format("{:<14}{:<20}{:>9}{:>10}{:>9}{:>9}{:>10}{:>10}\n", "case", "skip", "ms",
                        "without", "saved", "dB lost", "bad-1", "overlap");
     for (const SkipResult& r : report.results)

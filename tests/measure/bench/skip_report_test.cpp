@@ -26,11 +26,12 @@ TEST(SkipReport, CsvHasALineForEachResult) {
 TEST(SkipReport, TableNamesSkipsThatSaveTimeAndSkipsThatLoseTooMuchAccuracy) {
     const std::string table = skipTable(twoSkips());
     EXPECT_NE(
-        table.find("tiles                saves time in case: still; loses more than 0.1 dB or "
-                   "percentage points in case: office\n"),
+        table.find("tiles                saves time in these cases: still; loses more than 0.1 dB "
+                   "or 0.1 percentage points in these cases: office\n"),
         std::string::npos)
         << table;
-    EXPECT_NE(table.find("objects              saves time in case: office\n"), std::string::npos)
+    EXPECT_NE(table.find("objects              saves time in these cases: office\n"),
+              std::string::npos)
         << table;
     EXPECT_EQ(std::count(table.begin(), table.end(), '!'), 1);
 }

@@ -10,22 +10,24 @@
 namespace mfar::bench {
 
 struct SkipResult {
-    std::string skip, scene;  ///< kind of skipped work, name of the case
+    std::string skip, scene;  ///< name of the skip (a kind of work that is left out), of the case
     /// Median frame time with and without the skip.
     double ms = 0, msWithout = 0;
-    /// Loss of accuracy by the skip. A value is empty if it cannot be measured.
-    std::optional<double> psnrLost;  ///< PSNR of the picture outside virtual objects [dB]
-    /// Added share of wrong depths among pixels whose depth decides if an object is visible
-    /// [percentage points].
+    /// Loss of PSNR by the skip [dB], outside virtual objects. This value and the next two are
+    /// empty if they cannot be measured.
+    std::optional<double> psnrLost;
+    /// Increase of the share of wrong depths by the skip [percentage points]. Counts only pixels
+    /// whose depth decides if an object is visible.
     std::optional<double> bad1Added;
-    std::optional<double> overlapLost;  ///< overlap of shown and true object [percentage points]
+    /// Loss of overlap between the shown and the true object by the skip [percentage points].
+    std::optional<double> overlapLost;
 };
 
 /// Counters of a case with all skips enabled.
 struct SkipCase {
     std::string scene;
     double ms = 0;
-    long depthTiles = 0;  ///< sum over the frames of the tiles in which depth was searched
+    long depthTiles = 0;  ///< number of tiles in which depth was searched, summed over the frames
     long framesInView = 0;
     double changed = 0;
 };
@@ -45,7 +47,8 @@ struct SkipRequest {
 [[nodiscard]] std::vector<std::string> skipNames();
 [[nodiscard]] std::vector<std::string> skipCaseNames();
 
-/// Runs every case with all skips enabled and with each skip disabled, in turn for each frame.
+/// Measures every case in several variants: one with all skips enabled, and one for each skip, in
+/// which only that skip is disabled. Each frame is processed by all variants, one after the other.
 /// Needs a current GL context.
 [[nodiscard]] SkipReport measureSkips(const SkipRequest& request);
 

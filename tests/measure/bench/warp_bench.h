@@ -11,8 +11,8 @@ namespace mfar::bench {
 struct WarpTimes {
     Summary objects;  ///< balls with shadows that cover a ninth of the picture
     Summary whole;
-    Summary still;       ///< like `objects`, but the camera has not turned
-    Summary newPicture;  ///< like `objects`: CPU work and upload of a new traced picture
+    Summary still;       ///< picture of `objects`, warped to the view in which it was traced
+    Summary newPicture;  ///< CPU work and upload when the picture of `objects` is replaced
     Summary remap;       ///< peer: cv::remap of the whole picture, bilinear
 };
 

@@ -50,13 +50,13 @@ inline constexpr int kLessons = 4;
 /// frames, resized to the given sizes. Needs no current GL context. Repeated calls give equal
 /// pictures.
 [[nodiscard]] Workload handheldWorkload(Size video, Size still, int frames, int lessons = 0);
-/// Uses any `board` of Pace::Consumer that has not been started.
+/// Gets the pictures from `board`, which must have Pace::Consumer and must not have been started.
 [[nodiscard]] Workload handheldWorkload(SyntheticBoard& board, Size video, Size still, int frames,
                                         int lessons = 0);
 
 /// Frames of a recording with poses and with the stills that mfar-eval would use. A short recording
-/// starts again from its first frame. A lesson is a still with its first frame. Throws EvalError
-/// and RecordingError.
+/// starts again from its first frame. A lesson is a still with the first frame that uses it. Throws
+/// EvalError and RecordingError.
 [[nodiscard]] Workload recordedWorkload(const std::filesystem::path& folder, int frames);
 
 /// Repeats the first frame, as a camera at rest would see it. `noise`: standard deviation of sensor

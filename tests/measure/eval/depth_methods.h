@@ -17,7 +17,7 @@ public:
     virtual void setStill(const Shot& still) = 0;
     struct Result {
         cv::Mat inverseDepth;  ///< CV_32F [1/m] of every video pixel; 0: unknown
-        double ms = 0;         ///< wall time as in FlowMethod::Result::ms, with triangulation
+        double ms = 0;         ///< like FlowMethod::Result::ms; includes triangulation
         cv::Mat variance{};    ///< CV_32F [1/m^2]; empty if the method has none
     };
     [[nodiscard]] virtual Result run(const Shot& frame) = 0;

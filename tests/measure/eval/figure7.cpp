@@ -20,7 +20,7 @@ namespace mfar::eval {
 namespace {
 
 constexpr int kStillEvery = 10;
-constexpr int kScoredFrame = 5;  // the measured frame, counted from the request
+constexpr int kScoredFrame = 5;  // the fifth frame after the request of a still is measured
 
 class Figure7Run {
 public:
@@ -73,7 +73,7 @@ private:
     std::optional<Timestamp> stillTime_;
 };
 
-/// Learns filters from the next stills of one scene only.
+/// Learns filters from the next `stills` stills of this scene.
 std::shared_ptr<const FilterBank> learnedFrom(SceneRun& board, int stills) {
     StillLearning learning;
     learning.begin(board.rig());

@@ -13,7 +13,7 @@ std::size_t count(const std::string& text, const std::string& what) {
     return n;
 }
 
-/// Q falls by 10 and LPC-SI by 0.1 from each method to the next.
+/// Scores that fall from each method to the next: Q by 10, and LPC-SI by 0.1.
 Figure7Scene steps(const std::string& name, std::size_t frames) {
     Figure7Scene out{name, std::vector<std::string>(frames, "0"), {}};
     for (std::size_t m = 0; m < figure7Methods().size(); ++m) {

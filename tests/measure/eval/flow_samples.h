@@ -28,11 +28,10 @@ struct FlowSet {
 /// the next higher number. A still with the frame's own view is never used. Both pictures of a pair
 /// get the same pinhole camera. Throws EvalError and RecordingError.
 ///
-/// A recording may have truth of three kinds, of which the first existing one is used. 1.
-/// truth/flow/<ns>_<ns>.flo from a video frame to a still. 2. truth/inverse_depth of a video frame
-/// in a scene at rest, if the pose relative to the still of referenceStill() is known. 3.
-/// truth/flow between two video frames: the second frame serves as the still, and both cameras are
-/// the video camera.
+/// The truth of a recording is the first of these that exists. 1. truth/flow/<ns>_<ns>.flo from a
+/// video frame to a still. 2. truth/inverse_depth of a video frame in a scene at rest, if the pose
+/// relative to the still of referenceStill() is known. 3. truth/flow between two video frames: the
+/// second frame serves as the still, and both cameras are the video camera.
 [[nodiscard]] FlowSet flowSamplesOf(const std::filesystem::path& folder);
 
 /// Like flowSamplesOf(), but uses only truth/inverse_depth (kind 2), with known poses.

@@ -108,8 +108,8 @@ TEST(FlowTruth, ASlantedSurfaceDoesNotOccludeItself) {
     }
 }
 
-/// flowOfInverseDepth() finds occluded pixels by projecting depth. Rays through the exact world
-/// must agree.
+/// flowOfInverseDepth() finds occluded pixels by projecting depth. Rays through the exact scene
+/// must give the same flow and the same occluded pixels.
 TEST(FlowTruth, AgreesWithRaysThroughTheSyntheticScene) {
     using synthetic::Path;
     StereoRig rig = synthetic::boardRig();
@@ -138,8 +138,8 @@ TEST(FlowTruth, AgreesWithRaysThroughTheSyntheticScene) {
             }
         EXPECT_EQ(far, 0);
         EXPECT_GT(both, 8000);
-        // Known pixels may differ by one pixel at silhouettes, and at the border because of the
-        // lens.
+        // The sets of known pixels differ by up to one pixel at silhouettes, and at the border
+        // because of the lens.
         EXPECT_GT(both, 0.95 * either);
     }
 }

@@ -6,14 +6,14 @@
 
 namespace mfar::eval {
 
-/// A logarithmic axis that spans all included values, which must be above 0.
+/// A logarithmic axis that spans all values that were passed to include(). They must be above 0.
 class LogAxis {
 public:
     void include(double value) {
         least_ = std::min(least_, value);
         most_ = std::max(most_, value);
     }
-    /// Position of a value: [0, 1] spans the included values and a margin on both sides.
+    /// Position of a value on the axis. The axis is [0, 1] and has a margin at both ends.
     [[nodiscard]] double at(double value) const {
         if (!(least_ <= most_)) return 0;
         return (std::log(value / least_) + kMargin) / (std::log(most_ / least_) + 2 * kMargin);

@@ -153,7 +153,7 @@ CLI::App* addSuperRes(CLI::App& app, Options& o) {
                     "folders of recordings, in the EuRoC layout")
         ->required();
     sub->add_option("--methods", o.superres.methods,
-                    "methods to measure, of: " + joined(superResMethodNames()))
+                    "methods to measure: any of " + joined(superResMethodNames()))
         ->delimiter(',');
     sub->add_option(
         "--dnn-model", o.superres.dnnModels,
@@ -165,7 +165,7 @@ CLI::App* addSuperRes(CLI::App& app, Options& o) {
     addPoseSource(*sub, o.superres.poses);
     addDisturbances(*sub, o);
     sub->add_option("--degrade-video", o.degradeVideo,
-                    "degrade the video like --degrade the still, but with blur in video px");
+                    "degrade the video; values as in --degrade, but blur in video px");
     addPictureMetrics(*sub, o.superres.metrics);
     sub->add_option(
            "--alpha", o.superres.alpha,
@@ -174,7 +174,7 @@ CLI::App* addSuperRes(CLI::App& app, Options& o) {
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
     sub->add_flag("--no-still", o.superres.noStill,
-                  "give no still to any method, and leave out those that need one")
+                  "give no still to the methods, and leave out methods that need one")
         ->excludes("--classes");
     addStills(*sub, o.superres);
     sub->add_option("--frames", o.superres.frames,
@@ -193,7 +193,7 @@ CLI::App* addSamples(CLI::App& app, const char* name, const char* what, const ch
     request.methods = methods;
     sub->add_option("folder", request.folders, "folders of recordings, or of pairs of frames")
         ->required();
-    sub->add_option("--methods", request.methods, "methods to measure, of: " + joined(methods))
+    sub->add_option("--methods", request.methods, "methods to measure: any of " + joined(methods))
         ->delimiter(',');
     addPoseSource(*sub, request.poses);
     addDisturbances(*sub, o);

@@ -30,7 +30,7 @@ std::string isNoise(const std::string& text) {
 CLI::App* addOcclusionCommand(CLI::App& app, OcclusionRequest& request, std::string& csv) {
     CLI::App* sub = app.add_subcommand(
         "occlusion",
-        "compare with the truth how real things of synthetic scenes occlude virtual objects");
+        "measure how accurately real things in synthetic scenes occlude virtual objects");
     sub->footer(kOcclusionHelp);
     addNames(*sub, "--scenes", request.scenes,
              "synthetic scenes of mfar-sim (default: office,shelf)", synthetic::sceneNamed);

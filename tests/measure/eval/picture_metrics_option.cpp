@@ -53,8 +53,9 @@ void addMetricParameters(CLI::App& sub, PictureMetrics& metrics) {
 }
 
 void addPictureMetrics(CLI::App& sub, PictureMetrics& metrics) {
-    sub.add_option("--metrics", metrics.names,
-                   fmt::format("metrics to compute, of: {}", fmt::join(pictureMetricNames(), ", ")))
+    sub.add_option(
+           "--metrics", metrics.names,
+           fmt::format("metrics to compute: any of {}", fmt::join(pictureMetricNames(), ", ")))
         ->delimiter(',')
         ->check(CLI::IsMember(pictureMetricNames()))
         ->option_text(fmt::format("NAMES (default: {})", fmt::join(metrics.names, ",")));

@@ -96,8 +96,8 @@ public:
         report_.add(recording_, std::to_string(time.ns), method_, std::move(row));
     }
 
-    /// Adds the row with the medians. Call it after Report::addMeans(), which would include this
-    /// row.
+    /// Adds the row with the medians. Call it after Report::addMeans(), because otherwise the means
+    /// would include this row.
     void addMedian() const {
         if (rows_.empty()) return;
         Values out = none();

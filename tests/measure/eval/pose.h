@@ -24,9 +24,9 @@ struct PoseRequest {
 /// from its own tags only; still: pose of a still from its own tags.
 [[nodiscard]] const std::vector<std::string>& poseMethodNames();
 
-/// Columns without a meaning for a folder stay empty. The last rows are the means, and the medians
-/// of each recording and method with the number of flips. Throws EvalError, RecordingError,
-/// TagMapError and ImageFileError.
+/// Columns that do not apply to a folder stay empty. The last rows are the means, then the medians
+/// of each recording and method. Only rows of medians have the number of flips. Throws EvalError,
+/// RecordingError, TagMapError and ImageFileError.
 [[nodiscard]] Report evaluatePose(const PoseRequest& request);
 
 }  // namespace mfar::eval

@@ -25,8 +25,9 @@ CLI::App* addPoseCommand(CLI::App& app, PoseRequest& request, std::string& csv) 
     sub->footer(kPoseHelp);
     request.methods = poseMethodNames();
     sub->add_option("folder", request.folders, "folders of recordings or of pictures")->required();
-    sub->add_option("--methods", request.methods,
-                    fmt::format("methods to measure, of: {}", fmt::join(poseMethodNames(), ", ")))
+    sub->add_option(
+           "--methods", request.methods,
+           fmt::format("methods to measure: any of {}", fmt::join(poseMethodNames(), ", ")))
         ->delimiter(',');
     sub->add_option("--frames", request.frames, "measure at most this many frames of each folder")
         ->check(CLI::Range(1, 1000000));

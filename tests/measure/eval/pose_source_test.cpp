@@ -27,7 +27,7 @@ RigidTransform standsAt(Timestamp time) {
 }
 
 /// Four frames with tags, a still between two of them, then a frame without tags. The recorded
-/// poses are wrong on purpose.
+/// poses are wrong, so that the tests can tell them from poses found from tags.
 Recording recordedIn(const std::filesystem::path& root) {
     const StereoRig rig{testCamera(), testCamera().scaledTo({1280, 960}), {}};
     Recorder recorder(root, rig, 30);

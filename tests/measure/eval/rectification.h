@@ -10,12 +10,12 @@ namespace mfar::eval {
 
 /// Two views, rotated so that both have the same pinhole camera. A point at (u, v) in the first
 /// view lies at (u - d, v) in the second, with d = fx |baseline| / depth >= 0. u follows the
-/// baseline, so a picture may lie on its side.
+/// baseline, so a vertical baseline turns the pictures on their side.
 class Rectification {
 public:
     /// Both views have the lens and size of `camera`. `T_second_first` maps camera coordinates of
-    /// the first view to the second. `disparities`: width of a margin on the left, in which the
-    /// second view shows what the border of the first shows [px]. Empty if the views cannot be
+    /// the first view to the second. `disparities`: width of a margin on the left [px], into which
+    /// points at the first view's left border move in the second view. Empty if the views cannot be
     /// rectified, because the baseline is zero or points into or near a picture.
     [[nodiscard]] static std::optional<Rectification>
     of(const CameraModel& camera, const RigidTransform& T_second_first, int disparities);

@@ -31,8 +31,8 @@ public:
     [[nodiscard]] const FlowSet& set() const { return set_; }
     [[nodiscard]] const std::string& label() const { return label_; }
 
-    /// Calls `frame` for every sample in the order of their times. Calls `still` before each sample
-    /// with another still. Throws EvalError and ImageFileError.
+    /// Calls `frame` for every sample in the order of their times. Before the first sample, and
+    /// whenever the still changes, calls `still`. Throws EvalError and ImageFileError.
     void each(const std::function<void(const Shot&)>& still,
               const std::function<void(const FlowSample&, const Shot&)>& frame) const;
 

@@ -7,8 +7,8 @@
 
 namespace mfar::eval {
 
-/// Virtual objects of which half is hidden behind real objects of the scene. Empty for scenes
-/// without such objects.
+/// A sphere that is half hidden behind real objects of the scene. Empty for scenes other than
+/// office and shelf.
 [[nodiscard]] std::vector<VirtualObject> sceneObjects(synthetic::Scene scene);
 
 }  // namespace mfar::eval

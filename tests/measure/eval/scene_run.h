@@ -48,7 +48,8 @@ private:
 
 const FrameResult& runOn(Pipeline& pipeline, const SceneRun::Shots& shots);
 
-/// Share (0 to 1) of each output pixel that shows a virtual object, CV_32F.
+/// Returns for each output pixel the share of its area that shows a virtual object, CV_32F in
+/// [0, 1].
 [[nodiscard]] cv::Mat shownObjects(const Pipeline& pipeline);
 /// Reduces the result of shownObjects() to the video's size: CV_8U, 255 where at least half of a
 /// video pixel shows an object, else 0.

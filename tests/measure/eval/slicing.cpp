@@ -100,21 +100,21 @@ Report evaluateSlicing(const SlicingRequest& request) {
     panel.xLabel = "processor time [ms]";
     panel.yLabel = "RMSE [grey levels]";
     for (const SlicingMethod& method : kSlicingMethods) {
-        next("error of", method.name);
+        next("error of method", method.name);
         addErrors(report, method.name, slicedErrors(scene, slicesOf(method, request.samples, 1)),
                   panel);
     }
-    next("error of", "full");
+    next("error of method", "full");
     addErrors(report, "full", wholeErrors(scene, request.samples), panel);
     for (const SlicingMethod& method : kSlicingMethods) {
         if (method.adaptive) continue;
-        next("frame times of", method.name);
+        next("frame times of method", method.name);
         addFrames(report, method.name,
                   frameTimes(scene, slicesOf(method, request.samples, 1), kFramesOfPicture));
     }
     for (const SlicingMethod& method : kSlicingMethods) {
         if (method.adaptive) continue;
-        next("use of the budget by", method.name);
+        next("use of the budget by method", method.name);
         const BudgetRun run =
             budgetRun(slicesOf(method, request.samples, 2), request.size, request.budgetMs,
                       request.threads, request.frames, kTurnPerSecond);

@@ -45,7 +45,7 @@ CLI::App* addSlicingCommand(CLI::App& app, SlicingRequest& request) {
         ->check(CLI::Range(1, 300))
         ->capture_default_str();
     sub->add_option("--threads", request.threads,
-                    "number of threads for the frames under the budget")
+                    "number of threads for the truth and for the frames of the rows `budget`")
         ->check(CLI::Range(1, 64))
         ->capture_default_str();
     sub->add_option("--svg", request.svg, "file to write a plot of error against time into");

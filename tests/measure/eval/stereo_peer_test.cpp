@@ -96,8 +96,8 @@ TEST(Rectification, PutsEveryPointOnTheSameRowAndNearerPointsFartherLeft) {
                 EXPECT_LT(place.y(), views->size().height);
                 const Vector3d point = motion * (depth * camera.unproject({x, y}).homogeneous());
                 const Eigen::Vector2d seen = camera.project(point.head<2>() / point.z());
-                // For one disparity d, toSecond() must return the position of the point in the
-                // second view.
+                // There must be a disparity d for which toSecond() returns the point's position in
+                // the second view.
                 double best = 1e9;
                 for (double d = 0; d < 40; d += 0.01)
                     best = std::min(best,
@@ -106,7 +106,7 @@ TEST(Rectification, PutsEveryPointOnTheSameRowAndNearerPointsFartherLeft) {
             }
 }
 
-TEST(Rectification, RectifiedPicturesStayUnchanged) {
+TEST(Rectification, AlreadyRectifiedViewsAreOnlyPaddedOnTheLeft) {
     CameraModel camera = crookedPairRig().video;
     camera.distortion = {};
     camera.fy = camera.fx;

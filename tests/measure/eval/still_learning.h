@@ -16,8 +16,8 @@ class StillLearning final : public MatchListener {
 public:
     /// Call this before the first still of a pipeline with this rig.
     void begin(const StereoRig& rig);
-    /// `may`: the next still may serve as the truth of the last frame (default: true). Must be
-    /// false if that still shows the frame's own view.
+    /// Permits (default) or forbids that the next still serves as the truth of the last frame. It
+    /// must be forbidden if that still shows the frame's own view.
     void setMayUseOlder(bool may) { mayUseOlder_ = may; }
     [[nodiscard]] std::shared_ptr<const FilterBank> filters() const { return learner_.filters(); }
     /// Prints one line on what was learned to stderr.

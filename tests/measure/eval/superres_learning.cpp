@@ -56,8 +56,8 @@ void learnFrom(const Recording& recording, const SuperResRequest& request, int& 
                                      request.videoDegradation,
                                      ~static_cast<std::uint64_t>(at.ns) - 1),
                              at, pose.frame};
-            // Learning must not use a still that shows the last frame's own view, because this is
-            // the frame's true picture.
+            // Learning must not use a still that shows the last frame's own view, because such a
+            // still is the frame's true picture.
             learning.setMayUseOlder(last && !showsOwnView(recording, stillAt, *last));
             last = at;
             PipelineShot(reference).giveAsStill(pipeline);

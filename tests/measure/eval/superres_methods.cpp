@@ -35,7 +35,8 @@ public:
     Result run(const Shot& frame) override {
         const PipelineShot shot(frame, usePoses_);
         shot.run(pipeline_);
-        // Reads the picture of the first run, because a second run could start from its result.
+        // Reads the picture before the second run, which is timed, because the second run could
+        // start from the first run's result.
         Result out{fromRgba(pipeline_.readImage(), pipeline_.outputSize()), 0};
         glFinish();
         out.ms = wallMs([&] {

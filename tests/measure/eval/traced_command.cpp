@@ -37,8 +37,9 @@ CLI::App* addTracedCommand(CLI::App& app, TracedRequest& request) {
         ->delimiter(',');
     addNames(*sub, "--paths", request.paths,
              "paths of the camera (default: handheld,orbit,forward)", synthetic::pathNamed);
-    sub->add_option("--methods", request.methods,
-                    fmt::format("methods to measure, of: {}", fmt::join(tracedMethodNames(), ", ")))
+    sub->add_option(
+           "--methods", request.methods,
+           fmt::format("methods to measure: any of {}", fmt::join(tracedMethodNames(), ", ")))
         ->delimiter(',')
         ->check(CLI::IsMember(tracedMethodNames()));
     addSize(*sub, request.size, "layer");
@@ -51,7 +52,7 @@ CLI::App* addTracedCommand(CLI::App& app, TracedRequest& request) {
         ->check(CLI::Range(1, 100000))
         ->capture_default_str();
     sub->add_option("--every", request.every,
-                    "compare a frame and the next one every this many frames")
+                    "number of frames between comparisons; each compares two consecutive frames")
         ->check(CLI::Range(1, 100000))
         ->capture_default_str();
     sub->add_flag("--hdrvdp", request.hdrVdp, "compute HDR-VDP-2 as well, which takes longer");

@@ -19,9 +19,9 @@ constexpr const char* kWarpHelp =
     "in OpenCV; full: no warp, the whole picture is traced anew.\n"
     "psnr_db: of red, green and blue where the truth shows an object; hole_share: holes in\n"
     "objects and shadow, divided by the pixels of the objects; reray_share: rays that fill\n"
-    "holes, divided by the rays of full; reray_of_objects: the same rays, divided by those of\n"
-    "the objects' pixels only; ms: time of the warp after all traced pixels have arrived; of\n"
-    "inpaint: time of the inpainting only; of full: time of the tracing.";
+    "holes, divided by the rays of the method `full`; reray_of_objects: the same rays, divided\n"
+    "by those of the objects' pixels only; ms: time of the warp after all traced pixels have\n"
+    "arrived; for `inpaint`, time of the inpainting only; for `full`, time of the tracing.";
 
 std::string isTurn(const std::string& text) {
     double degrees = -1;
@@ -43,8 +43,9 @@ CLI::App* addWarpCommand(CLI::App& app, WarpRequest& request, WarpFiles& files) 
            "--scenes", request.scenes,
            fmt::format("scenes: any of {}, or glTF files", fmt::join(warpSceneNames(), ", ")))
         ->delimiter(',');
-    sub->add_option("--methods", request.methods,
-                    fmt::format("methods to measure, of: {}", fmt::join(warpMethodNames(), ", ")))
+    sub->add_option(
+           "--methods", request.methods,
+           fmt::format("methods to measure: any of {}", fmt::join(warpMethodNames(), ", ")))
         ->delimiter(',')
         ->check(CLI::IsMember(warpMethodNames()));
     sub->add_option("--degrees", request.degrees, "angles by which the view is turned [degrees]")

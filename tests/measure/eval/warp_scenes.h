@@ -14,8 +14,8 @@ namespace mfar::eval {
 /// `still-life`: balls and boxes next to and behind each other. `showpiece`: the daemon's own
 /// object on a plane that catches its shadow.
 [[nodiscard]] std::vector<std::string> warpSceneNames();
-/// Loads a scene of warpSceneNames(), or a glTF file, whose model keeps its size and stands on the
-/// plane. Throws EvalError.
+/// Loads a scene of warpSceneNames(), or a glTF file. The file's model keeps its size and stands on
+/// a plane. Throws EvalError.
 [[nodiscard]] std::shared_ptr<const Scene> warpScene(const std::string& name);
 
 /// A camera with a slightly distorting lens that looks at the centre of the objects from 35 degrees

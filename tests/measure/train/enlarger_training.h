@@ -13,7 +13,7 @@ class EnlargerTraining {
 public:
     EnlargerTraining();
 
-    /// `heldOut`: the pair only checks filters.
+    /// `heldOut`: the pair only serves to check the filters; nothing is learned from it.
     void add(const TrainingPair& pair, bool heldOut);
 
     struct Outcome {

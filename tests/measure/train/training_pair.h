@@ -9,7 +9,7 @@ namespace mfar::train {
 
 struct Sensor {
     double noise = 0;  ///< standard deviation [grey levels]
-    double blur = 0;   ///< weight of each of the two neighbours along both axes, [0, 1/3]
+    double blur = 0;   ///< weight of each of a pixel's two neighbours along an axis, [0, 1/3]
     unsigned seed = 1;
 };
 
@@ -18,8 +18,8 @@ class TrainingPair {
 public:
     static constexpr int kMargin = 64;
 
-    /// `sharp`: luma in grey levels, at least 64x64. The video is its mean over each pixel's area,
-    /// at kScale times the size, rounded to whole grey levels.
+    /// `sharp`: luma in grey levels, at least 64x64. The video has kScale times this size. Its
+    /// pixels are means of `sharp` over their areas, rounded to whole grey levels.
     TrainingPair(const twin::Grey& sharp, const Sensor& sensor);
 
     [[nodiscard]] Size size() const { return size_; }

@@ -153,8 +153,8 @@ private:
         return focal_ * (along > kNoAngle ? crossOf(s.e, s.u) / along : s.u.norm());
     }
 
-    /// Distance of both rays: |b . n| / |n| with their normal n = r x (u, 0). For parallel rays: |b
-    /// x r| / |r|.
+    /// Distance between the two rays: |b . n| / |n| with their normal n = r x (u, 0). For parallel
+    /// rays: |b x r| / |r|.
     [[nodiscard]] float rayDistance(const Parallax& s) const {
         const float n2 = squaredNormal(s.ray, s.u), apart = crossOf(s.u, s.e);
         const float square = n2 > kNoAngle * kNoAngle

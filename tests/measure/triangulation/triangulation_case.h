@@ -24,7 +24,7 @@ inline twin::TwoViews bentViews(const RigidTransform& T_b_a) {
             T_b_a};
 }
 
-/// Two lenses without distortion. One unit of parallax is 100 px.
+/// Two lenses without distortion, whose focal length is 100 px.
 inline twin::TwoViews plainViews(const RigidTransform& T_b_a) {
     const CameraModel camera{{64, 48}, 100, 100, 31.5, 23.5, {}};
     return {camera, camera, T_b_a};

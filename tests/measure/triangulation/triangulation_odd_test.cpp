@@ -31,7 +31,7 @@ int checked(const std::vector<TriangulatedPoint>& points) {
     return known;
 }
 
-TEST(TriangulationOdd, InvalidFlowAndFlowOutOfViewAreUnknown) {
+TEST(TriangulationOdd, InvalidFlowAndFlowOutOfViewGiveUnknownDepth) {
     const twin::TwoViews views = plainViews(moved(1, {1, 2, 3}, {-0.2, 0, 0}));
     const float values[] = {kNan, kInf, -kInf, 3e38F, -3e38F, 1e9F, -1e9F, 100, -100};
     for (const TriangulationMethod method : kBothMethods)

@@ -150,7 +150,7 @@ TEST(Triangulation, ErrorResidualAndRayDistanceMatchDoublePrecision) {
     }
 }
 
-TEST(Triangulation, PointsBehindACameraAreUnknown) {
+TEST(Triangulation, DepthOfPointsBehindACameraIsUnknown) {
     const OffLine wall;
     int behind = 0;
     const auto fast = triangulated(wall.views, wall.flow, {});

@@ -19,7 +19,7 @@ def show(bed, screen):
         print(f'        {screen}: {said.splitlines()[-2]}')
         expected = read_ppm(bed.share / 'shown.ppm')
         shown = bed.guest.screen()
-        assert shown[:2] == expected[:2], f'{screen}: {shown[:2]} instead of {expected[:2]}'
+        assert shown[:2] == expected[:2], f'{screen}: the picture has the size {shown[:2]} instead of {expected[:2]}'
         wrong = sum(1 for a, b in zip(shown[2], expected[2]) if a != b)
         assert wrong == 0, f'{screen}: {wrong} of {len(shown[2])} bytes differ'
     finally:

@@ -31,8 +31,8 @@ def compare(bed, screen):
     else:
         raise AssertionError('the picture on the screen keeps changing')
     taken = read_png(bed.share / 'snapshot.png')
-    assert taken[:2] == shown[:2], f'{screen}: {taken[:2]} instead of {shown[:2]}'
-    assert len(set(taken[2])) > 50, f'{screen}: the snapshot shows almost no different values'
+    assert taken[:2] == shown[:2], f'{screen}: the snapshot has the size {taken[:2]} instead of {shown[:2]}'
+    assert len(set(taken[2])) > 50, f'{screen}: the bytes of the snapshot have at most 50 different values'
     wrong = sum(1 for a, b in zip(taken[2], shown[2]) if a != b)
     print(f'        {screen}: {shown[0]}x{shown[1]}, {wrong} bytes differ')
     assert wrong == 0, f'{screen}: {wrong} of {len(shown[2])} bytes differ'

@@ -5,8 +5,6 @@ import re
 
 BOOT = {'display': False}
 LIMIT = 1  # s
-# Also sets a screen size. Without a screen, the service would otherwise make pictures as large as
-# stills, which take a second each in the guest.
 CONFIG = '''[superres]
 mode = "off"
 [status]
@@ -42,6 +40,8 @@ def of_the_probe(bed):
 
 
 def of_the_service(bed):
+    # The size is that of the display. With size = "screen" and no display, pictures would be as large as
+    # stills and take a second each in the guest.
     bed.fresh_service('display = "auto"\nsize = "1280x720"\n' + bed.cameras + CONFIG)
     bed.wait_for_pictures(10)
     bed.run('mfarctl status | grep -q "no screen"')

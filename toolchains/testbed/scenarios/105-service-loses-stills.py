@@ -49,7 +49,7 @@ def lose_stills(bed):
 
 
 def ask(bed):
-    # In the guest, mfard may answer later than mfarctl waits; the still is captured nevertheless.
+    # The guest is slow: mfarctl can give up before mfard answers. The still is captured nevertheless.
     bed.run('mfarctl trigger', check=False)
 
 

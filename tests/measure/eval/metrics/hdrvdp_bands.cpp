@@ -136,7 +136,8 @@ cv::Mat BandComparison::neighbours(std::size_t b, std::size_t o) const {
         out += cv::max(bicubicResize(mask, size), 0) / divisor;
     };
     if (b > 0) add(bands_[b - 1], band.norm / 2);
-    if (b + 2 < bands_.size()) add(bands_[b + 1], 2 * band.norm);  // the base masks no band
+    if (b + 2 < bands_.size())
+        add(bands_[b + 1], 2 * band.norm);  // the base is left out, because it masks no band
     return out;
 }
 

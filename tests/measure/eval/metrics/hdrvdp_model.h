@@ -62,8 +62,8 @@ private:
     std::vector<double> values_;
 };
 
-/// Weight in the quality score of a band with this frequency: in releases 2.2.1 and 2.2.2, and in
-/// release 2.2.0.
+/// Weight of a band with this frequency in the quality score. qualityWeight() is that of releases
+/// 2.2.1 and 2.2.2, qualityWeight220() that of release 2.2.0.
 [[nodiscard]] double qualityWeight(double frequency);
 [[nodiscard]] double qualityWeight220(double frequency);
 

@@ -25,8 +25,8 @@ Complex* complexRow(cv::Mat& values, int y) {
     return reinterpret_cast<Complex*>(values.ptr<cv::Vec2d>(y));
 }
 
-/// Frequencies of the bins of one axis [cycles/px]. As in the authors' release, odd lengths are
-/// divided by one less.
+/// Frequencies of the bins of one axis [cycles/px]. The divisor is n, or n - 1 if n is odd, as in
+/// the authors' release.
 std::vector<double> binFrequencies(int n) {
     std::vector<double> out(static_cast<std::size_t>(n));
     for (int k = 0; k < n; ++k)

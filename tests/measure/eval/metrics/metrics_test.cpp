@@ -89,7 +89,7 @@ TEST(TilesBelow, CountsCompleteTilesMoreThanAQuarterGreyLevelWorseThanBicubic) {
 TEST(TilesBelow, OneBadPixelMakesATileWorse) {
     const cv::Mat truth = constant(100, {64, 64}), bicubic = truth + 0.5;
     cv::Mat picture = truth.clone();
-    picture.at<double>(7, 9) = 200;  // RMS of the tile: 100 / 64, more than bicubic's 0.5 + 0.25
+    picture.at<double>(7, 9) = 200;  // RMS error 100 / 64 exceeds bicubic's 0.5 by more than 0.25
     EXPECT_EQ(tilesBelow(picture, bicubic, truth), 1);
 }
 
@@ -142,7 +142,7 @@ TEST(FlowError, UnknownTruthIsIgnoredAndMissingResultsCountAsWrong) {
     EXPECT_DOUBLE_EQ(error.coverage, 0.5);
 }
 
-TEST(FlowError, UnknownTruthGivesNan) {
+TEST(FlowError, WithoutAnyKnownTruthTheErrorIsNan) {
     const cv::Mat truth(2, 2, CV_32FC2, cv::Scalar(2e9, 2e9));
     const FlowError error = flowError(truth, truth);
     EXPECT_EQ(error.known, 0U);

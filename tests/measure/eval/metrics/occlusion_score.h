@@ -11,8 +11,8 @@ struct OcclusionScore {
 };
 
 /// `shown`, `truth`: CV_8U, same size, not 0 where the object is visible. Boundary pixels are
-/// pixels of the object with one of their four neighbours outside it. The picture's edge is no
-/// boundary.
+/// pixels of the object with at least one of their four neighbours outside it. The picture's edge
+/// is no boundary.
 [[nodiscard]] OcclusionScore occlusionScore(const cv::Mat& shown, const cv::Mat& truth);
 
 /// Share of an object's pixels that are shown in only one of two pictures. `before`, `now`: visible

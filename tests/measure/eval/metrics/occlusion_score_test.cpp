@@ -15,7 +15,7 @@ cv::Mat rectangle(const cv::Rect& where) {
     return out;
 }
 
-TEST(OcclusionScore, EqualMasksHaveFullOverlapAndNoBoundaryError) {
+TEST(OcclusionScore, EqualMasksHaveFullOverlapAndZeroBoundaryError) {
     const cv::Mat mask = rectangle({5, 6, 10, 8});
     const OcclusionScore score = occlusionScore(mask, mask);
     EXPECT_EQ(score.overlap, 1);
@@ -31,7 +31,7 @@ TEST(OcclusionScore, AnObjectShiftedByTwoPixelsHasLessOverlapAndABoundaryError) 
     EXPECT_NEAR(score.boundary, (right + left) / 32, 1e-6);
 }
 
-TEST(OcclusionScore, EmptyMasksHaveNoOverlapAndNoBoundaryError) {
+TEST(OcclusionScore, AnEmptyMaskHasNoOverlapAndAnUnknownBoundaryError) {
     const cv::Mat none(kSize, CV_8U, cv::Scalar(0)), some = rectangle({5, 6, 10, 8});
     EXPECT_TRUE(std::isnan(occlusionScore(none, none).overlap));
     EXPECT_EQ(occlusionScore(none, some).overlap, 0);

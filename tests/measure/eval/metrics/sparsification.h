@@ -16,10 +16,10 @@ struct Sparsification {
     double ausePerRandom = 0;          ///< `ause` divided by the `ause` of a random order
 };
 
-/// `error`, `confidence`: a finite value of each pixel; errors are not negative. Only the order of
-/// the confidences matters; pixels with equal confidence are removed evenly. Without any error, the
-/// areas are NaN and the curves empty. Throws std::invalid_argument for spans of different lengths
-/// and for invalid values.
+/// `error`, `confidence`: one finite value for each pixel. Errors must not be negative. Only the
+/// order of the confidences matters; pixels with equal confidence are removed evenly. If all errors
+/// are 0, the areas are NaN and the curves empty. Throws std::invalid_argument for spans of
+/// different lengths and for invalid values.
 [[nodiscard]] Sparsification sparsification(std::span<const float> error,
                                             std::span<const float> confidence);
 

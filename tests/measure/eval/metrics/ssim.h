@@ -10,9 +10,9 @@ namespace mfar::eval {
 [[nodiscard]] double ssim(const cv::Mat& picture, const cv::Mat& truth);
 
 /// Multi-scale SSIM (Wang, Simoncelli, Bovik 2003), with five scales and the weights of that paper.
-/// A scale is the mean of 2x2 pixels of the scale before; an odd last row or column is dropped.
-/// Luminance counts only at the coarsest scale. A scale with negative contrast and structure counts
-/// as 0. Sides have at least 176 pixels.
+/// A pixel of a scale is the mean of 2x2 pixels of the previous, finer scale; an odd last row or
+/// column is dropped. Luminance counts only at the coarsest scale. If the mean of a scale is
+/// negative, the result is 0. Each side must have at least 176 pixels.
 [[nodiscard]] double msSsim(const cv::Mat& picture, const cv::Mat& truth);
 inline constexpr int kMsSsimSmallestSide = 176;
 
