@@ -51,8 +51,8 @@ TEST(Keyframes, ScoreRuleChoosesTheMostParallaxAmongKeyframesOfTheSameView) {
     const Keyframes frames = walked({});
     EXPECT_EQ(frames.choose(poseAt(0.1), 100, kAll, 1)->frame->pose.T_world_video.translation.x(),
               0);
-    // An inverse depth of 8 is so near that the keyframes farthest from the camera show other parts
-    // of the scene.
+    // At an inverse depth of 8, surfaces are so near that the keyframes farthest from the camera
+    // show other parts of the scene.
     const auto near = frames.choose(poseAt(0.1), 100, kAll, 8);
     ASSERT_TRUE(near);
     EXPECT_NEAR(near->frame->pose.T_world_video.translation.x(), 0.06, 0.011);

@@ -141,7 +141,7 @@ TEST(CameraV4l2Buffers, WithEnoughBuffersPicturesAreLentWithoutACopy) {
 int eventDescriptors() {
     int out = 0;
     for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {
-        std::error_code error;  // the directory's own descriptor is already closed
+        std::error_code error;  // ignored: the iterator's own descriptor can be closed by now
         out += std::filesystem::read_symlink(entry.path(), error) == "anon_inode:[eventfd]" ? 1 : 0;
     }
     return out;

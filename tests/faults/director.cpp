@@ -103,7 +103,7 @@ void apply(const Step& step) {
         // which another fault may block.
         if (ofDisk)
             std::thread([] {
-                sleepFor(300 * kMs);  // until a recording that the fault delayed has started
+                sleepFor(300 * kMs);  // the fault may have delayed the start of the recording
                 request({{"command", "record"}, {"stop", true}});
             }).detach();
         Judge::get().ends(*step.fault);
@@ -155,8 +155,8 @@ void checkInQuiet() {
     }
 }
 
-/// True after begin() has restored the first thread's signal mask. Before, that thread blocks all
-/// signals for begin(), not for mfard.
+/// True once begin() has restored the first thread's signal mask. Until then the thread blocks all
+/// signals because of begin(). This does not mean that mfard handles them.
 std::atomic<bool> hasItsMask = false;
 
 /// True if the first thread blocks SIGTERM. If not, SIGTERM ends the process at once.

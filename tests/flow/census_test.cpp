@@ -99,7 +99,7 @@ TEST(Census, IsInvariantToRisingToneCurves) {
     EXPECT_NE(censusOf(toned(picture, [](double v) { return 255 - v; })), bits);
 }
 
-// Where a curve makes neighbours equal, it may clear bits but must set none.
+// If a curve makes neighbouring grey levels equal, this clears bits of the census but sets none.
 TEST(Census, FlatterToneCurvesClearBitsButSetNone) {
     const LumaImage picture = randomPicture({31, 23}, 0, 255, 9);
     const auto bits = censusOf(picture);

@@ -29,6 +29,7 @@ struct Turned {
     Warp warp;
 };
 
+// A hole is a pixel of the new view whose surface the traced picture does not show.
 TEST_F(WarpHolesGl, HolesOfTheTracedPictureAreRequested) {
     Turned s({});
     const auto request = s.requestAt(15);
