@@ -111,7 +111,7 @@ TEST(SyntheticBoard, FramesOutliveTheBoard) {
     EXPECT_FALSE(bytes(*frame).empty());
 }
 
-TEST(SyntheticBoard, NextTimesOutWhileTheUserHoldsAllVideoBuffers) {
+TEST(SyntheticBoard, NextTimesOutIfAllVideoBuffersAreInUse) {
     SyntheticOptions options = flat(Pace::Consumer);
     options.videoBuffers = 2;
     SyntheticBoard board(options);

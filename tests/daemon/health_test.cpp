@@ -56,7 +56,7 @@ TEST_F(HealthTest, AFrozenPictureIsDegraded) {
 }
 
 // The driver's dequeue call hangs, and the daemon draws the banner again and again.
-TEST_F(HealthTest, ABannerForAHangingDriverDoesNotCountAsAlive) {
+TEST_F(HealthTest, MfardIsNotAliveWhileADriverHangsAndTheBannerIsDrawn) {
     const Heartbeat capture(hearts, "capture", budget::kCapture);
     picture = now;
     pass(seconds(5));
@@ -69,7 +69,7 @@ TEST_F(HealthTest, ABannerForAHangingDriverDoesNotCountAsAlive) {
               "the capture thread hangs (stalled for 5.0 s, last picture 5.0 s ago)");
 }
 
-TEST_F(HealthTest, BannerWhileADeviceIsReopenedCountsAsAlive) {
+TEST_F(HealthTest, MfardIsAliveWhileItDrawsTheBannerForAMissingDevice) {
     Heartbeat capture(hearts, "capture", budget::kCapture);
     fault = "video camera: is not there";
     for (int s = 0; s < 3600; ++s) {
@@ -83,7 +83,7 @@ TEST_F(HealthTest, BannerWhileADeviceIsReopenedCountsAsAlive) {
     EXPECT_EQ(sentence(look()), "video camera: is not there (degraded for 3599.0 s)");
 }
 
-TEST_F(HealthTest, OnlyABannerThatIsStillDrawnForAFaultCountsAsAlive) {
+TEST_F(HealthTest, WithoutPicturesMfardIsAliveOnlyWhileItDrawsABannerForAFault) {
     banner = now;
     pass(kStalePicture / 2);
     EXPECT_TRUE(look().isAlive());
@@ -111,7 +111,7 @@ TEST_F(HealthTest, FirstPicturesMayTakeLonger) {
     EXPECT_EQ(look().state, HealthState::Ok);
 }
 
-TEST_F(HealthTest, HelperThreadThatHangsIsReportedAndPicturesAreStillShown) {
+TEST_F(HealthTest, AHangingHelperThreadIsReportedAndMfardStaysAlive) {
     const Heartbeat reload(hearts, "reload", budget::kReload, ThreadRole::Helper);
     pass(2 * budget::kReload);
     picture = now;

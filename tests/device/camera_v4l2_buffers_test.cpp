@@ -29,7 +29,7 @@ CameraV4l2Options fourBuffers() {
     return out;
 }
 
-TEST(CameraV4l2Buffers, EveryBufferMayBeLentAtOnce) {
+TEST(CameraV4l2Buffers, AllBuffersCanBeLentAtTheSameTime) {
     FakeV4l2 fake;
     CameraV4l2 camera(fourBuffers(), fake);
     camera.start();

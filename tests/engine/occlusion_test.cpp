@@ -62,7 +62,7 @@ INSTANTIATE_TEST_SUITE_P(
                                      Sides{{17, 31}, {601, 40}}, Sides{{64, 48}, {33, 21}},
                                      Sides{{40, 30}, {160, 120}})));
 
-TEST_P(OcclusionTest, PixelsDecidedWithoutWeighingMatchTheOracle) {
+TEST_P(OcclusionTest, ClearlyVisibleAndClearlyHiddenPixelsMatchTheOracle) {
     twin::Scene scene = plainScene({0.4, 0.01});
     for (std::size_t i = 0; i < scene.real.size(); ++i)
         if (i % kCoarse.width > 20) scene.real[i].inverseDepth = 0.8;

@@ -47,7 +47,7 @@ TEST(Reference, ShareOfShownTilesIsSmoothedOverFrames) {
     EXPECT_NEAR(still.shows, 0.25, 1e-4);
 }
 
-TEST(KeepsOlder, DoesNotKeepAMissingStill) {
+TEST(KeepsOlder, WithoutAnOlderStillNoneIsKept) {
     const Reference none;
     EXPECT_FALSE(keepsOlder(none, Known(0.1).reference));
 }

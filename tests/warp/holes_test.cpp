@@ -110,7 +110,7 @@ TEST_F(WarpHolesGl, HolesBeyondTheRequestLimitAreSampledEvenly) {
     EXPECT_NEAR(meanRow(every->pixels), meanRow(some->pixels), 8);
 }
 
-TEST_F(WarpHolesGl, ModesThatDoNotRenderHolesRequestNone) {
+TEST_F(WarpHolesGl, ModesThatDoNotRenderHolesRequestNoPixels) {
     for (const HoleFilling filling : {HoleFilling::None, HoleFilling::PushPull}) {
         Turned s({.filling = filling});
         EXPECT_FALSE(s.requestAt(15));
