@@ -89,12 +89,14 @@ TEST_F(HealthTest, WithoutPicturesMfardIsAliveOnlyWhileItDrawsABannerForAFault) 
     EXPECT_TRUE(look().isAlive());
     pass(kStalePicture);
     banner = now;
-    EXPECT_FALSE(look().isAlive()) << "a banner without a fault does not count as alive";
+    EXPECT_FALSE(look().isAlive())
+        << "mfard must not count as alive if it draws a banner without a fault";
     EXPECT_EQ(look().cause, "no new picture");
     fault = "video camera: is not there";
     EXPECT_TRUE(look().isAlive());
     pass(kStalePicture + milliseconds(1));
-    EXPECT_FALSE(look().isAlive()) << "a banner that is no longer drawn does not count as alive";
+    EXPECT_FALSE(look().isAlive())
+        << "mfard must not count as alive if it no longer draws the banner";
 }
 
 TEST_F(HealthTest, FirstPicturesMayTakeLonger) {

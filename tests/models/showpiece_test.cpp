@@ -32,7 +32,8 @@ TEST(Lathe, AHalfCircleProfileGivesASphere) {
     EXPECT_NEAR(volumeOf(mesh), 4 * std::numbers::pi / 3, 0.01) << "faces outwards";
     for (std::size_t i = 0; i < mesh.positions.size(); ++i)
         ASSERT_GT(mesh.normals[i].dot(mesh.positions[i]), 0.998F);
-    EXPECT_EQ(mesh.triangles.size(), 128U * (2 * 64 - 2)) << "none without area at the poles";
+    EXPECT_EQ(mesh.triangles.size(), 128U * (2 * 64 - 2))
+        << "there must be no triangles without area at the poles";
     EXPECT_EQ(mesh.uvs.front(), Eigen::Vector2f(0, 1));
     EXPECT_EQ(mesh.uvs.back(), Eigen::Vector2f(1, 0));
 }
