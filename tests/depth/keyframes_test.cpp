@@ -24,7 +24,7 @@ LumaImage grey(int value) {
     return out;
 }
 
-/// Frames 1 cm apart, the last at 9 cm.
+/// Keyframes of a camera that moved from 0 to 9 cm, one per centimetre.
 Keyframes walked(const KeyframeOptions& options, int brightness = 100) {
     Keyframes out(kKeyCamera, options);
     for (int i = 0; i < 10; ++i)

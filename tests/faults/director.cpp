@@ -27,7 +27,8 @@ constexpr Ns kUs = 1000;
 constexpr Ns kEndTime = 3 * kSecond;  ///< longest time from SIGTERM to the end
 /// Longest time from the start to READY, whatever the devices do.
 constexpr Ns kReadyTime = 5 * kSecond;
-/// Pause between episodes. Late effects of faults end in it, and mfard is checked without faults.
+/// Pause between episodes. It lets late effects of faults end. Then mfard is checked without
+/// faults.
 constexpr Ns kQuiet = 4500 * kMs;
 
 long numberOf(const char* variable, long otherwise) {

@@ -1,4 +1,4 @@
-// A few seeds of every case, and tests without seeds.
+// Runs a few seeds of every case, and tests that need no seed.
 #include "pipeline/depth/depth_filter.h"
 #include "tests/stability/cases.h"
 
