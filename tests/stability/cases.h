@@ -30,8 +30,8 @@ struct Context {
     [[nodiscard]] Size size(int least, int most);
 };
 
-/// Two cameras next to each other. At the product's size, their lenses are distorted. Otherwise
-/// they have small pictures.
+/// Two cameras next to each other: either with small pictures and lenses of hostile.camera(), or
+/// with larger pictures and moderate distortion, which Scale::Product always selects.
 [[nodiscard]] StereoRig hostileRig(Context& context);
 
 struct Case {
