@@ -83,7 +83,7 @@ TEST(Keyframes, WithoutParallaxThereIsNoKeyframe) {
     EXPECT_FALSE(frames.choose(poseAt(0.1), 100, kAll, 0));
     EXPECT_FALSE(frames.choose(poseAt(0.1), 100, kAll, std::numeric_limits<double>::quiet_NaN()));
     EXPECT_TRUE(frames.choose(poseAt(0.1), 100, kAll, 1));
-    EXPECT_TRUE(frames.choose(poseAt(0, 0.2), 100, kAll, 1)) << "ahead";
+    EXPECT_TRUE(frames.choose(poseAt(0, 0.2), 100, kAll, 1)) << "a forward motion causes parallax";
     frames.forget();
     EXPECT_FALSE(frames.choose(poseAt(0.1), 100, kAll, 1));
 }

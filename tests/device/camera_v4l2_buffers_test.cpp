@@ -101,7 +101,7 @@ TEST(CameraV4l2Buffers, FewBuffersSufficeForManyPictures) {
                       std::vector<std::string>{"/dev/video0: the driver allocated only " +
                                                std::to_string(buffers) +
                                                " of 6 buffers, so every picture is copied"});
-            EXPECT_TRUE(camera.takeWarnings().empty()) << "once";
+            EXPECT_TRUE(camera.takeWarnings().empty()) << "the warning must come only once";
             camera.start();
             std::vector<Frame> held;
             for (std::uint8_t i = 0; i < 6; ++i) {

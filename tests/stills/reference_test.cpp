@@ -35,7 +35,7 @@ TEST(Reference, MotionSinceTheStillIsTheMeanDisplacementOfMatchedCells) {
         << "one of the eleven matched cells has not moved";
     EXPECT_GT(Known(1, 0, 0).reference.moved(), 1e6) << "no cell is matched any more";
     half.reference.first.clear();
-    EXPECT_EQ(half.reference.moved(), 0) << "no frame was matched";
+    EXPECT_EQ(half.reference.moved(), 0) << "without a matched frame the motion must be 0";
 }
 
 TEST(Reference, ShareOfShownTilesIsSmoothedOverFrames) {

@@ -296,7 +296,7 @@ TEST_F(PipeDisplays, WaitingForAReaderIsReported) {
     display->finish();
     reads.join();
     EXPECT_EQ(said.load(), nullptr);
-    EXPECT_EQ(display->leftOut(), 0U) << "every picture is written";
+    EXPECT_EQ(display->leftOut(), 0U) << "every picture must be written";
 }
 
 TEST_F(PipeDisplays, AClosedReaderEndsALiveDisplay) {

@@ -315,7 +315,8 @@ private:
         // A still that the camera sends twice counts as one.
         const std::int64_t off = (still.exposed - match->pulse).count() - constant_.count();
         EXPECT_LE(std::abs(off), 450'000) << "a still that belongs to no pulse was used";
-        EXPECT_EQ(match->pulse, still.pulse.value_or(match->pulse)) << "swapped";
+        EXPECT_EQ(match->pulse, still.pulse.value_or(match->pulse))
+            << "a still got the pulse of another still";
         EXPECT_LE(std::abs((match->exposed - match->pulse - constant_).count()), 450'000);
     }
 

@@ -260,7 +260,8 @@ TEST(SurfacePaint, WithoutTextureCoordinatesOnlyTheFactorIsUsed) {
     bare.uvs.clear();
     const Words words =
         paintOf(sceneOf({{modelOf(bare, material, {noise({4, 4}, 4)}), placed(0, {0, 0, 1}), 1}}));
-    EXPECT_EQ(words[20UL * kPainted.width + 30].facing & 0xFFFFFFU, 0xFF00FFU) << "a metal";
+    EXPECT_EQ(words[20UL * kPainted.width + 30].facing & 0xFFFFFFU, 0xFF00FFU)
+        << "a metal must reflect its base colour";
     EXPECT_EQ(words.front(), PaintWords{});
 }
 

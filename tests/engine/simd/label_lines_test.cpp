@@ -81,7 +81,7 @@ TEST(LabelCosts, CostsOfLabelsAreThoseOfTheNearestPixels) {
                     ++compared;
                     if (costs[n] != expected) ++differing;
                 }
-                EXPECT_EQ(differing, 0U) << "of " << compared;
+                EXPECT_EQ(differing, 0U) << "costs differ, of " << compared << " compared costs";
                 EXPECT_GT(compared, costs.size() / 2);
             }
         }
