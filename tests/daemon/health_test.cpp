@@ -34,7 +34,7 @@ struct HealthTest : testing::Test {
     std::optional<Timestamp> repeats, picture, banner, started = now;
 };
 
-TEST_F(HealthTest, FreshPicturesAreHealthy) {
+TEST_F(HealthTest, WithFreshPicturesTheStateIsOk) {
     picture = now;
     pass(seconds(2));
     const Health health = look();
@@ -44,7 +44,7 @@ TEST_F(HealthTest, FreshPicturesAreHealthy) {
     EXPECT_TRUE(health.isAlive());
 }
 
-TEST_F(HealthTest, AFrozenPictureIsDegraded) {
+TEST_F(HealthTest, AFrozenPictureIsReportedAsDegraded) {
     repeats = now;
     pass(seconds(4));
     picture = now;
@@ -99,7 +99,7 @@ TEST_F(HealthTest, WithoutPicturesMfardIsAliveOnlyWhileItDrawsABannerForAFault) 
         << "mfard must not count as alive if it no longer draws the banner";
 }
 
-TEST_F(HealthTest, FirstPicturesMayTakeLonger) {
+TEST_F(HealthTest, TheFirstPictureIsAllowedMoreTime) {
     Heartbeat drawing(hearts, "picture", budget::kPicture);
     patience = kFirstPatience;
     pass(5 * budget::kPicture);
@@ -136,7 +136,7 @@ TEST_F(HealthTest, WaitingForTheReaderOfAPipeIsReported) {
     EXPECT_EQ(look().state, HealthState::Stalled);
 }
 
-TEST_F(HealthTest, DisplayThatSkipsPicturesIsDegraded) {
+TEST_F(HealthTest, ADisplayThatSkipsPicturesIsReportedAsDegraded) {
     picture = now;
     display = "y4m:pipe: the reader of the pipe accepts no data";
     (void)look();

@@ -215,7 +215,7 @@ TEST(RequestCycle, AHangingRestartDoesNotDelayTheOtherCamera) {
     EXPECT_TRUE(takes(ill, 1));
 }
 
-TEST(RequestCycle, DriverThatRefusesARequestIsLost) {
+TEST(RequestCycle, ADeviceWhoseDriverRefusesARequestIsLost) {
     FakeDriver camera;
     camera.cycle.start();
     camera.queueError = -19;
