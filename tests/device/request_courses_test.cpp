@@ -229,7 +229,7 @@ private:
     Chance& chance_;
     std::thread stopper_;
     std::array<At, kRequests> at_{};
-    std::array<bool, kRequests> isCancelled_{};  ///< cancelled and not completed since
+    std::array<bool, kRequests> isCancelled_{};  ///< true: was cancelled and not completed since
     std::deque<std::size_t> ready_;
     bool running_ = false;
     Timestamp begun_;

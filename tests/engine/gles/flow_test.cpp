@@ -223,7 +223,7 @@ std::vector<Cell> filtered(const std::vector<Cell>& in, int planeFits = 2) {
 }
 
 TEST_F(FlowPasses, FilteredFlowMatchesTheOracle) {
-    // Flow fields of different noise: from nearly a plane to unrelated vectors.
+    // A small `reach` gives flow that is nearly linear in x and y, a large one unrelated vectors.
     for (const float reach : {0.2F, 0.7F, 5.0F}) {
         auto in = randomField(8, reach);
         std::mt19937 random(9);
