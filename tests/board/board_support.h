@@ -15,7 +15,7 @@ namespace mfar::test {
 SyntheticBoard& sharedBoard(synthetic::Scene scene);
 
 cv::Mat1b grey(const ImageView& image);
-/// Colour copy of a picture, in the picture's order of channels, [0, 1].
+/// Copy of a picture with values in [0, 1], in the picture's order of channels.
 cv::Mat3f colour(const StoredImage& image);
 
 /// Corners [px] of the 36h11 tags that libapriltag finds, by tag id. Order of the corners: bottom

@@ -71,8 +71,8 @@ TEST(SyntheticBoard, AStillArrivesOneLatencyAfterItsTriggerPulse) {
     const Delivery run = runBoard(board, {2});
     ASSERT_EQ(run.videoTimes.size(), 8U);
     ASSERT_EQ(run.stillTimes.size(), 1U);
-    // The exposure begins 1 ms after the pulse and lasts 8 ms; a still has the time of its middle.
-    // The still arrives 60 ms after the pulse. Two more frames arrive in this time.
+    // The exposure begins 1 ms after the pulse and lasts 8 ms. The time of a still is the middle of
+    // its exposure. The still arrives 60 ms after the pulse, which is two frames later.
     EXPECT_EQ(run.stillTimes[0], run.videoTimes[1] + 5ms);
     EXPECT_EQ(run.stillsAfterFrame[0], 4U);
     for (std::size_t i = 1; i < run.videoTimes.size(); ++i)
@@ -111,7 +111,7 @@ TEST(SyntheticBoard, FramesOutliveTheBoard) {
     EXPECT_FALSE(bytes(*frame).empty());
 }
 
-TEST(SyntheticBoard, NextTimesOutWhileTheUserHoldsAllVideoBuffers) {
+TEST(SyntheticBoard, NextTimesOutIfAllVideoBuffersAreInUse) {
     SyntheticOptions options = flat(Pace::Consumer);
     options.videoBuffers = 2;
     SyntheticBoard board(options);

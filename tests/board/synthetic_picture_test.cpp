@@ -84,7 +84,8 @@ TEST(SyntheticPicture, CalibrationTagsAreAtTheirTruePositions) {
     SyntheticBoard board(options);
     const Timestamp t = board.epoch();
     cv::Mat1b picture = grey(board.cleanVideo(t).view());
-    // The detector does not find tags whose black squares touch at their corners.
+    // Separates the black squares between the tags from the tags' corners. Where they touch, the
+    // detector does not find the tag.
     cv::dilate(picture, picture, cv::Mat::ones(3, 3, CV_8U));
     const auto found = detectTags(picture);
     EXPECT_GE(found.size(), 30U);

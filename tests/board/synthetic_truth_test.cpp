@@ -163,8 +163,8 @@ TEST(SyntheticTruth, FlowOfOccludedAndOutsidePixelsIsUnknown) {
                 EXPECT_FALSE(known(flow.at(x, y)));
                 continue;
             }
-            // Only points behind everything visible around them are tested. So the result does not
-            // depend on edges.
+            // Only points that lie behind all 3x3 pixels around them in the second view are tested.
+            // So the exact position of edges does not matter.
             bool behind = true;
             for (int i = 0; i < 9; ++i) {
                 const int nx = std::clamp(px + i % 3 - 1, 0, 159);

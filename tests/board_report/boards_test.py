@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The parts of ./run board-report, on recorded output of drivers and on numbers that can be checked by hand."""
+"""Tests the parts of ./run board-report with recorded output of drivers and with simple numbers."""
 import os
 import sys
 import unittest

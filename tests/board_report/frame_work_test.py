@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What mfar-frame-work says of a frame, against what is known of it. Usage: frame_work_test.py PROGRAM"""
+"""Checks the GPU work of a frame that mfar-frame-work prints. Usage: frame_work_test.py PROGRAM"""
 import os
 import sys
 import unittest

@@ -16,8 +16,8 @@ using calibration::Target;
 
 constexpr double kRateHz = 30;
 
-/// T_video_target. The target is tilted to all sides, near and far, and appears in every part of
-/// the picture.
+/// Pose of the target in the video camera at time t [s]: T_video_target. In the course of time, the
+/// target is tilted to all sides, comes near and goes far, and reaches every part of the picture.
 RigidTransform poseAt(const Target& target, const Motion& m, double t) {
     if (m.rests) {
         const double second = std::floor(t), s = std::max(0., (t - second - 0.8) / 0.2);

@@ -10,10 +10,10 @@ struct Motion {
     double tilt = 0.5;       ///< greatest tilt [rad]
     double distance = 0.25;  ///< largest relative change of the distance to the target
     double aside = 0.12;     ///< greatest sideways motion of the target [m]
-    double offset = 0;       ///< time of the video minus time of a still [s]
+    double offset = 0;       ///< clock of the video minus clock of the stills [s]
     double seconds = 12;
     double stillsHz = 2;
-    bool rests = false;  ///< the target rests at stills and moves between them
+    bool rests = false;  ///< true: the target rests while a still is taken
     double noise = 0.1;  ///< standard deviation of corner coordinates [px]
     std::uint64_t seed = 1;
 };

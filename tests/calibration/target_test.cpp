@@ -72,13 +72,14 @@ struct Scene {
     cv::Matx33d pixelOfTarget;
 };
 
-/// Photographs a paper with `texels` per metre. The target's origin is at texel `origin`; y points
-/// upwards if `upwards`.
+/// Photographs a paper with `texels` texels per metre. The target's origin is at texel `origin`.
+/// The target's y axis points upwards if `upwards` is true.
 Scene photograph(const cv::Mat1b& paper, double texels, cv::Point2d origin, bool upwards,
                  double turn) {
     const cv::Matx33d texelOfTarget{texels,   0, origin.x, 0, upwards ? -texels : texels,
                                     origin.y, 0, 0,        1};
-    // The print's edges are at texel edges, half a texel before texel centres.
+    // For `origin`, whole numbers are the edges of texels. For warpPerspective(), they are the
+    // centres of texels.
     const cv::Matx33d middle{1, 0, -0.5, 0, 1, -0.5, 0, 0, 1};
     const double c = std::cos(turn), s = std::sin(turn), w = paper.cols / 2., h = paper.rows / 2.;
     const double scale = 430. / paper.rows;

@@ -57,8 +57,8 @@ TEST(Silhouette, EveryPixelNearASurfacePointIsCovered) {
             if (tile.x() < 0 || tile.y() < 0 || tile.x() >= tiles.width || tile.y() >= tiles.height)
                 continue;
             const SurfaceRange& r = ranges[tile.y() * tiles.width + tile.x()];
-            // Meshes of spheres are inscribed: their triangles lie up to a thousandth of the radius
-            // inside.
+            // The corners of a sphere's triangles lie on the sphere. So the triangles lie up to a
+            // thousandth of the radius below its surface.
             ASSERT_LE(r.nearest, p.z() + 1e-3);
             ASSERT_GE(r.farthest, p.z() - 1e-3);
         }

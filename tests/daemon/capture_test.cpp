@@ -180,7 +180,7 @@ TEST(CaptureThread, TheMissedFramesOfTheCameraAreReported) {
     EXPECT_EQ(warnings[0].subject.camera, "video");
 }
 
-TEST(CaptureThread, ACameraThatIsSlowerThanConfiguredDropsNothing) {
+TEST(CaptureThread, ASlowerRateThanConfiguredDoesNotCountAsDrops) {
     Capture capture(HandOver::NewestWins);
     const auto send = [&](double time) {
         capture.video().send(time);

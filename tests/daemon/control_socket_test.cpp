@@ -168,7 +168,8 @@ TEST_F(ControlSocketTest, AnotherUserIsAnObserver) {
     const pid_t child = fork();
     ASSERT_GE(child, 0);
     if (child == 0) {
-        // After fork(), no lock may be taken, because a thread of the parent might have held it.
+        // This child process must not take a lock. If another thread held it during fork(), nobody
+        // would release it.
         if (setgroups(0, nullptr) != 0 || setgid(1234) != 0 || setuid(1234) != 0) _exit(2);
         const int fd = connected();
         char answer[64] = {};

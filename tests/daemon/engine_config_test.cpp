@@ -48,7 +48,7 @@ TEST(EngineConfig, EnginesWrittenAsTextAreReadBackUnchanged) {
     EXPECT_EQ(parseEngineChoice("still gles"), std::nullopt);
 }
 
-TEST(EngineMemory, KeepsTheEnginesOfEachKeyAndIgnoresADamagedFile) {
+TEST(EngineMemory, RemembersTheEnginesOfEachDriverAndIgnoresADamagedFile) {
     const std::filesystem::path file =
         std::filesystem::path(testing::TempDir()) / "mfar-engines.json";
     std::filesystem::remove(file);

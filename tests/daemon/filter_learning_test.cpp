@@ -163,7 +163,7 @@ TEST_F(FilterLearningTest, FiltersLearnedFromOtherSensorsAreNotUsed) {
     EXPECT_THAT(learning.takeWarnings(), ElementsAre(HasSubstr("another pair of sensors")));
 }
 
-TEST_F(FilterLearningTest, AResetDeletesTheStateFileToo) {
+TEST_F(FilterLearningTest, AResetForgetsTheFiltersAndDeletesTheStateFile) {
     {
         FilterLearning learning(options);
         show(learning, 1, 2);

@@ -27,7 +27,8 @@ public:
         : governor_(fourLevels(), deadlineMs), cost_(std::move(cost)) {}
 
     void setCost(Cost cost) { cost_ = std::move(cost); }
-    /// Runs frames whose times vary by 4 % (standard deviation). Returns the share of late frames.
+    /// Runs frames whose times vary by 4 % (standard deviation). `changed`: share of the picture
+    /// that changes in each frame. Returns the share of late frames.
     double run(int frames, double changed = 1) {
         int late = 0;
         for (int i = 0; i < frames; ++i) {

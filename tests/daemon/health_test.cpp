@@ -34,7 +34,7 @@ struct HealthTest : testing::Test {
     std::optional<Timestamp> repeats, picture, banner, started = now;
 };
 
-TEST_F(HealthTest, FreshPicturesAreHealthy) {
+TEST_F(HealthTest, WithFreshPicturesTheStateIsOk) {
     picture = now;
     pass(seconds(2));
     const Health health = look();
@@ -44,7 +44,7 @@ TEST_F(HealthTest, FreshPicturesAreHealthy) {
     EXPECT_TRUE(health.isAlive());
 }
 
-TEST_F(HealthTest, AFrozenPictureIsDegraded) {
+TEST_F(HealthTest, AFrozenPictureIsReportedAsDegraded) {
     repeats = now;
     pass(seconds(4));
     picture = now;
@@ -56,7 +56,7 @@ TEST_F(HealthTest, AFrozenPictureIsDegraded) {
 }
 
 // The driver's dequeue call hangs, and the daemon draws the banner again and again.
-TEST_F(HealthTest, ABannerForAHangingDriverDoesNotCountAsAlive) {
+TEST_F(HealthTest, MfardIsNotAliveWhileADriverHangsAndTheBannerIsDrawn) {
     const Heartbeat capture(hearts, "capture", budget::kCapture);
     picture = now;
     pass(seconds(5));
@@ -69,7 +69,7 @@ TEST_F(HealthTest, ABannerForAHangingDriverDoesNotCountAsAlive) {
               "the capture thread hangs (stalled for 5.0 s, last picture 5.0 s ago)");
 }
 
-TEST_F(HealthTest, BannerWhileADeviceIsReopenedCountsAsAlive) {
+TEST_F(HealthTest, MfardIsAliveWhileItDrawsTheBannerForAMissingDevice) {
     Heartbeat capture(hearts, "capture", budget::kCapture);
     fault = "video camera: is not there";
     for (int s = 0; s < 3600; ++s) {
@@ -83,21 +83,23 @@ TEST_F(HealthTest, BannerWhileADeviceIsReopenedCountsAsAlive) {
     EXPECT_EQ(sentence(look()), "video camera: is not there (degraded for 3599.0 s)");
 }
 
-TEST_F(HealthTest, OnlyABannerThatIsStillDrawnForAFaultCountsAsAlive) {
+TEST_F(HealthTest, WithoutPicturesMfardIsAliveOnlyWhileItDrawsABannerForAFault) {
     banner = now;
     pass(kStalePicture / 2);
     EXPECT_TRUE(look().isAlive());
     pass(kStalePicture);
     banner = now;
-    EXPECT_FALSE(look().isAlive()) << "a banner without a fault does not count as alive";
+    EXPECT_FALSE(look().isAlive())
+        << "mfard must not count as alive if it draws a banner without a fault";
     EXPECT_EQ(look().cause, "no new picture");
     fault = "video camera: is not there";
     EXPECT_TRUE(look().isAlive());
     pass(kStalePicture + milliseconds(1));
-    EXPECT_FALSE(look().isAlive()) << "a banner that is no longer drawn does not count as alive";
+    EXPECT_FALSE(look().isAlive())
+        << "mfard must not count as alive if it no longer draws the banner";
 }
 
-TEST_F(HealthTest, FirstPicturesMayTakeLonger) {
+TEST_F(HealthTest, TheFirstPictureIsAllowedMoreTime) {
     Heartbeat drawing(hearts, "picture", budget::kPicture);
     patience = kFirstPatience;
     pass(5 * budget::kPicture);
@@ -111,7 +113,7 @@ TEST_F(HealthTest, FirstPicturesMayTakeLonger) {
     EXPECT_EQ(look().state, HealthState::Ok);
 }
 
-TEST_F(HealthTest, HelperThreadThatHangsIsReportedAndPicturesAreStillShown) {
+TEST_F(HealthTest, AHangingHelperThreadIsReportedAndMfardStaysAlive) {
     const Heartbeat reload(hearts, "reload", budget::kReload, ThreadRole::Helper);
     pass(2 * budget::kReload);
     picture = now;
@@ -134,7 +136,7 @@ TEST_F(HealthTest, WaitingForTheReaderOfAPipeIsReported) {
     EXPECT_EQ(look().state, HealthState::Stalled);
 }
 
-TEST_F(HealthTest, DisplayThatSkipsPicturesIsDegraded) {
+TEST_F(HealthTest, ADisplayThatSkipsPicturesIsReportedAsDegraded) {
     picture = now;
     display = "y4m:pipe: the reader of the pipe accepts no data";
     (void)look();

@@ -35,7 +35,7 @@ TEST(Journal, OnlyOneMessageWaitsForAStalledJournal) {
     }
     Journal journal(address.sun_path);
     const auto begun = Clock::now();
-    constexpr int kMessages = 200;  // if each of them waited, all would take 100 s
+    constexpr int kMessages = 200;  // if each message waited, the loop would take 100 s
     for (int i = 0; i < kMessages; ++i)
         EXPECT_FALSE(journal({"MESSAGE=lost"}));
     EXPECT_LT(Clock::now() - begun, std::chrono::seconds(50));

@@ -19,7 +19,8 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-/// Only the bytes of a PNG that are checked before it is decoded.
+/// Returns the beginning and the end of a PNG file of this size, without pixels. These bytes are
+/// checked before the file is decoded.
 std::string pngThatClaims(std::uint16_t width, std::uint16_t height) {
     std::string out("\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0..\0\0..", 24);
     out[18] = static_cast<char>(width >> 8U);

@@ -122,8 +122,8 @@ protected:
     }
 
     /// Runs a session that loses its GL context at the GL call `moment`, or never if `moment` is
-    /// null. The session ends with the recording. With `early`, it ends a few pictures after the
-    /// loss.
+    /// null. The session ends a few pictures after the loss if `early` is true, otherwise with the
+    /// recording.
     Ran run(const char* moment, bool early = false) {
         Stats stats;
         Mailbox<Tunables> changes(HandOver::NewestWins);

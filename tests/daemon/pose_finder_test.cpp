@@ -119,7 +119,7 @@ TEST(PoseFinder, WithoutATagMapTheFirstTagIsTheOriginOfTheWorld) {
     ASSERT_TRUE(found);
     EXPECT_NE(found->find(kPlacedTag.tag), nullptr);
     (void)video(finder, 2);
-    EXPECT_FALSE(finder.takeFoundTags()) << "once";
+    EXPECT_FALSE(finder.takeFoundTags()) << "the found tags must be returned only once";
 }
 
 TEST(PoseFinder, RecordedPosesAreUsedUnchanged) {

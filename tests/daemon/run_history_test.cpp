@@ -36,7 +36,7 @@ TEST(TimeSpread, SumOfTwoSpreadsHasTheValuesOfBoth) {
     EXPECT_NEAR(fast.quantile(1), 100, 5);
 }
 
-TEST(TimeSpread, QuantilesAreNotANumberWithoutValues) {
+TEST(TimeSpread, QuantilesOfAnEmptySpreadAreNan) {
     EXPECT_TRUE(std::isnan(TimeSpread{}.quantile(0.5)));
 }
 

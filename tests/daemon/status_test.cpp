@@ -208,8 +208,8 @@ Pose fromTags(int tags, double errorPx) {
     return pose;
 }
 
-/// Three frames with a measured, a predicted and no pose; two stills with a measured pose and with
-/// one interpolated between frames.
+/// Adds three frames: with a measured pose, with a predicted pose and without a pose. Adds two
+/// stills: with a measured pose and with a pose that was interpolated between frames.
 void findPoses(Stats& stats) {
     TrackStats tracker{.frames = 3, .fullSearches = 1, .roiSearches = 2, .flips = 4, .lastMs = 2};
     stats.framePose(fromTags(6, 0.25), tracker);

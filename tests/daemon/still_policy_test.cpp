@@ -203,7 +203,7 @@ TEST(StillPolicy, AfterTwoLostStillsTheNextIsRequestedAtTheAgeLimit) {
     EXPECT_EQ(board.policy.lost(), 2);
 }
 
-TEST(StillPolicy, ALateStillIsNotMistakenForTheRepeatedStill) {
+TEST(StillPolicy, ALateStillIsNotMistakenForTheStillRequestedAgain) {
     TriggerConfig config;
     config.timeoutS = 1;
     Simulation board(config);
@@ -225,14 +225,14 @@ TEST(StillPolicy, FixedRateFollowsTheTimesOfFrames) {
     EXPECT_NEAR(fired, 120, 1);
 }
 
-TEST(StillPolicy, InModeOffThePolicyNeverFires) {
+TEST(StillPolicy, InModeOffThePolicyFiresNoTriggerByItself) {
     TriggerConfig config;
     config.mode = TriggerMode::Off;
     Simulation board(config);
     EXPECT_EQ(board.run(30, kMovingUnexplained), 0);
 }
 
-TEST(StillPolicy, InModeOffALostStillIsRequestedOnceMore) {
+TEST(StillPolicy, InModeOffALostStillOfACommandIsRequestedOnceMore) {
     TriggerConfig config;
     config.mode = TriggerMode::Off;
     Simulation board(config);

@@ -19,8 +19,10 @@ struct Quality {
     double resultPsnrDb = 0;
     double upscaledSsim = 0;
     double resultSsim = 0;
-    double harmRate = 0;        ///< share of pixels > 2 grey levels worse than the enlarged video
-    double meanConfidence = 0;  ///< mean of the confidence, eq. 2 of the paper, [0, 1]
+    /// Share of the pixels whose error is larger than that of the enlarged video by more than 2
+    /// grey levels.
+    double harmRate = 0;
+    double meanConfidence = 0;  ///< mean of the confidence, [0, 1]
     double frameMs = 0;         ///< time until all work of the pipeline is finished
     std::array<double, kTileClasses> tileShares{};
 };

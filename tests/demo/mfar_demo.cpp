@@ -95,10 +95,10 @@ void runPathTraced(const Request& request, const mfar::Recording& recording,
         mfar::demo::runVirtual(recording, mfar::loadConfig(request.pathTraced), shownBy(part));
     mfar::eval::savePicture(request.folder / "virtual.png", mfar::demo::virtualPicture(run));
     fmt::print("\n");
-    row("path-tracer samples while moving", "", fmt::format("{}", run.moved.render.samples));
+    row("path-tracer samples during motion", "", fmt::format("{}", run.moved.render.samples));
     row("path-tracer samples in total", "", fmt::format("{}", run.rested.render.samples));
     row("frames with a warped picture", "", fmt::format("{}", run.rested.warped));
-    row("pixels traced to fill holes", "", fmt::format("{}", run.rested.answered));
+    row("pixels traced to fill gaps", "", fmt::format("{}", run.rested.answered));
 }
 
 void run(const Request& request) {

@@ -24,8 +24,8 @@ struct OcclusionShown {
     cv::Mat depth, trueDepth;
     cv::Mat overlaid;  ///< the true picture with the object drawn over everything
     cv::Mat composite, trueComposite;
-    cv::Mat visible;  ///< CV_8U at output size; 255 where the object should be visible
-    cv::Mat hidden;   ///< CV_8U at output size; 255 where a real object covers the object
+    cv::Mat visible;  ///< CV_8U at output size; 255 where the virtual object should be visible
+    cv::Mat hidden;   ///< CV_8U at output size; 255 where a real object hides the virtual object
 };
 
 struct OcclusionRun {

@@ -106,7 +106,7 @@ VirtualRun runVirtual(const Recording& recording, const Config& config,
         throw std::runtime_error(recording.root.string() +
                                  ": no virtual object is in view in the last frame");
     Timestamp seen = show.counters().render.frame;
-    int looks = 0;  // number of frames that the path tracer has used; it may skip some
+    int looks = 0;  // number of frames that the path tracer has used; it skips some
     for (int i = 0; i < kMostRestFrames && !(looks > kLeastLooks && isSettled(show.counters()));
          ++i) {
         show.again();

@@ -25,8 +25,8 @@ std::vector<std::uint8_t> picture(int left = 60, int right = 160) {
     return out;
 }
 
-/// Depth of picture(). The near surface extends `too` pixels beyond its true edge. The depth of the
-/// next `unknown` pixels is unknown.
+/// Depth of the surfaces in picture(). The near surface extends `too` pixels beyond its true edge.
+/// The depth of the next `unknown` pixels is unknown.
 InverseDepthField field(int too, int unknown) {
     InverseDepthField out(kPicture);
     for (int y = 0; y < kPicture.height; ++y)

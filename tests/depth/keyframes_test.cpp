@@ -24,7 +24,7 @@ LumaImage grey(int value) {
     return out;
 }
 
-/// Frames 1 cm apart, the last at 9 cm.
+/// Keyframes of a camera that moved from 0 to 9 cm, one per centimetre.
 Keyframes walked(const KeyframeOptions& options, int brightness = 100) {
     Keyframes out(kKeyCamera, options);
     for (int i = 0; i < 10; ++i)
@@ -51,8 +51,8 @@ TEST(Keyframes, ScoreRuleChoosesTheMostParallaxAmongKeyframesOfTheSameView) {
     const Keyframes frames = walked({});
     EXPECT_EQ(frames.choose(poseAt(0.1), 100, kAll, 1)->frame->pose.T_world_video.translation.x(),
               0);
-    // An inverse depth of 8 is so near that the keyframes farthest from the camera show other parts
-    // of the scene.
+    // At an inverse depth of 8, surfaces are so near that the keyframes farthest from the camera
+    // show other parts of the scene.
     const auto near = frames.choose(poseAt(0.1), 100, kAll, 8);
     ASSERT_TRUE(near);
     EXPECT_NEAR(near->frame->pose.T_world_video.translation.x(), 0.06, 0.011);
@@ -83,7 +83,7 @@ TEST(Keyframes, WithoutParallaxThereIsNoKeyframe) {
     EXPECT_FALSE(frames.choose(poseAt(0.1), 100, kAll, 0));
     EXPECT_FALSE(frames.choose(poseAt(0.1), 100, kAll, std::numeric_limits<double>::quiet_NaN()));
     EXPECT_TRUE(frames.choose(poseAt(0.1), 100, kAll, 1));
-    EXPECT_TRUE(frames.choose(poseAt(0, 0.2), 100, kAll, 1)) << "ahead";
+    EXPECT_TRUE(frames.choose(poseAt(0, 0.2), 100, kAll, 1)) << "a forward motion causes parallax";
     frames.forget();
     EXPECT_FALSE(frames.choose(poseAt(0.1), 100, kAll, 1));
 }

@@ -40,7 +40,7 @@ TEST(CameraSelection, WithoutANameTheSmallestOrLargestCameraIsChosen) {
     EXPECT_EQ(chooseCamera(board, {.except = "external", .largest = true}), 1U);
 }
 
-TEST(CameraSelection, TheOnlyCameraIsNotChosenAsTheLargest) {
+TEST(CameraSelection, WithOnlyOneCameraNoSecondOneIsFound) {
     const std::vector<ListedCamera> one{{"a", "b", ""}};
     EXPECT_EQ(chooseCamera(one, {}), 0U);
     EXPECT_THAT(

@@ -29,7 +29,7 @@ CameraV4l2Options fourBuffers() {
     return out;
 }
 
-TEST(CameraV4l2Buffers, EveryBufferMayBeLentAtOnce) {
+TEST(CameraV4l2Buffers, AllBuffersCanBeLentAtTheSameTime) {
     FakeV4l2 fake;
     CameraV4l2 camera(fourBuffers(), fake);
     camera.start();
@@ -101,7 +101,7 @@ TEST(CameraV4l2Buffers, FewBuffersSufficeForManyPictures) {
                       std::vector<std::string>{"/dev/video0: the driver allocated only " +
                                                std::to_string(buffers) +
                                                " of 6 buffers, so every picture is copied"});
-            EXPECT_TRUE(camera.takeWarnings().empty()) << "once";
+            EXPECT_TRUE(camera.takeWarnings().empty()) << "the warning must come only once";
             camera.start();
             std::vector<Frame> held;
             for (std::uint8_t i = 0; i < 6; ++i) {
@@ -141,7 +141,7 @@ TEST(CameraV4l2Buffers, WithEnoughBuffersPicturesAreLentWithoutACopy) {
 int eventDescriptors() {
     int out = 0;
     for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {
-        std::error_code error;  // the directory's own descriptor is already closed
+        std::error_code error;  // ignored: the iterator's own descriptor can be closed by now
         out += std::filesystem::read_symlink(entry.path(), error) == "anon_inode:[eventfd]" ? 1 : 0;
     }
     return out;

@@ -27,7 +27,7 @@ work=$(mktemp -d -p "$root/tmp" mfar.XXXXXX)
 trap 'rm -rf "$work"' EXIT
 tar -cf - hal tests/device tests/unit/*.h | tar -xf - -C "$work"
 
-# The text is expanded and executed inside the root folder. Its argument is a folder.
+# These commands are executed inside the root folder. Their argument is the folder of the sources.
 # shellcheck disable=SC2016
 inside='
 set -eu

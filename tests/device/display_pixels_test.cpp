@@ -42,12 +42,12 @@ TEST(PixelLayout, PacksTheUppermostBitsIntoSixteenBits) {
     // 0x56 0x34 0x12 -> 01010 001101 00010; 0x80 0x00 0xff -> 10000 000000 11111
     EXPECT_EQ(packed(kRgb565, 5), (Bytes{0xa2, 0x51, 0x1f, 0x80, 0xee,  //
                                          0xe0, 0x07, 0x00, 0xf8, 0xee}));
-    // a one-bit alpha is opaque
+    // the alpha bit must be 1 (opaque)
     EXPECT_EQ(packed(kArgb1555, 4), (Bytes{0xc2, 0xa8, 0x1f, 0xc0, 0xe0, 0x83, 0x00, 0xfc}));
 }
 
-// Pictures on the host and on the GPU must be packed equally, also at widths that do not fill
-// vectors. Alpha is ignored.
+// Pictures on the host and on the GPU must be packed equally, even if the width is no multiple of
+// the vector length. Alpha is ignored.
 TEST(PixelLayout, HostRowsPackLikeGpuPictures) {
     constexpr Size kSize{37, 3};
     Bytes bgra(4UL * kSize.width * kSize.height, 255), rgba(bgra.size());

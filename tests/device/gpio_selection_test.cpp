@@ -81,7 +81,7 @@ TEST(GpioSelection, AmbiguousNamesAreRefused) {
     EXPECT_THAT(faultOf(board(), "gpiochip0", ""), HasSubstr("no GPIO line is given"));
 }
 
-TEST(GpioSelection, NumberMustBeAllDigits) {
+TEST(GpioSelection, ALineNumberMustConsistOfDigits) {
     for (const char* line : {"-1", "2x", " 2", "+2", "4294967296", "0x2"})
         EXPECT_THAT(faultOf(board(), "gpiochip0", line), HasSubstr("no GPIO line is named"))
             << line;

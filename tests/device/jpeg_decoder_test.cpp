@@ -54,7 +54,8 @@ Bytes withoutHuffmanTables(const Bytes& jpeg) {
     return out;
 }
 
-/// Expects BT.601 full range, and chroma from the centre of each 2x2 pixels.
+/// Expects the colours of the ramp in BT.601, full range. The chroma of each 2x2 pixels must be
+/// that at their centre.
 void expectRamp(const ImageView& view) {
     ASSERT_EQ(view.size, kJpegSize);
     ASSERT_EQ(view.format, PixelFormat::Yuv420);

@@ -17,7 +17,7 @@ constexpr std::uint8_t kDark = 40, kBright = 210;
 
 inline std::uint32_t stampBits(std::int64_t ms) {
     const auto time = static_cast<std::uint32_t>(ms) & ((1U << kStampBits) - 1);
-    // With the constant, a black picture fails the check.
+    // The constant 0xa5 makes the stamp of a black picture invalid.
     const std::uint32_t check = (((time * 0x9e3779b1U) >> 24U) ^ 0xa5U) & 0xffU;
     return time << 8U | check;
 }

@@ -229,7 +229,7 @@ private:
     Chance& chance_;
     std::thread stopper_;
     std::array<At, kRequests> at_{};
-    std::array<bool, kRequests> isCancelled_{};  ///< cancelled and not completed since
+    std::array<bool, kRequests> isCancelled_{};  ///< true: was cancelled and not completed since
     std::deque<std::size_t> ready_;
     bool running_ = false;
     Timestamp begun_;
@@ -325,7 +325,8 @@ private:
 
     Chance chance_;
     ModelledCamera ill_, sound_;
-    std::uint32_t cancelsAll_ = 0;  ///< one of this number of steps cancels all requests
+    std::uint32_t cancelsAll_ =
+        0;  ///< average number of steps between cancellations of all requests
     bool restarts_ = false;
     std::uint64_t served_ = 0;
 };

@@ -205,7 +205,7 @@ TEST(RequestCycle, AHangingRestartDoesNotDelayTheOtherCamera) {
     std::thread reader([&] { EXPECT_FALSE(ill.cycle.next(kPatience)); });
     for (int i = 1; i <= 50; ++i) {
         EXPECT_TRUE(takes(sound, i));
-        ill.cycle.cancelled(0);  // the driver's thread may call this at the same time
+        ill.cycle.cancelled(0);  // the driver's thread can report this during a restart, too
     }
     EXPECT_EQ(ill.starts().size(), 1U);
     ill.hang(false);
@@ -215,7 +215,7 @@ TEST(RequestCycle, AHangingRestartDoesNotDelayTheOtherCamera) {
     EXPECT_TRUE(takes(ill, 1));
 }
 
-TEST(RequestCycle, DriverThatRefusesARequestIsLost) {
+TEST(RequestCycle, ADeviceWhoseDriverRefusesARequestIsLost) {
     FakeDriver camera;
     camera.cycle.start();
     camera.queueError = -19;

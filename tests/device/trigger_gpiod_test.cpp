@@ -23,7 +23,7 @@ TEST(GpioTrigger, UnknownChipIsRefusedByName) {
                 ThrowsMessage<std::runtime_error>(HasSubstr("'no-such-chip'")));
 }
 
-TEST(GpioTrigger, EveryListedChipHasAPathAndLinesOrAReason) {
+TEST(GpioTrigger, EveryListedChipHasAPathAndEitherLinesOrAnError) {
     for (const GpioChip& chip : listGpioChips()) {
         EXPECT_EQ(chip.path, "/dev/" + chip.name);
         EXPECT_NE(chip.lines.empty(), chip.error == 0) << chip.path;

@@ -137,7 +137,7 @@ TEST_P(DetailEngineTest, WholeFrameMatchesTheOracleAtAnySize) {
     }
 }
 
-/// Expects that each channel of each pixel differs from of(x, y, channel) by at most `most`.
+/// Expects that each channel of each pixel equals `of(x, y, channel)` within a tolerance of `most`.
 template <class F>
 void expectPicture(Rows<const std::uint32_t> drawn, F&& of, double most) {
     for (int y = 0; y < drawn.size.height; ++y)
@@ -225,8 +225,8 @@ TEST_P(DetailEngineTest, ChangedOrRemovedFiltersTakeEffectInTheNextFrame) {
     }
 }
 
-// All look-ups change, but only some tiles are drawn. Their detail also depends on neighbouring
-// tiles.
+// All look-ups change, but only some tiles are drawn. These must equal tiles of a whole frame,
+// although their detail also depends on neighbouring tiles.
 void expectOnlyChangedTiles(const StepEngines& engines, const simd::Sizes& sizes,
                             const FilterBank* filters) {
     const auto& [video, stillSize, output] = sizes;

@@ -27,8 +27,8 @@ public:
         glPyramids_.buildSecond(uploaded(then));
     }
 
-    /// Gives the pyramids of the shaders to the flow of the host, so that both flows read the same
-    /// bytes.
+    /// Copies the pyramids of the shaders to the search on the host, so that both searches read the
+    /// same bytes.
     void sharePyramids() {
         const auto words = glPyramids_.words().read<std::uint32_t>(pyramids_.words().size());
         std::ranges::copy(words, pyramids_.words().begin());

@@ -62,7 +62,7 @@ INSTANTIATE_TEST_SUITE_P(
                                      Sides{{17, 31}, {601, 40}}, Sides{{64, 48}, {33, 21}},
                                      Sides{{40, 30}, {160, 120}})));
 
-TEST_P(OcclusionTest, PixelsDecidedWithoutWeighingMatchTheOracle) {
+TEST_P(OcclusionTest, ClearlyVisibleAndClearlyHiddenPixelsMatchTheOracle) {
     twin::Scene scene = plainScene({0.4, 0.01});
     for (std::size_t i = 0; i < scene.real.size(); ++i)
         if (i % kCoarse.width > 20) scene.real[i].inverseDepth = 0.8;
@@ -292,8 +292,8 @@ TEST_P(ScaledLayer, AtEdgesOfTheLayerTheDepthOfTheCoveredPixelDecides) {
         layer.z = [&](int x, int) { return x == 20 ? 2 : nothing; };
         layer.bounds = {20, 0, 21, kQuarter.height};
         const LaidOver got = runOverBlack(layer);
-        // The centre of layer pixel 20 is at output position 81.5. Its tent reaches four output
-        // pixels to each side.
+        // The centre of layer pixel 20 is at output position 81.5. Linear interpolation spreads it
+        // over four output pixels to each side.
         for (int x = 0; x < kOutput.width; ++x) {
             const double tent = std::max(1 - std::abs(x - 81.5) / 4, 0.0);
             ASSERT_NEAR(got.at(x, 60, 0), 200 * tent, 1.01) << x;

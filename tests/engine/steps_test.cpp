@@ -84,7 +84,7 @@ TEST_P(StepsTest, StillPyramidIsResampledToPixelsOfTheVideo) {
         const auto prepare = engine->still();
         const auto step = engine->pyramid();
         const LumaPyramid& pyramid = step->still(prepare->run(still.view(), SuperResMode::Detail));
-        // Tolerance: the shaders' filter has weights of 8 bits; the kernels round luma before.
+        // Tolerance: the shaders' filter has weights of 8 bits; the kernels filter rounded luma.
         EXPECT_LE(worstOf(levelOf(pyramid, pyramid.still[0]),
                           twin::lumaFromStill(twin::luma(still.view()), rig)),
                   kToABit + 1);

@@ -27,7 +27,8 @@ constexpr Ns kUs = 1000;
 constexpr Ns kEndTime = 3 * kSecond;  ///< longest time from SIGTERM to the end
 /// Longest time from the start to READY, whatever the devices do.
 constexpr Ns kReadyTime = 5 * kSecond;
-/// Pause between episodes. Late effects of faults end in it, and mfard is checked without faults.
+/// Pause between episodes. It lets late effects of faults end. Then mfard is checked without
+/// faults.
 constexpr Ns kQuiet = 4500 * kMs;
 
 long numberOf(const char* variable, long otherwise) {
@@ -103,7 +104,7 @@ void apply(const Step& step) {
         // which another fault may block.
         if (ofDisk)
             std::thread([] {
-                sleepFor(300 * kMs);  // until a recording that the fault delayed has started
+                sleepFor(300 * kMs);  // the fault may have delayed the start of the recording
                 request({{"command", "record"}, {"stop", true}});
             }).detach();
         Judge::get().ends(*step.fault);
@@ -155,8 +156,8 @@ void checkInQuiet() {
     }
 }
 
-/// True after begin() has restored the first thread's signal mask. Before, that thread blocks all
-/// signals for begin(), not for mfard.
+/// True once begin() has restored the first thread's signal mask. Until then the thread blocks all
+/// signals because of begin(). This does not mean that mfard handles them.
 std::atomic<bool> hasItsMask = false;
 
 /// True if the first thread blocks SIGTERM. If not, SIGTERM ends the process at once.

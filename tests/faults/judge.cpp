@@ -53,7 +53,7 @@ std::uint64_t entries(const char* folder) {
 std::multiset<std::string> openFiles() {
     std::multiset<std::string> out;
     for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {
-        std::error_code error;  // the directory's own descriptor is already closed
+        std::error_code error;  // ignored: the iterator's own descriptor can be closed by now
         out.insert(std::filesystem::read_symlink(entry.path(), error).string());
     }
     return out;

@@ -56,12 +56,14 @@ using Episode = std::vector<Fault>;
 struct Plan {
     bool beginsBroken = false;  ///< the first episode begins before mfard starts
     std::string_view mode;
-    [[nodiscard]] bool recordsAtStart() const;  ///< True if the disk is faulty from the start.
+    /// True if mfard is configured to record from its start, because its disk is faulty from then
+    /// on.
+    [[nodiscard]] bool recordsAtStart() const;
     std::vector<Episode> episodes;
     Ns endAfter = 0;
     bool hasTrigger = false;
     bool endsBeforeReady = false;  ///< mfard must end before READY or soon after it
-    bool isKilled = false;         ///< ended with SIGKILL and started again
+    bool isKilled = false;         ///< mfard is ended with SIGKILL and started again
 
     /// Chooses random faults of the kinds whose names contain `only`. Throws std::runtime_error if
     /// there is no such kind.

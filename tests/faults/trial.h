@@ -10,9 +10,11 @@ namespace mfar::faults {
 struct TrialOptions {
     std::filesystem::path program = MFAR_FAULTS_MFARD;
     int episodes = 10;
-    std::string only;     ///< only kinds of faults whose names contain this text
-    bool hasGpu = false;  ///< also use the GLES engine, with a library that can fail
-    long soakFrames = 0;  ///< number of frames in a run without faults; 0: run with faults
+    std::string only;  ///< text that the names of the faults must contain
+    /// True: mfard uses the GLES engine instead of the SIMD engine, and faults of the GPU are
+    /// added.
+    bool hasGpu = false;
+    long soakFrames = 0;  ///< number of frames of a run without faults; 0: the run has faults
     int job = 0;  ///< index of the process; each runs on its own processor if there are enough
 };
 

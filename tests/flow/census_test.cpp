@@ -52,7 +52,7 @@ TEST(Census, MatchesTheOracleAtEverySize) {
     }
 }
 
-TEST(Census, OneDarkNeighbourSetsItsOwnBit) {
+TEST(Census, EachDarkNeighbourSetsItsOwnBit) {
     LumaImage picture({9, 9});
     std::fill(picture.pixels.begin(), picture.pixels.end(), std::uint8_t{100});
     picture.row(2)[2] = 50;
@@ -61,7 +61,7 @@ TEST(Census, OneDarkNeighbourSetsItsOwnBit) {
     EXPECT_EQ(censusOf(picture)[9 * 4 + 4], 1U << 23 | 1U << 11 | 1U);
 }
 
-TEST(Census, UsesAllItsBitsButNeverTheValueForNoCensus) {
+TEST(Census, EveryBitIsUsedExceptTheMarkOfPixelsWithoutCensus) {
     const LumaImage picture = randomPicture({40, 30}, 0, 255, 5);
     std::uint32_t all = 0;
     for (const std::uint32_t bits : censusOf(picture))
@@ -99,8 +99,8 @@ TEST(Census, IsInvariantToRisingToneCurves) {
     EXPECT_NE(censusOf(toned(picture, [](double v) { return 255 - v; })), bits);
 }
 
-// Where a curve makes neighbours equal, it may clear bits but must set none.
-TEST(Census, FlatterToneCurvesClearBitsButSetNone) {
+// If a curve makes neighbouring grey levels equal, this clears bits of the census but sets none.
+TEST(Census, FlatterToneCurvesCanClearBitsButSetNone) {
     const LumaImage picture = randomPicture({31, 23}, 0, 255, 9);
     const auto bits = censusOf(picture);
     const auto flat = censusOf(toned(picture, [](double v) { return 100 + v / 5; }));

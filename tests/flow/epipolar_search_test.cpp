@@ -66,8 +66,8 @@ TEST(EpipolarSearch, FindsAWallAfterASidewaysMotion) {
     expectErrors({plain(), flatScene(), motion({0, 0, 0}, {0, 0.15, 0})}, kAlongAxis, 0.02);
 }
 
-// Two consecutive labels have the same nearest pixel. The pixels on both sides of the match differ
-// from it equally. So the true position is between these two labels.
+// Here two consecutive labels (candidates on the line) have the same nearest pixel, and the pixels
+// before and after it match equally well. So the true position is between these two labels.
 TEST(EpipolarSearch, FindsAWallAtHalfPixelsAlongADiagonal) {
     const CameraModel camera = plain();
     for (const double pixels : {5.4, 5.5, 5.6, -8.5}) {

@@ -66,7 +66,7 @@ TEST(FieldPrediction, InverseDepthsMoveToTheNextFrameAccordingToThePoses) {
         << "the test needs a motion that changes the field";
 }
 
-TEST(FieldPrediction, EveryFrameHasItsOwnUnitOfLength) {
+TEST(FieldPrediction, UnitsOfLengthCanDifferBetweenFrames) {
     const EpipolarLens cells(barrelCamera(), 2);
     const RigidTransform before = motion({1, -2, 3}, {-0.2, 0.05, 0.1});
     const RigidTransform after = motion({1.5, -2.6, 1.5}, {-0.26, 0.07, 0.16});

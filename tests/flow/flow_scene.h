@@ -10,8 +10,8 @@
 
 namespace mfar::test {
 
-/// The plane normal . p = distance in the video camera's frame, limited to points whose x and y are
-/// between `least` and `greatest`. Its texture is a function of the point.
+/// A part of a plane in the video camera's frame: the points p with `normal` . p = `distance` whose
+/// x and y are between `least` and `greatest`. Its texture is a function of p.
 struct Surface {
     Eigen::Vector3d normal{0, 0, 1};
     double distance = 2;

@@ -45,7 +45,7 @@ TEST(TexturedPlaces, PatchesAreChosenWhereThePictureHasTexture) {
     }
 }
 
-TEST(TexturedPlaces, NeitherNoiseNorEdgesAreTexture) {
+TEST(TexturedPlaces, PatchesOfNoiseOrStraightEdgesAreNotChosen) {
     std::mt19937 random(3);
     std::normal_distribution<double> noise(120, 4);
     const auto grain = drawn({160, 120}, [&](double, double) { return noise(random); });

@@ -82,7 +82,8 @@ fuzzCoverage() {
 }
 
 # Builds the libraries that decode pictures and read YAML, with coverage and sanitizers. Creates the
-# link by which the preset finds them. CMake remembers where the link pointed.
+# link by which the preset finds them. If the link changes, CMake must run again, because its cache
+# contains the old target of the link.
 instrumentLibraries() {
     local made link=.build/instrumented
     ensurePackages fuzzLibraryPackages

@@ -9,7 +9,7 @@ rooms=(base daemon hal pipeline gles_shaders tests systemd toolchains)
 topLevel=' CMakeLists.txt CMakePresets.json README.md LICENSE CHANGELOG.md CONTRIBUTING.md CITATION.cff
   run .clang-format .clang-tidy .ci .gitignore base daemon hal pipeline gles_shaders tests systemd
   toolchains docs '
-# Top-level names outside version control: its own folder, build and output folders, recordings.
+# Names at the top level that git does not track: .git itself, builds, outputs and recordings.
 ignored=' .git .build out shared '
 maxLines=400
 

@@ -146,7 +146,7 @@ void expectBalanced(const Environment& e) {
         }
     }
     EXPECT_NEAR(up / std::numbers::pi, 1, 1e-3);
-    EXPECT_LT(down, up / 2) << "light is from above";
+    EXPECT_LT(down, up / 2) << "most light must come from above";
 }
 
 TEST(EnvironmentMap, StudioAndSkyEnvironmentsLightATableFromAboveWithIrradiancePi) {

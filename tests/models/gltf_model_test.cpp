@@ -24,7 +24,7 @@ void expectNear(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
 TEST(GltfModel, TheYAxisOfAModelBecomesTheZAxis) {
     const Model model = modelOf(oneTriangle());
     ASSERT_EQ(model.meshes.size(), 1U);
-    ASSERT_EQ(model.materials.size(), 1U) << "the default one";
+    ASSERT_EQ(model.materials.size(), 1U) << "the model must have the default material";
     const Mesh& mesh = model.meshes[0];
     ASSERT_EQ(mesh.triangles.size(), 1U);
     expectNear(mesh.positions[1], {1, 0, 0});
@@ -52,7 +52,8 @@ TEST(GltfModel, MaterialIsRead) {
     EXPECT_FALSE(model.textures[m.normalTexture].srgb);
     const SurfaceTexture& texture = model.textures[m.baseColourTexture];
     EXPECT_EQ(texture.size, (Size{2, 2}));
-    EXPECT_EQ(texture.texels[1], (std::array<std::uint8_t, 4>{0, 255, 0, 10})) << "alpha is kept";
+    EXPECT_EQ(texture.texels[1], (std::array<std::uint8_t, 4>{0, 255, 0, 10}))
+        << "alpha must be kept";
 }
 
 TEST(GltfModel, HierarchyIsApplied) {

@@ -124,7 +124,7 @@ TEST(LightEstimate, IfOnlyATableWasSeenLightComesFromAbove) {
                           down = radianceOf(estimate.radiance, {0, 0, -1});
     EXPECT_LT((down - Eigen::Vector3f(0.3F, 0.25F, 0.2F)).norm(), 0.1F) << down.transpose();
     EXPECT_GT(up.x(), 1.3F * down.x());
-    EXPECT_NEAR(up.x() / up.z(), 1.5F, 0.1F) << "light has the table's colour";
+    EXPECT_NEAR(up.x() / up.z(), 1.5F, 0.1F) << "the light must have the table's colour";
 }
 
 TEST(LightEstimate, ALampInViewGivesTheMainDirectionOfLight) {
@@ -181,7 +181,7 @@ TEST(LightEstimate, CoveredAndImpossibleFramesAreSkipped) {
     Watcher watcher;
     EXPECT_FALSE(watcher.estimator.estimate());
     watcher.look(lookingDown(), [](const auto&) { return Eigen::Vector3f(0, 0, 0); });
-    EXPECT_FALSE(watcher.estimator.estimate()) << "the lens is covered";
+    EXPECT_FALSE(watcher.estimator.estimate()) << "a covered lens must give no estimate";
     watcher.look(lookingDown(), smoothLight);
     const SphericalLight before = watcher.estimate().radiance;
     RigidTransform broken = lookingDown();

@@ -55,7 +55,8 @@ TEST(ShapeModel, TheCheckerboardMatchesThePreview) {
     object.colours[1] = object.colours[0];
     const Model plain = shapeModel(object);
     EXPECT_TRUE(plain.textures.empty());
-    EXPECT_NEAR(plain.materials[0].baseColour.x(), 0.791F, 0.005F) << "linear";
+    EXPECT_NEAR(plain.materials[0].baseColour.x(), 0.791F, 0.005F)
+        << "the base colour must be linear";
 }
 
 }  // namespace

@@ -29,10 +29,11 @@ TEST(Lathe, AHalfCircleProfileGivesASphere) {
     half.back().x() = 0;
     Mesh mesh;
     addTurned(mesh, half, {.around = 128});
-    EXPECT_NEAR(volumeOf(mesh), 4 * std::numbers::pi / 3, 0.01) << "faces outwards";
+    EXPECT_NEAR(volumeOf(mesh), 4 * std::numbers::pi / 3, 0.01) << "triangles must face outwards";
     for (std::size_t i = 0; i < mesh.positions.size(); ++i)
         ASSERT_GT(mesh.normals[i].dot(mesh.positions[i]), 0.998F);
-    EXPECT_EQ(mesh.triangles.size(), 128U * (2 * 64 - 2)) << "none without area at the poles";
+    EXPECT_EQ(mesh.triangles.size(), 128U * (2 * 64 - 2))
+        << "there must be no triangles without area at the poles";
     EXPECT_EQ(mesh.uvs.front(), Eigen::Vector2f(0, 1));
     EXPECT_EQ(mesh.uvs.back(), Eigen::Vector2f(1, 0));
 }
@@ -56,7 +57,7 @@ TEST(Showpiece, IsAValidModelThatStandsOnTheTable) {
         materials.insert(mesh.material);
         for (const Eigen::Vector3f& p : mesh.positions)
             box.extend(p);
-        EXPECT_GT(volumeOf(mesh), 0) << "faces outwards";
+        EXPECT_GT(volumeOf(mesh), 0) << "triangles must face outwards";
     }
     EXPECT_GE(triangles, 5'000U);
     EXPECT_LE(triangles, 60'000U);
@@ -77,7 +78,8 @@ TEST(Showpiece, NormalsAgreeWithTriangles) {
             for (const std::uint32_t i : {a, b, c})
                 if (!(mesh.normals[i].dot(front) > 0)) ++against;
         }
-        EXPECT_EQ(against, 0U) << "of material " << mesh.material;
+        EXPECT_EQ(against, 0U) << "corners have a normal against their triangle; material "
+                               << mesh.material;
     }
 }
 

@@ -94,7 +94,7 @@ echo "SIGTERM during the first milliseconds"
 start --source synthetic:flat
 sleep 0.02
 kill -TERM "$pid"
-# A signal may end mfard directly before mfard handles signals itself.
+# Exit code 143: the signal came before mfard handled signals itself, so it ended the process.
 code=0
 wait "$pid" || code=$?
 [ "$code" = 0 ] || [ "$code" = 143 ] || fail "mfard ended with exit code $code instead of 0 or 143"

@@ -31,8 +31,8 @@ says err 'no such chip'
 sed -i '/trigger/,$d' mfard.toml
 run 0 --config mfard.toml --release-trigger
 
-# A missing calibration, or one of other picture sizes, is an error. Unlike missing devices, mfard
-# does not wait for it.
+# A missing calibration, or one of other picture sizes, is an error. mfard waits for missing devices
+# but not for a calibration.
 sed -i '1a [cameras]\ncalibration = "lenses"' mfard.toml
 run 66 --config mfard.toml
 says err 'lenses'

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Without OpenGL ES, mfard must show path-traced objects as usual. Previews need OpenGL ES. So mfard
-# must report this and show pictures without objects.
+# Without OpenGL ES, mfard must show path-traced objects as usual. If the rendering is "preview",
+# which needs OpenGL ES, mfard must say so and show pictures without objects.
 . "$(dirname "$0")/lib.sh"
 
 "$sim" --scene office --path handheld --seconds 1.5 --stills 3 --no-truth \

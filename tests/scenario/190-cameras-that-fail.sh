@@ -123,7 +123,7 @@ for buffers in 1 3; do
     stop_now 1500
 done
 
-echo "a camera is absent at boot: the other camera runs, and status reports no fault of it"
+echo "a camera is absent at boot: the other camera runs, and status reports only the absent one"
 for absent in video still; do
     device=video90
     [ $absent = video ] || device=video91

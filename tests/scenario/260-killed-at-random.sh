@@ -38,8 +38,8 @@ for round in $(seq "$times"); do
     before=$(recorded)
     begin
     sleep 0.$((RANDOM % 3))$((RANDOM % 10))
-    # Every second process is killed after its first picture; every fourth while it records, during
-    # a trigger pulse.
+    # Every second process shows its first picture before it is killed. Every fourth process is
+    # killed while it records and a trigger pulse is active.
     if [ $((round % 2)) = 0 ]; then
         until_true shows_pictures
         took=$(($(milliseconds) - begun))

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The disk for recordings, state and a log file is full: a small file system of its own. mfard must
-# start, continue, and report what it could not write. Everything that it wrote must be readable.
+# Recordings, state and a log file are on a small file system, which is full. mfard must start,
+# continue, and report what it could not write. Everything that it wrote must be readable.
 # Usage: 270-full-var.sh MFARD MFAR-SIM PRETENDED.so. Exit status 77: no file system can be mounted.
 if [ -z "${MFAR_MOUNTS:-}" ]; then
     for how in "--mount" "--mount --map-root-user"; do

@@ -24,7 +24,7 @@ SECTOR, BLOCK = 512, 4096
 
 
 def entries(log):
-    """(end of the entry in the log, flags, position on the disk, data) of each entry, in order."""
+    """Returns the log's entries in order: (end of the entry, flags, position on the disk, data)."""
     magic, version, _, sector_size = struct.unpack_from('<QQQI', log)
     if (magic, version, sector_size) != (MAGIC, 1, SECTOR):
         sys.exit(f'LOG is not a dm-log-writes log with sectors of {SECTOR} bytes')

@@ -11,7 +11,7 @@
 namespace mfar::test {
 namespace {
 
-constexpr int kStep = 3;  // distance of the measured pixels [px]
+constexpr int kStep = 3;  // distance between measured pixels [px]
 constexpr double kFar = 1000;
 
 double medianOf(std::vector<double>& values) {

@@ -30,14 +30,14 @@ struct Context {
     [[nodiscard]] Size size(int least, int most);
 };
 
-/// Two cameras next to each other: small ones, or, at the product's size, ones with distorted
-/// lenses.
+/// Two cameras next to each other: either with small pictures and lenses of hostile.camera(), or
+/// with larger pictures and moderate distortion, which Scale::Product always selects.
 [[nodiscard]] StereoRig hostileRig(Context& context);
 
 struct Case {
     const char* name;
     void (*run)(Context& context);
-    bool atProductSize = false;  ///< fast enough for many runs at the product's size
+    bool atProductSize = false;  ///< true: fast enough that Balance runs it at the product's size
 };
 
 [[nodiscard]] std::vector<Case> allCases();

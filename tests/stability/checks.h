@@ -21,7 +21,7 @@ public:
     void fail(const std::string& what);
 
     void through(const std::string& pass, long pixels) { pixels_[pass] += pixels; }
-    /// Adds a number of inputs (tags, matches, points) to a part that does not process pictures.
+    /// Counts `inputs` (tags, matches or points) of a part that does not process pictures.
     void tried(const std::string& part, long inputs) { inputs_[part] += inputs; }
 
     [[nodiscard]] const std::map<std::string, long>& pixels() const { return pixels_; }

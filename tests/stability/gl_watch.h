@@ -19,8 +19,8 @@ public:
     GlWatch(const GlWatch&) = delete;
     GlWatch& operator=(const GlWatch&) = delete;
 
-    /// To be called after each frame. For each pass since the last call, counts `pixels`, or the
-    /// number of pixels that it wrote if that is larger. Reports faults of these passes.
+    /// To be called after each frame. Counts the pixels of each pass that ran since the last call:
+    /// `pixels`, or more if the pass wrote more. Reports faults of these passes.
     void frame(Checks& checks, long pixels);
 
 private:

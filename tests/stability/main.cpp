@@ -38,7 +38,7 @@ Options parse(int argc, char** argv) {
     o.run.addOptions(app);
     app.add_option("--case", o.cases, "run only these cases")->delimiter(',');
     app.add_option("--plant", o.plant,
-                   "change a shader first: plant the fault with this number in --list-planted");
+                   "plant a fault in a shader: the number of the fault, see --list-planted");
     app.add_flag("--small", o.small, "use only small pictures, as in the tests");
     app.add_flag("--full", o.full, "use only pictures of mfard's usual size")->excludes("--small");
     app.add_option("--pixels", o.pixels,
@@ -148,7 +148,7 @@ Tally Run::drawSeeds(std::uint64_t first) {
             runCase(one, seed, scale);
             if (stops()) break;
         }
-        // Runs cases at the product's size, for three times as long as the seed took.
+        // Runs cases at the product's size, for three times as long as the loop above took.
         if (scale == Scale::Mixed && !repeats)
             fillUp(seed, std::min(4 * minutes() - 3 * start, options_.run.minutes));
         ++seeds_;

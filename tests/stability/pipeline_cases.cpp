@@ -18,8 +18,8 @@ std::optional<Pose> poseFor(Context& c, double unit) {
     return pose;
 }
 
-/// One engine for all steps, or different engines. Then buffers are transferred between host and
-/// GPU.
+/// Chooses one engine for all steps, or an engine for each step. Between steps of different
+/// engines, buffers are transferred between host and GPU.
 EngineChoice enginesFor(Context& c) {
     const auto kind = [&] { return c.hostile.pick({EngineKind::Gles, EngineKind::Simd}); };
     if (c.hostile.chance(0.6)) return EngineChoice::all(kind());

@@ -1,4 +1,4 @@
-// A few seeds of every case, and tests without seeds.
+// Runs a few seeds of every case, and tests that need no seed.
 #include "pipeline/depth/depth_filter.h"
 #include "tests/stability/cases.h"
 
@@ -25,7 +25,7 @@ std::ostream& operator<<(std::ostream& out, const Group& group) {
 class HostileInput : public testing::TestWithParam<Group> {};
 
 TEST_P(HostileInput, RandomHostileInputBreaksNoInvariant) {
-    if (GetParam().cases().empty()) GTEST_SKIP() << "not built";
+    if (GetParam().cases().empty()) GTEST_SKIP() << "this build lacks the tested part";
     GlWatch gl;
     Checks checks;
     for (int seed = 1; seed <= GetParam().seeds; ++seed)

@@ -35,7 +35,7 @@ TEST(Reference, MotionSinceTheStillIsTheMeanDisplacementOfMatchedCells) {
         << "one of the eleven matched cells has not moved";
     EXPECT_GT(Known(1, 0, 0).reference.moved(), 1e6) << "no cell is matched any more";
     half.reference.first.clear();
-    EXPECT_EQ(half.reference.moved(), 0) << "no frame was matched";
+    EXPECT_EQ(half.reference.moved(), 0) << "without a matched frame the motion must be 0";
 }
 
 TEST(Reference, ShareOfShownTilesIsSmoothedOverFrames) {
@@ -47,7 +47,7 @@ TEST(Reference, ShareOfShownTilesIsSmoothedOverFrames) {
     EXPECT_NEAR(still.shows, 0.25, 1e-4);
 }
 
-TEST(KeepsOlder, DoesNotKeepAMissingStill) {
+TEST(KeepsOlder, WithoutAnOlderStillNoneIsKept) {
     const Reference none;
     EXPECT_FALSE(keepsOlder(none, Known(0.1).reference));
 }

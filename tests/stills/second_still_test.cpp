@@ -14,7 +14,8 @@ using Bytes = std::vector<std::uint8_t>;
 
 constexpr Size kVideo{256, 192}, kStill{1024, 768};
 const PixelRect kHidden{0, 0, 400, 768};
-constexpr int kRoom = 24;  // width of the zone around borders that is not scored [px]
+constexpr int kRoom =
+    24;  // pixels this near to a border of the picture or of kHidden are not scored
 
 StereoRig simpleRig() {
     StereoRig rig;

@@ -92,7 +92,7 @@ TEST_F(SecondTilesTest, TilesThatAreNotDrawnOrNotMatchedAreNotChosen) {
     EXPECT_EQ(chosen(), Tiles{9});
     EXPECT_EQ(tiles_.matched(), 18);
     work_.draw = TileWork::Draw::Whole;
-    EXPECT_EQ(chosen(), (Tiles{2, 9})) << "all tiles are drawn";
+    EXPECT_EQ(chosen(), (Tiles{2, 9})) << "in a wholly drawn frame, unchanged tiles can be chosen";
 }
 
 TEST_F(SecondTilesTest, TilesThatNeitherStillShowsAreNotMatchedForAWhile) {
@@ -109,7 +109,7 @@ TEST_F(SecondTilesTest, TilesThatNeitherStillShowsAreNotMatchedForAWhile) {
     EXPECT_EQ(chosen(), (Tiles{2, 3}));
     judge();
     tiles_.forget();
-    EXPECT_EQ(chosen(), (Tiles{2, 3})) << "another still";
+    EXPECT_EQ(chosen(), (Tiles{2, 3})) << "with another still, all tiles can be chosen again";
 }
 
 TEST_F(SecondTilesTest, TilesThatTheSecondStillShowsArePreferred) {

@@ -23,7 +23,7 @@ def read_number(picture, width):
 
 
 class FakeLink:
-    """Requests data from a camera without end, and joins it to pictures."""
+    """Requests data from a camera again and again, and joins the data to pictures."""
 
     def __init__(self, camera):
         self.camera = camera

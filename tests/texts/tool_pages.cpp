@@ -11,7 +11,7 @@
 namespace mfar::test {
 namespace {
 
-/// Texts of a manual page that the parser lacks.
+/// Texts of a manual page that the command-line parser does not contain.
 struct Tool {
     const char* about;
     const char* source;

@@ -245,7 +245,7 @@ TEST_F(PipeDisplays, LivePicturesDoNotWaitForAStalledReader) {
               "y4m:" + pipe.string() + ": the reader of the pipe accepts no data");
     for (int i = 1; i <= 50; ++i)
         show(*display, plain(kSize, static_cast<std::uint8_t>(5 * i)), {i});
-    // One picture is being written. Each buffer contains a waiting one.
+    // One picture is being written. Each buffer contains a waiting picture.
     EXPECT_EQ(display->leftOut(), 47U);
     const int last = readPictures(4);
     EXPECT_NEAR(last, 16 + 219 * 250 / 255., 1) << "the newest picture is written";
@@ -296,7 +296,7 @@ TEST_F(PipeDisplays, WaitingForAReaderIsReported) {
     display->finish();
     reads.join();
     EXPECT_EQ(said.load(), nullptr);
-    EXPECT_EQ(display->leftOut(), 0U) << "every picture is written";
+    EXPECT_EQ(display->leftOut(), 0U) << "every picture must be written";
 }
 
 TEST_F(PipeDisplays, AClosedReaderEndsALiveDisplay) {

@@ -161,7 +161,7 @@ TEST(RecordingPlayer, StopWakesAWaitingThread) {
     EXPECT_THROW(player.video().start(), std::runtime_error);
 }
 
-TEST(RecordingPlayer, ALoopHasIncreasingTimesThatStillIdentifyTheFiles) {
+TEST(RecordingPlayer, TimesIncreaseInALoopAndCanBeMappedToRecordedTimes) {
     const TempFolder folder;
     writeSmallRecording(folder.path(), {1000 * kMs, 1500 * kMs}, {1200 * kMs});
     RecordingPlayer player(loadRecording(folder.path()), {.pace = Pace::Consumer, .loop = true});

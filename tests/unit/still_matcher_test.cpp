@@ -60,7 +60,8 @@ TEST(StillMatcher, TheLearnedLatencyIsTheMedianOfTheFirstTwentyStills) {
     options.guess = 20ms;
     StillMatcher matcher(options);
     EXPECT_EQ(matcher.constant(), nanoseconds(20ms));
-    // The latencies are 30.00 to 30.19 ms in mixed order. One still is 60 ms later.
+    // The latencies are 30.00 to 30.19 ms in mixed order, but pulse 4 has 90 ms instead of 30.08
+    // ms.
     for (int i = 0; i < 20; ++i) {
         EXPECT_FALSE(matcher.learned()) << i;
         const Timestamp pulse = kStart + i * 1s;
@@ -69,8 +70,7 @@ TEST(StillMatcher, TheLearnedLatencyIsTheMedianOfTheFirstTwentyStills) {
         EXPECT_TRUE(matcher.stillArrived(pulse + off)) << i;
     }
     EXPECT_TRUE(matcher.learned());
-    // Pulse 4 has no latency of 30.08 ms. So the middle two of the 20 latencies are 30.10 and 30.11
-    // ms.
+    // Without 30.08 ms, the two middle values of the 20 latencies are 30.10 and 30.11 ms.
     EXPECT_EQ(matcher.constant(), nanoseconds(30ms + 105us));
     matcher.pulseFired(kStart + 100s);
     EXPECT_FALSE(matcher.stillArrived(kStart + 100s + 31106us))
@@ -294,7 +294,7 @@ private:
             }
             const StillMatcher::Due due = matcher.poll(t);
             lost_ += due.lost;
-            // Excludes pulses closer than 60 ms to each other.
+            // Pulses must be at least 60 ms apart.
             if (due.repeat && t - now_ > 60ms && end - t > 60ms) {
                 now_ = t;
                 fire(matcher, Pulse::Repetition, false);
@@ -315,7 +315,8 @@ private:
         // A still that the camera sends twice counts as one.
         const std::int64_t off = (still.exposed - match->pulse).count() - constant_.count();
         EXPECT_LE(std::abs(off), 450'000) << "a still that belongs to no pulse was used";
-        EXPECT_EQ(match->pulse, still.pulse.value_or(match->pulse)) << "swapped";
+        EXPECT_EQ(match->pulse, still.pulse.value_or(match->pulse))
+            << "a still got the pulse of another still";
         EXPECT_LE(std::abs((match->exposed - match->pulse - constant_).count()), 450'000);
     }
 

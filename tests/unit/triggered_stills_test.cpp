@@ -256,7 +256,7 @@ TEST_F(TriggeredStills, AfterStopTheLineIsInactiveAndNoPulseIsFired) {
     EXPECT_NO_THROW(camera->fire());
 }
 
-TEST_F(TriggeredStills, FiringWhileAnotherThreadTakesStillsLosesNone) {
+TEST_F(TriggeredStills, FiringWhileAnotherThreadTakesStillsLosesNoStill) {
     const auto camera = open();
     std::thread firing([&] {
         for (int i = 0; i < 50; ++i) {

@@ -25,7 +25,7 @@ struct CastScene {
     [[nodiscard]] mfar::Scene scene(int segments = 192) const;
     /// Casts `grid`^2 rays per pixel for its colour, and one through its centre for depth and id.
     [[nodiscard]] RenderedPicture cast(const RenderView& view, int grid = 1) const;
-    /// Casts rays only for these pixels. All others are empty.
+    /// Casts rays only for these pixels. All other pixels are empty.
     [[nodiscard]] RenderedPicture castPixels(const RenderView& view, int grid,
                                              std::span<const std::uint32_t> pixels) const;
 };

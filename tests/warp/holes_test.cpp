@@ -29,6 +29,7 @@ struct Turned {
     Warp warp;
 };
 
+// A hole is a pixel of the new view whose surface the traced picture does not show.
 TEST_F(WarpHolesGl, HolesOfTheTracedPictureAreRequested) {
     Turned s({});
     const auto request = s.requestAt(15);
@@ -109,7 +110,7 @@ TEST_F(WarpHolesGl, HolesBeyondTheRequestLimitAreSampledEvenly) {
     EXPECT_NEAR(meanRow(every->pixels), meanRow(some->pixels), 8);
 }
 
-TEST_F(WarpHolesGl, ModesThatDoNotRenderHolesRequestNone) {
+TEST_F(WarpHolesGl, ModesThatDoNotRenderHolesRequestNoPixels) {
     for (const HoleFilling filling : {HoleFilling::None, HoleFilling::PushPull}) {
         Turned s({.filling = filling});
         EXPECT_FALSE(s.requestAt(15));

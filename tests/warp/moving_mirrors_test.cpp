@@ -122,7 +122,8 @@ void expectNear(const Eigen::Vector3f& a, const Eigen::Vector3f& b, std::size_t 
 TEST(MovingMirrors, AfterACameraMotionMirrorsReflectTheSkyAsSeenFromTheNewPosition) {
     Surfaces s(smoothLight());
     const Eigen::Vector3d eye = s.traced.T_world_camera.translation;
-    // Every third pixel sees the whole sky, the next half of it, the next a sky with other light.
+    // One third of the pixels reflect the sky, one third reflect half of its light, and one third
+    // reflect a sky with more light.
     const auto shown = [&](std::size_t i, const Eigen::Vector3f& sky) -> Eigen::Vector3f {
         if (i % 3 == 0) return sky;
         return i % 3 == 1 ? Eigen::Vector3f(0.5F * sky)

@@ -260,7 +260,8 @@ TEST(SurfacePaint, WithoutTextureCoordinatesOnlyTheFactorIsUsed) {
     bare.uvs.clear();
     const Words words =
         paintOf(sceneOf({{modelOf(bare, material, {noise({4, 4}, 4)}), placed(0, {0, 0, 1}), 1}}));
-    EXPECT_EQ(words[20UL * kPainted.width + 30].facing & 0xFFFFFFU, 0xFF00FFU) << "a metal";
+    EXPECT_EQ(words[20UL * kPainted.width + 30].facing & 0xFFFFFFU, 0xFF00FFU)
+        << "a metal must reflect its base colour";
     EXPECT_EQ(words.front(), PaintWords{});
 }
 
@@ -279,8 +280,8 @@ TEST(SurfacePaint, TheObjectThatCoversMostQuartersOfAPixelIsPainted) {
             return words[static_cast<std::size_t>(y) * kPainted.width + x].diffuse & 0xFFFFFFU;
         };
         EXPECT_EQ(at(30, 20), 0x000000FFU);
-        EXPECT_EQ(at(30, 19),
-                  0x000000FFU);  // if both cover two quarters, the lowest quarter decides
+        // If each object covers two quarters, the lowest quarter decides.
+        EXPECT_EQ(at(30, 19), 0x000000FFU);
         EXPECT_EQ(at(31, 20), 0x000000FFU);
         EXPECT_EQ(at(31, 19), 0x00FF0000U);
         EXPECT_EQ(at(39, 10), 0x00FF0000U);

@@ -36,7 +36,8 @@ gpu::Texture cellTexture(std::array<float, 4> value, TexelFormat format) {
     return floatTexture({14, 10}, format, values, Filter::Linear);
 }
 
-/// Weights as bytes. Red: half of the detail's weight; blue: share of the signal in the video.
+/// Weights as bytes. Red: half of the detail's weight. Blue: share of the video's variance that is
+/// not noise.
 gpu::Texture weights(std::uint8_t half, std::uint8_t signal) {
     TestPicture p({14, 10});
     for (std::size_t i = 0; i < p.bytes.size(); i += 4) {

@@ -160,8 +160,8 @@ TEST_F(FlowPasses, CostsOfBentPatchesMatchTheOracle) {
     const auto out = align(pair, in, 0);
     for (int i = 0; i < kArea; ++i) {
         const int x = i % 16, y = i / 16;
-        // Beyond the border the field is repeated. So one of the two slopes there is zero, and the
-        // step must use zero.
+        // Beyond the border the flow field is repeated. So one of the two slopes of a border cell
+        // is zero, and the shader must use this one.
         const Vector2d alongX =
             x < 1 || x > 14 ? Vector2d(0, 0) : dx * (x == 1 || x == 14 ? 0.5 : 1);
         Vector2d alongY = y < 6 ? dy : Vector2d(-dy);
@@ -223,7 +223,7 @@ std::vector<Cell> filtered(const std::vector<Cell>& in, int planeFits = 2) {
 }
 
 TEST_F(FlowPasses, FilteredFlowMatchesTheOracle) {
-    // Flow fields of different noise: from nearly a plane to unrelated vectors.
+    // A small `reach` gives flow that is nearly linear in x and y, a large one unrelated vectors.
     for (const float reach : {0.2F, 0.7F, 5.0F}) {
         auto in = randomField(8, reach);
         std::mt19937 random(9);

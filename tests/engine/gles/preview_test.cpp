@@ -162,7 +162,7 @@ TEST_F(Preview, TheLayersBoundsEncloseCoveredPixelsTightly) {
     PreviewRenderer renderer(lens(), kOutput);
     struct Case {
         Eigen::Vector2d shift;
-        int most;  // limit [px]: a cell of the mesh, if the picture's border cuts it
+        int most;  // limit [px]; as wide as a mesh cell if the picture's border cuts the object
     };
     for (const Case& c :
          {Case{{0, 0}, 3}, Case{{-0.7, 0.1}, 16}, Case{{0.7, -0.5}, 16}, Case{{0.1, 0.6}, 16}}) {

@@ -67,7 +67,7 @@ TEST_F(QualityTest, IfTheStillIsNotUsedAFrameMayBeEnlargedLinearly) {
         << "the option must have no effect on a frame with a still";
 }
 
-// Only the two lowest rows of a tile change, which the tile below reads.
+// Only the two lowest pixel rows of a tile change. They are also read to enlarge the tile below.
 TEST_F(QualityTest, NeighboursAffectedByAChangeAreRedrawn) {
     const PipelineCase c;
     Pipeline p(c.rig, {}), whole(c.rig, {});

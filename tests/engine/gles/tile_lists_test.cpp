@@ -150,7 +150,7 @@ TEST_F(TileListsGl, WithoutMatchedTilesNothingIsListed) {
 }
 
 struct MovedSquare {
-    static constexpr int kFirst = 96, kEnd = 192;  // first pixel, and the first behind the square
+    static constexpr int kFirst = 96, kEnd = 192;  // the square's pixels are kFirst to kEnd - 1
     static constexpr int kBy = 14;
 
     MovedSquare() {

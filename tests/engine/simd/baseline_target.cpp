@@ -4,7 +4,7 @@
 
 namespace {
 
-// Highway uses the baseline where no target but HWY_SCALAR is supported.
+// Highway runs the baseline if HWY_SCALAR is the only supported target.
 [[maybe_unused]] const bool kChosen = [] {
     hwy::SetSupportedTargetsForTest(HWY_SCALAR);
     hwy::GetChosenTarget().Update(HWY_SCALAR);

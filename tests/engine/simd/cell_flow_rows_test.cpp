@@ -71,7 +71,8 @@ TEST(CellFlow, PointsBehindTheCameraAndNanHaveNoFlow) {
     EXPECT_GT(cells.flow(cells.s)[7][1], 9000);
 }
 
-// The flow of other depths must lead back to these depths.
+// Computes the flow that belongs to changed inverse depths. From this flow, alignCells() must find
+// the changed inverse depths.
 TEST(AlignCells, InverseDepthOfCellsFollowsTheirFlowAlongTheEpipolarLine) {
     for (const std::size_t count : test::kLengths) {
         const Cells cells(count);

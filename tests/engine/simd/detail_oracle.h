@@ -69,8 +69,8 @@ public:
     [[nodiscard]] double blended(int x, int y, int c, const Grey& still) const {
         return std::lerp(enlarged(x, y, c), there(x, y, still), lookUpAt(x, y, 3));
     }
-    /// Afterwards, withStill() subtracts the mean of the still itself, as the shaders do. Before,
-    /// it subtracts the mean of the warped still.
+    /// After this call, withStill() subtracts the mean of the still itself, as the shaders do.
+    /// Without this call, it subtracts the mean of the warped still.
     void seeStill() {
         ofWarped_ = false;
         detail_ = {};

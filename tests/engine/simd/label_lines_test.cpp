@@ -81,7 +81,7 @@ TEST(LabelCosts, CostsOfLabelsAreThoseOfTheNearestPixels) {
                     ++compared;
                     if (costs[n] != expected) ++differing;
                 }
-                EXPECT_EQ(differing, 0U) << "of " << compared;
+                EXPECT_EQ(differing, 0U) << "costs differ, of " << compared << " compared costs";
                 EXPECT_GT(compared, costs.size() / 2);
             }
         }
@@ -127,7 +127,7 @@ bool isNearBorder(const Problem& p, std::size_t x, int label) {
     return false;
 }
 
-TEST(LabelPlaces, FractionsOfLabelsAreMeasuredBetweenTheLinePointsNearestToPixels) {
+TEST(LabelPlaces, PositionsBetweenLabelsMatchTheOracle) {
     for (const std::size_t width : {1UL, 16UL, 37UL, 200UL}) {
         const Problem p(width, 20);
         const auto rises = test::randomValues<std::uint8_t>(4 * width, 0, 60, 9);
