@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # The power is cut while mfard records on a real file system. All writes to its disk are logged.
-# From the log, a script makes disks as power cuts at random moments would leave them. Each disk must
-# be mountable and contain everything that was synchronised before the cut. Every picture in the
-# recording's list must be readable. Usage: 280-power-is-cut.sh MFARD MFAR-SIM PRETENDED.so [CUTS]. Exit status 77:
-# root, loop devices, qemu-storage-daemon or FUSE are missing.
+# From the log, a script makes disks as power cuts at random moments would leave them. Each disk
+# must be mountable and contain everything that was synchronised before the cut. Every picture in
+# the recording's list must be readable. Usage: 280-power-is-cut.sh MFARD MFAR-SIM PRETENDED.so
+# [CUTS]. Exit status 77: root, loop devices, qemu-storage-daemon or FUSE are missing.
 for needed in qemu-storage-daemon mkfs.ext4 losetup python3; do
     command -v $needed >/dev/null || { echo "$needed is not installed" && exit 77; }
 done
