@@ -40,7 +40,8 @@ public:
     /// Begins a frame. `workWaits` is true if there was more work during the last frame than was
     /// done. Only then a small part of the last frame's unused time is added to the new frame, and
     /// the last frame counts for kept().
-    void beginFrame(bool workWaits);
+    /// `extraMs` is added to the budget of this frame alone.
+    void beginFrame(bool workWaits, double extraMs = 0);
 
     /// Returns a grant for the next portion. Several grants may be outstanding.
     [[nodiscard]] BudgetGrant grant();
@@ -70,6 +71,7 @@ private:
     static constexpr std::size_t kCosts = 9;
 
     const double budget_;
+    double allowed_;  // the budget of the current frame with its extra time [ms]
     double balance_, reserved_ = 0, used_ = 0;  // [ms]
     double debt_ = 0;                           // [ms], still to be repaid; not part of balance_
     bool usedUp_ = false;                       // whether grant() refused work in this frame

@@ -21,8 +21,10 @@ struct TracedRendererOptions {
     PredictionLimits prediction;
     /// A new scene with the same objects is ignored if lightChange() from the old one is smaller.
     double lightChange = 0.1;
-    double budgetMs = 4;  ///< processor time [ms] of all threads between two calls of update()
-    int threads = 2;      ///< number of threads, [1, 64]
+    /// Processor time [ms] of all threads between two calls of update(); twice this time until the
+    /// first picture is shown.
+    double budgetMs = 4;
+    int threads = 2;  ///< number of threads, [1, 64]
     /// While a traced picture is incomplete, tracing holes takes at most this share of the
     /// processor time, [0, 1].
     double holeShare = 0.5;

@@ -53,7 +53,9 @@ private:
         enum class Kind : unsigned char {
             None,
             Build,  // only one Build job runs at a time
-            Begin,  // only one Begin job runs at a time, and not while a picture is resolved
+            // Only one Provide or Begin job runs at a time, and not while a picture is resolved.
+            Provide,
+            Begin,
             Resolve,
             PrepareHoles,  // only one PrepareHoles or AnswerHoles job runs at a time
             AnswerHoles,
@@ -79,6 +81,7 @@ private:
     void readMail();
     void takeHoles(HoleRequest& request);
     void takeTick();
+    [[nodiscard]] double extraMs() const;
     void look();
     [[nodiscard]] RenderView predictedView() const;
     [[nodiscard]] Job chosenJob();
@@ -97,6 +100,7 @@ private:
 
     const TracedRendererOptions options_;
     RenderMail& mail_;
+    const std::shared_ptr<FilmMemory> memory_ = Film::makeMemory();
 
     mutable std::mutex mutex_;
     BudgetController budget_;
@@ -107,7 +111,7 @@ private:
     std::shared_ptr<const Scene> toBuild_, source_;
     std::shared_ptr<const PictureScene> scene_, shownScene_, holeScene_;
     bool building_ = false;   // a Build job is running
-    bool exclusive_ = false;  // a Begin job is running or a picture is being resolved
+    bool exclusive_ = false;  // a Provide or Begin job is running or a picture is being resolved
     bool resolves_ = false;
     std::array<double, PictureResolver::kStages> resolveMs_{};  // time of each stage [ms per pixel]
     bool holesExclusive_ = false;  // a PrepareHoles or AnswerHoles job is running
