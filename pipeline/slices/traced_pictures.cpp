@@ -139,6 +139,7 @@ bool TracedPictures::toBegin() const {
 // other tile. Two pictures exist at the same time.
 void TracedPictures::provide(RenderedPicture& out) {
     const auto blocksOf = [](const PixelRect& r, std::size_t pixels) {
+        if (r.empty()) return std::size_t{0};
         return static_cast<std::size_t>(r.x1 - r.x0) * static_cast<std::size_t>(r.y1 - r.y0) /
                pixels;
     };

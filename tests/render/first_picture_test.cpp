@@ -42,6 +42,20 @@ TEST(FirstPicture, MemoryIsProvidedOncePerScene) {
     EXPECT_TRUE(pictures.lacksMemory());
 }
 
+TEST(FirstPicture, ObjectsOutOfViewNeedNoMemory) {
+    const std::shared_ptr<FilmMemory> memory = Film::makeMemory();
+    TracedPictures pictures(kThirtyTwo, kProduct, memory);
+    pictures.setScene(preparedStillLife(1, 1));
+    RenderView away = render_scenes::viewFrom({256, 192}, 20);
+    away.T_world_camera.translation *= -1;  // everything is behind the camera
+    pictures.look(away, away, {});
+    ASSERT_TRUE(pictures.lacksMemory());
+    RenderedPicture out;
+    pictures.provide(out);
+    EXPECT_FALSE(pictures.lacksMemory());
+    EXPECT_LT(memory->ready(), 20000U);
+}
+
 // Each frame waits until the threads have used up their time.
 TEST(FirstPicture, UntilItIsShownTheThreadsMayUseTwiceTheirTime) {
     TracedRendererOptions options;
