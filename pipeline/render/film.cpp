@@ -1,6 +1,5 @@
 #include "pipeline/render/film.h"
 
-#include "base/large_pages.h"
 #include "pipeline/render/luminance.h"
 #include "pipeline/render/sampling_order.h"
 
@@ -10,6 +9,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <utility>
 
 namespace mfar {
 namespace {
@@ -60,14 +60,22 @@ float slopeAt(const Eigen::Vector3f& radiance, const Exposure& exposure) {
 
 }  // namespace
 
-Film::Film(Size size)
-    : size_(size),
-      tilesAcross_((static_cast<std::size_t>(size.width) + kTileEdge - 1) / kTileEdge) {
+std::shared_ptr<FilmMemory> Film::makeMemory() {
+    return std::make_shared<FilmMemory>(kBlockPixels * sizeof(Pixel));
+}
+
+Film::Film(Size size, std::shared_ptr<FilmMemory> memory)
+    : size_(size), tilesAcross_((static_cast<std::size_t>(size.width) + kTileEdge - 1) / kTileEdge),
+      mutex_(std::make_unique<std::mutex>()), held_(std::move(memory)) {
     const std::size_t rows = (static_cast<std::size_t>(size.height) + kTileEdge - 1) / kTileEdge;
-    const std::size_t count = rows * tilesAcross_ * sampling::kTilePixels;
-    pictureOf_ = ZeroedArray<std::uint32_t>(count);
-    pixels_ = {std::allocator<Pixel>().allocate(count), FreePixels{count}};
-    preferLargePages(pixels_.get(), count * sizeof(Pixel));
+    static_assert(sampling::kTilePixels % kBlockPixels == 0);
+    blockCount_ = rows * tilesAcross_ * (sampling::kTilePixels / kBlockPixels);
+    blocks_ = std::make_unique<Block[]>(blockCount_);
+}
+
+void Film::begin() {
+    ++picture_;
+    held_.giveBack();
 }
 
 std::size_t Film::placeOf(std::size_t pixel) const {
@@ -98,19 +106,37 @@ PaintWeights weightsOf(const Paint& paint) {
 
 Film::Pixel& Film::begun(std::size_t pixel) {
     const std::size_t place = placeOf(pixel);
-    Pixel& p = pixels_[place];
-    std::uint32_t& picture = pictureOf_.data()[place];
-    if (picture != picture_) {
+    Block& block = blocks_[place / kBlockPixels];
+    const std::size_t i = place % kBlockPixels;
+    if (block.picture.load(std::memory_order_acquire) != picture_) addBlock(block);
+    Pixel& p = block.pixels[i];
+    if ((block.begun.load(std::memory_order_relaxed) >> i & 1U) == 0) {
         std::construct_at(&p);
-        picture = picture_;
+        block.begun.fetch_or(1U << i, std::memory_order_relaxed);
     }
     return p;
 }
 
+// Several threads may use the first pixels of a block at the same time.
+void Film::addBlock(Block& block) {
+    const std::scoped_lock lock(*mutex_);
+    if (block.picture.load(std::memory_order_relaxed) == picture_) return;
+    std::byte* memory = held_.memory->take();
+    held_.blocks.push_back(memory);
+    block.pixels = reinterpret_cast<Pixel*>(memory);
+    block.begun.store(0, std::memory_order_relaxed);
+    block.picture.store(picture_, std::memory_order_release);
+}
+
 std::uint64_t Film::dropped() const {
     std::uint64_t sum = 0;
-    for (std::size_t i = 0; i < pictureOf_.size(); ++i)
-        sum += pictureOf_.data()[i] == picture_ ? pixels_[i].lost : 0;
+    for (std::size_t i = 0; i < blockCount_; ++i) {
+        const Block& block = blocks_[i];
+        if (block.picture.load(std::memory_order_acquire) != picture_) continue;
+        for (std::size_t k = 0; k < kBlockPixels; ++k)
+            if ((block.begun.load(std::memory_order_relaxed) >> k & 1U) != 0)
+                sum += block.pixels[k].lost;
+    }
     return sum;
 }
 

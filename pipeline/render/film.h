@@ -1,7 +1,7 @@
 #pragma once
 
-#include "base/zeroed_array.h"
 #include "pipeline/render/exposure.h"
+#include "pipeline/render/film_memory.h"
 #include "pipeline/render/noise_filter.h"
 #include "pipeline/render/paint.h"
 #include "pipeline/render/render_view.h"
@@ -10,9 +10,12 @@
 #include <Eigen/Core>
 
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <mutex>
+#include <vector>
 
 namespace mfar {
 
@@ -52,16 +55,22 @@ struct KnownLight {
     float firstCount = 0, secondCount = 0;  ///< numbers of samples; 0: unknown light
 };
 
-/// Sums of the samples of each pixel of one view. Pixels are numbered row-major. The kernel
-/// provides a pixel's memory at first use, so unused parts cost neither time nor memory. Threads
+/// Sums of the samples of each pixel of one view. Pixels are numbered row-major. A block of pixels
+/// gets memory when one of them is first used, so unused parts cost neither time nor memory. Threads
 /// may process different pixels at the same time.
 class Film {
 public:
-    explicit Film(Size size);
+    /// Number of pixels in a block. A tile of Slices has four blocks. The pixels with even column
+    /// and even row share one block.
+    static constexpr std::size_t kBlockPixels = 16;
+    /// Memory that several films may share.
+    [[nodiscard]] static std::shared_ptr<FilmMemory> makeMemory();
+
+    explicit Film(Size size, std::shared_ptr<FilmMemory> memory = makeMemory());
 
     [[nodiscard]] Size size() const { return size_; }
-    /// Clears all pixels, but keeps the memory.
-    void begin() { ++picture_; }
+    /// Clears all pixels, and gives their blocks back to the memory.
+    void begin();
     void clear(std::size_t pixel) { begun(pixel) = Pixel{}; }
 
     /// Number of samples so far, including dropped ones; also the index of the next sample.
@@ -169,27 +178,54 @@ private:
     [[nodiscard]] static Shown shown(const Means& m, const Exposure& exposure);
     [[nodiscard]] static Resolved resolved(const Pixel& p, const Shown& shown);
     [[nodiscard]] static FirstHit firstHit(const Pixel& p, bool changed);
+    /// Returns an empty pixel if the pixel was not used since begin().
     [[nodiscard]] const Pixel& at(std::size_t pixel) const {
         const std::size_t place = placeOf(pixel);
-        return pictureOf_.data()[place] == picture_ ? pixels_[place] : kNothing;
+        const Block& block = blocks_[place / kBlockPixels];
+        const std::size_t i = place % kBlockPixels;
+        if (block.picture.load(std::memory_order_acquire) != picture_) return kNothing;
+        return (block.begun.load(std::memory_order_relaxed) >> i & 1U) != 0 ? block.pixels[i]
+                                                                            : kNothing;
     }
     /// Returns the index in memory. Pixels of a tile lie together in sampling order, so that a
-    /// sparsely sampled tile uses few pages.
+    /// sparsely sampled tile uses few blocks.
     [[nodiscard]] std::size_t placeOf(std::size_t pixel) const;
     [[nodiscard]] Pixel& begun(std::size_t pixel);
 
-    struct FreePixels {
-        std::size_t count;
-        void operator()(Pixel* pixels) const { std::allocator<Pixel>().deallocate(pixels, count); }
+    struct Block {
+        Pixel* pixels = nullptr;                // valid in the picture `picture`
+        std::atomic<std::uint32_t> picture{0};  // the last picture that used the block
+        std::atomic<std::uint32_t> begun{0};    // bit n: pixel n was constructed
+    };
+    void addBlock(Block& block);
+
+    /// Blocks of memory, which are given back at the end.
+    struct Held {
+        std::shared_ptr<FilmMemory> memory;
+        std::vector<std::byte*> blocks;
+
+        explicit Held(std::shared_ptr<FilmMemory> from) : memory(std::move(from)) {}
+        ~Held() { giveBack(); }
+        Held(Held&& other) noexcept = default;
+        Held& operator=(Held&& other) noexcept {
+            std::swap(memory, other.memory);
+            std::swap(blocks, other.blocks);
+            return *this;
+        }
+        void giveBack() {
+            if (!blocks.empty()) memory->giveBack(blocks);
+            blocks.clear();
+        }
     };
 
     static const Pixel kNothing;
 
     Size size_;
-    std::size_t tilesAcross_ = 0;
+    std::size_t tilesAcross_ = 0, blockCount_ = 0;
     std::uint32_t picture_ = 1;
-    ZeroedArray<std::uint32_t> pictureOf_;
-    std::unique_ptr<Pixel[], FreePixels> pixels_;
+    std::unique_ptr<Block[]> blocks_;
+    std::unique_ptr<std::mutex> mutex_;  // held while a block gets its memory
+    Held held_;
 };
 
 }  // namespace mfar

@@ -25,14 +25,15 @@ GlossWords Film::gloss(std::size_t pixel) const {
 Film::Shown Film::shown(const Means& m, const Exposure& exposure) {
     Shown out{m.objectShare * displayed(m.object, exposure), m.objectShare};
     if (m.with == m.without) return out;
-    const Eigen::Vector3f lit = displayed(m.with, exposure);
-    const Eigen::Vector3f unlit = displayed(m.without, exposure);
     Eigen::Vector3f ratio{1, 1, 1};
     for (int c = 0; c < 3; ++c)
         if (m.without[c] > 0) ratio[c] = std::pow(m.with[c] / m.without[c], 1 / kDisplayGamma);
     const float kept = std::min(1.0F, ratio.minCoeff());
     for (int c = 0; c < 3; ++c) {
-        const float added = unlit[c] > 0 ? unlit[c] * (ratio[c] - kept) : lit[c];
+        if (m.without[c] > 0 && !(ratio[c] > kept)) continue;
+        const float unlit = srgbEncoded(m.without[c] * exposure.scale);
+        const float added =
+            unlit > 0 ? unlit * (ratio[c] - kept) : srgbEncoded(m.with[c] * exposure.scale);
         out.colour[c] += m.catcherShare * std::min(added, 1.0F);
     }
     out.coverage += m.catcherShare * (1 - kept);

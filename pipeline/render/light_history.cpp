@@ -90,10 +90,11 @@ KnownLight LightHistory::at(const SeenSurface& seen, const Eigen::Vector3f& poin
     const Size size = camera_.size;
     if (!(pixel.x() > -1 && pixel.y() > -1 && pixel.x() < size.width && pixel.y() < size.height))
         return {};
-    KnownLight out;
     // Where only a quarter of the catcher's pixels was sampled, the samples are two pixels apart.
-    if (seen.hit.id == kCatcherId && isSparseAt(pixel)) out = between(pixel, 2, seen, point);
-    if (!(out.firstCount > 0)) out = between(pixel, 1, seen, point);
+    // Next to such an area, adjacent pixels may be missing, too.
+    const bool catches = seen.hit.id == kCatcherId, isSparse = catches && isSparseAt(pixel);
+    KnownLight out = between(pixel, isSparse ? 2 : 1, seen, point);
+    if (catches && !(out.firstCount > 0)) out = between(pixel, isSparse ? 1 : 2, seen, point);
     out.firstCount = std::min(out.firstCount, mostSamples_);
     out.secondCount = std::min(out.secondCount, mostSamples_);
     if (seen.hit.id == kCatcherId) return out;

@@ -18,13 +18,7 @@ void PictureResolver::begin(const Film& film, const RenderView& view, const Pixe
     out_ = &out;
     out.camera = view.camera;
     out.T_world_camera = view.T_world_camera;
-    const std::size_t pixels =
-        static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
-    out.colour.resize(pixels);
-    out.depth.resize(pixels);
-    out.id.resize(pixels);
-    out.light.resize(pixels);
-    out.gloss.resize(pixels);
+    reserve(size, filter, out);
     out.exposure = exposure.scale;
     out.layered = filter && layered;
     taken_.assign(static_cast<std::size_t>(size.height), 0);
@@ -33,6 +27,17 @@ void PictureResolver::begin(const Film& film, const RenderView& view, const Pixe
     stage_ = filters_ && !traced_.empty() ? kPrepare : kLastStage;
     nextRow_ = rowsBegin();
     rowsOut_ = 0;
+}
+
+void PictureResolver::reserve(Size size, bool filter, RenderedPicture& out) {
+    const std::size_t pixels =
+        static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
+    out.colour.resize(pixels);
+    out.depth.resize(pixels);
+    out.id.resize(pixels);
+    out.light.resize(pixels);
+    out.gloss.resize(pixels);
+    if (filter) filter_.begin(size, {});
 }
 
 // The last stage also clears pixels outside `traced_`, where `out_` still holds an earlier picture.

@@ -30,6 +30,9 @@ public:
                const Exposure& exposure, bool filter, RenderedPicture& out, Film* memory = nullptr,
                bool layered = false);
 
+    /// Resizes the arrays of a later begin(), which is the only work of begin() that takes long.
+    void reserve(Size size, bool filter, RenderedPicture& out);
+
     struct Portion {
         int stage = 0, firstRow = 0, lastRow = 0;
         [[nodiscard]] bool empty() const { return firstRow >= lastRow; }

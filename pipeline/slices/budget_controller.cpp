@@ -29,19 +29,21 @@ double valid(double ms) {
 
 }  // namespace
 
-BudgetController::BudgetController(double msPerFrame) : budget_(msPerFrame), balance_(msPerFrame) {
+BudgetController::BudgetController(double msPerFrame)
+    : budget_(msPerFrame), allowed_(msPerFrame), balance_(msPerFrame) {
     if (!(std::isfinite(msPerFrame) && msPerFrame > 0))
         throw std::invalid_argument(
             "path tracer: the time budget per frame must be finite and above 0 ms");
 }
 
-void BudgetController::beginFrame(bool workWaits) {
-    const auto share = static_cast<float>(used_ / budget_);
+void BudgetController::beginFrame(bool workWaits, double extraMs) {
+    const auto share = static_cast<float>(used_ / allowed_);
     if (workWaits) waited_[framesWaited_++ % kFrames] = share;
     if (workWaits && (usedUp_ || share > 1)) shares_[frames_++ % kFrames] = share;
     const double most = workWaits ? kMostSaved * budget_ : 0;
     const double repaid = repayment(workWaits);
-    balance_ = budget_ - repaid + std::clamp(balance_, -kMostDebt * budget_, most);
+    allowed_ = budget_ + valid(extraMs);
+    balance_ = allowed_ - repaid + std::clamp(balance_, -kMostDebt * budget_, most);
     debt_ = std::min(debt_ - repaid, kMostDebt * budget_);
     used_ = 0;
     usedUp_ = false;

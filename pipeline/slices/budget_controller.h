@@ -38,7 +38,8 @@ public:
 
     /// Begins a frame. `workWaits` must be true if work was left over in the last frame. Only then
     /// kept() counts the last frame, and a small part of its unused time is added to the new frame.
-    void beginFrame(bool workWaits);
+    /// `extraMs` is added to the budget of this frame alone.
+    void beginFrame(bool workWaits, double extraMs = 0);
 
     [[nodiscard]] BudgetGrant grant();
     /// Returns a grant for work that traces no samples and is expected to take `expectedMs`. In
@@ -63,6 +64,7 @@ private:
     static constexpr std::size_t kCosts = 9;
 
     const double budget_;
+    double allowed_;  // the budget of the current frame with its extra time [ms]
     double balance_, reserved_ = 0, used_ = 0;
     double debt_ = 0;  // [ms] that later frames repay; not part of balance_
     bool usedUp_ = false;

@@ -28,7 +28,7 @@ void HoleTracer::prepare() {
     while (!pixels.empty() && pixels.back() >= inside)
         pixels.pop_back();
     if (!pixels.empty() && !(film_ && film_->size() == view.camera.size))
-        film_.emplace(view.camera.size);
+        film_.emplace(view.camera.size, memory_);
     if (film_) film_->begin();
     handed_ = done_ = 0;
     stage_ = Stage::Tracing;

@@ -5,8 +5,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 
 namespace mfar {
 
@@ -16,8 +18,10 @@ class HoleTracer {
 public:
     static constexpr int kMostSamples = 256;
 
-    /// Pixels of a request beyond `mostPixels` are dropped.
-    explicit HoleTracer(std::size_t mostPixels) : mostPixels_(mostPixels) {}
+    /// Pixels of a request beyond `mostPixels` are dropped. `memory` is for the film.
+    explicit HoleTracer(std::size_t mostPixels,
+                        std::shared_ptr<FilmMemory> memory = Film::makeMemory())
+        : mostPixels_(mostPixels), memory_(std::move(memory)) {}
 
     [[nodiscard]] bool idle() const { return stage_ == Stage::Idle; }
     /// Takes a request; requires idle(). In exchange, `request` gets the memory of an older
@@ -49,6 +53,7 @@ private:
     enum class Stage : unsigned char { Idle, Taken, Tracing };
 
     const std::size_t mostPixels_;
+    const std::shared_ptr<FilmMemory> memory_;
     Stage stage_ = Stage::Idle;
     HoleRequest request_;
     std::size_t handed_ = 0, done_ = 0;

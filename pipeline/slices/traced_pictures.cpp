@@ -1,7 +1,10 @@
 #include "pipeline/slices/traced_pictures.h"
 
+#include "pipeline/render/sampling_order.h"
+
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace mfar {
 namespace {
@@ -39,8 +42,10 @@ TracedStep nextStep(std::optional<double> sinceShown, std::optional<double> sinc
     return *sinceNext >= 1 && *sinceNext > *sinceShown ? TracedStep::Start : TracedStep::Continue;
 }
 
-TracedPictures::TracedPictures(const SliceOptions& slices, const TracedPolicy& policy)
-    : slices_(slices), policy_(policy), pictures_{Picture(slices), Picture(slices)} {}
+TracedPictures::TracedPictures(const SliceOptions& slices, const TracedPolicy& policy,
+                               std::shared_ptr<FilmMemory> memory)
+    : slices_(slices), policy_(policy), memory_(std::move(memory)),
+      pictures_{Picture(slices), Picture(slices)} {}
 
 // Returns the change of the view since a picture's view. Empty if objects or lighting have changed.
 // A picture in progress ignores changes of the lighting; else it might never be finished.
@@ -126,6 +131,22 @@ bool TracedPictures::toBegin() const {
     return toBegin_ && pictures_[0].portions == 0 && pictures_[1].portions == 0;
 }
 
+// While the camera moves, a picture takes all blocks of a tile at the objects and one block of any
+// other tile. Two pictures exist at the same time.
+void TracedPictures::provide(RenderedPicture& out) {
+    const auto blocksOf = [](const PixelRect& r, std::size_t pixels) {
+        if (r.empty()) return std::size_t{0};
+        return static_cast<std::size_t>(r.x1 - r.x0) * static_cast<std::size_t>(r.y1 - r.y0) /
+               pixels;
+    };
+    const PixelRect objects = scene_->tracer->objectBounds(wanted_);
+    const PixelRect traced = scene_->tracer->bounds(wanted_);
+    memory_->provide(
+        2 * (blocksOf(objects, Film::kBlockPixels) + blocksOf(traced, sampling::kTilePixels)));
+    resolver_.reserve(wanted_.camera.size, policy_.filter, out);
+    providedFor_ = scene_;
+}
+
 void TracedPictures::begin() {
     Picture& picture = pictures_[1 - shown_];
     picture.scene = scene_;
@@ -141,7 +162,7 @@ void TracedPictures::begin() {
             *shown.film, shown.view,
             shown.scene->light == scene_->light ? kMostCarried : kMostCarriedElsewhere));
     if (!picture.film || !(picture.film->size() == wanted_.camera.size))
-        picture.film = std::make_unique<Film>(wanted_.camera.size);
+        picture.film = std::make_unique<Film>(wanted_.camera.size, memory_);
     picture.traced = scene_->tracer->bounds(wanted_);
     picture.film->begin();
     const PixelRect objects = scene_->tracer->objectBounds(wanted_);

@@ -58,7 +58,9 @@ struct PictureScene {
 /// endShow().
 class TracedPictures {
 public:
-    TracedPictures(const SliceOptions& slices, const TracedPolicy& policy);
+    /// `memory` is for the films. Throws std::invalid_argument if a slice option is out of range.
+    TracedPictures(const SliceOptions& slices, const TracedPolicy& policy,
+                   std::shared_ptr<FilmMemory> memory = Film::makeMemory());
 
     void setScene(std::shared_ptr<const PictureScene> scene) { scene_ = std::move(scene); }
     [[nodiscard]] const PictureScene* scene() const { return scene_.get(); }
@@ -73,6 +75,11 @@ public:
     /// True if begin() must be called. Until then next() returns no pixels.
     [[nodiscard]] bool toBegin() const;
     void begin();
+    /// Whether provide() should be called before begin().
+    [[nodiscard]] bool lacksMemory() const { return toBegin_ && scene_ && providedFor_ != scene_; }
+    /// Provides the memory for pictures of a scene and for `out`, so that the first samples do not
+    /// wait for the kernel.
+    void provide(RenderedPicture& out);
 
     /// The next portion of the picture in progress. Without pixels, there is nothing to trace now.
     struct Portion {
@@ -136,6 +143,8 @@ private:
     const SliceOptions slices_;
     const TracedPolicy policy_;
     std::shared_ptr<const PictureScene> scene_;
+    const std::shared_ptr<FilmMemory> memory_;
+    std::shared_ptr<const PictureScene> providedFor_;  // the scene of the last provide()
     std::array<Picture, 2> pictures_;
     PictureResolver resolver_;
     std::size_t shown_ = 0;

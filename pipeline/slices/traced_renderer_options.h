@@ -22,8 +22,10 @@ struct TracedRendererOptions {
     /// A new scene with the same objects is ignored if lightChange() to the old scene is below this
     /// limit.
     double lightChange = 0.1;
-    double budgetMs = 4;  ///< processor time of all threads per call of update() [ms]
-    int threads = 2;      ///< in [1, 64]
+    /// Processor time of all threads per call of update() [ms]; twice this time until the first
+    /// picture is shown.
+    double budgetMs = 4;
+    int threads = 2;  ///< in [1, 64]
     /// Upper limit of hole requests' share of the processor time while a traced picture is
     /// incomplete, [0, 1].
     double holeShare = 0.5;

@@ -44,8 +44,8 @@ TracedRendererOptions checked(const TracedRendererOptions& o) {
 
 TracedWorkers::TracedWorkers(const TracedRendererOptions& options, RenderMail& mail)
     : options_(checked(options)), mail_(mail), budget_(options.budgetMs),
-      predictor_(options.prediction), pictures_(options.slices, options.policy),
-      holes_(options.mostHolePixels) {}
+      predictor_(options.prediction), pictures_(options.slices, options.policy, memory_),
+      holes_(options.mostHolePixels, memory_) {}
 
 void TracedWorkers::work() {
     const bool lowered = lowerThreadPriority();
@@ -100,7 +100,7 @@ void TracedWorkers::takeTick() {
     const RenderTick last = std::exchange(tick_, mail_.ticks.front());
     const bool waits = tracing();
     for (std::uint64_t i = std::min(tick_.number - last.number, kMostMissed); i > 0; --i)
-        budget_.beginFrame(workAtBegin_ && waits);
+        budget_.beginFrame(workAtBegin_ && waits, extraMs());
     workAtBegin_ = waits;
     holeMs_ = 0;
     if (tick_.view) predictor_.add(tick_.view->T_world_camera, tick_.time);
@@ -117,6 +117,12 @@ void TracedWorkers::takeTick() {
     }
     publishCounters();
     if (hasWork()) wakeOthers();
+}
+
+// Before the first picture, the warp has nothing to do in a frame. Then the path tracer may use
+// twice the budget, because something is shown sooner.
+double TracedWorkers::extraMs() const {
+    return counters_.shown == 0 ? budget_.msPerFrame() : 0;
 }
 
 void TracedWorkers::look() {
@@ -164,7 +170,7 @@ TracedWorkers::Job TracedWorkers::chosenJob() {
         if (toLook_) look();
         if (pictures_.toBegin()) {
             exclusive_ = true;
-            job.kind = Job::Kind::Begin;
+            job.kind = pictures_.lacksMemory() ? Job::Kind::Provide : Job::Kind::Begin;
             return job;
         }
         if (pictures_.toShow()) {
@@ -221,6 +227,7 @@ void TracedWorkers::perform(Job& job) {
     switch (job.kind) {
     case Job::Kind::None: break;
     case Job::Kind::Build: build(job); break;
+    case Job::Kind::Provide: pictures_.provide(mail_.pictures.back()); break;
     case Job::Kind::Begin: pictures_.begin(); break;
     case Job::Kind::Resolve: pictures_.resolver().run(job.rows); break;
     case Job::Kind::PrepareHoles: holes_.prepare(); break;
@@ -259,11 +266,14 @@ std::int64_t TracedWorkers::Job::samples() const {
 void TracedWorkers::finish(const Job& job, double ms) {
     const std::int64_t samples = job.samples();
     counters_.samples += static_cast<std::uint64_t>(samples);
-    if (job.kind != Job::Kind::Build) counters_.cpuMs += ms;
+    // The budget is for work that every picture needs.
+    const bool isOnce = job.kind == Job::Kind::Build || job.kind == Job::Kind::Provide;
+    if (!isOnce) counters_.cpuMs += ms;
     switch (job.kind) {
     case Job::Kind::None: return;
     case Job::Kind::Build: finishBuild(job); break;
     case Job::Kind::Resolve: return finishRows(job, ms);
+    case Job::Kind::Provide: exclusive_ = false; break;
     case Job::Kind::Begin:
         exclusive_ = false;
         budget_.spentElsewhere(ms);

@@ -49,7 +49,9 @@ private:
         enum class Kind : unsigned char {
             None,
             Build,  // only one Build job runs at a time
-            Begin,  // only one Begin job runs at a time, and not while a picture is resolved
+            // Only one Provide or Begin job runs at a time, and not while a picture is resolved.
+            Provide,
+            Begin,
             Resolve,
             PrepareHoles,  // only one PrepareHoles or AnswerHoles job runs at a time
             AnswerHoles,
@@ -75,6 +77,7 @@ private:
     void readMail();
     void takeHoles(HoleRequest& request);
     void takeTick();
+    [[nodiscard]] double extraMs() const;
     void look();
     [[nodiscard]] RenderView predictedView() const;
     [[nodiscard]] Job chosenJob();
@@ -93,6 +96,7 @@ private:
 
     const TracedRendererOptions options_;
     RenderMail& mail_;
+    const std::shared_ptr<FilmMemory> memory_ = Film::makeMemory();
 
     mutable std::mutex mutex_;
     BudgetController budget_;
@@ -103,7 +107,7 @@ private:
     std::shared_ptr<const Scene> toBuild_, source_;
     std::shared_ptr<const PictureScene> scene_, shownScene_, holeScene_;
     bool building_ = false;
-    bool exclusive_ = false;  // true while a Begin job runs or a picture is being resolved
+    bool exclusive_ = false;  // true while a Provide or Begin job runs or a picture is resolved
     bool resolves_ = false;
     std::array<double, PictureResolver::kStages> resolveMs_{};  // [ms per pixel]
     bool holesExclusive_ = false;  // true while a PrepareHoles or AnswerHoles job runs

@@ -53,6 +53,24 @@ TEST(BudgetController, EveryFrameUsesItsBudgetIfTheCostIsConstant) {
     EXPECT_EQ(framesOff(used, 0.02), 0);
 }
 
+TEST(BudgetController, ExtraTimeIsUsedInItsFrameAndIsNoDeviation) {
+    BudgetController budget(kBudget);
+    const auto usedUp = [&] {
+        for (BudgetGrant grant = budget.grant(); grant.samples > 0; grant = budget.grant())
+            budget.spent(grant, grant.samples, static_cast<double>(grant.samples) * 0.001);
+        return budget.used();
+    };
+    for (int frame = 0; frame < 40; ++frame) {
+        const bool more = frame < 20;
+        budget.beginFrame(frame > 0, more ? kBudget : 0);
+        EXPECT_NEAR(usedUp() / kBudget, more ? 2 : 1, 0.1) << frame;
+    }
+    budget.beginFrame(true, std::numeric_limits<double>::quiet_NaN());
+    EXPECT_EQ(budget.kept().frames, 40);
+    EXPECT_LE(budget.kept().deviation, 0.1);
+    EXPECT_NEAR(usedUp() / kBudget, 1, 0.1);
+}
+
 TEST(BudgetController, FramesKeepTheBudgetWithinTenPercentIfTheCostVaries) {
     for (const unsigned seed : {1U, 2U, 3U}) {
         std::mt19937 random(seed);

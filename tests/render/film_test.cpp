@@ -3,8 +3,17 @@
 
 #include <gtest/gtest.h>
 
+#include <sys/resource.h>
+#include <unistd.h>
+
 #include <cmath>
+#include <cstddef>
+#include <fstream>
 #include <limits>
+#include <memory>
+#include <thread>
+#include <utility>
+#include <vector>
 
 namespace mfar {
 namespace {
@@ -208,6 +217,72 @@ TEST(Film, EachPixelHasItsOwnMemory) {
         ASSERT_EQ(film.centre(i).hit.depth, static_cast<float>(i + 1));
     const Film moved = std::move(film);
     EXPECT_EQ(moved.centre(count - 1).hit.depth, static_cast<float>(count));
+}
+
+/// Address space of this process [bytes].
+std::size_t addressSpace() {
+    std::size_t pages = 0;
+    std::ifstream("/proc/self/statm") >> pages;
+    return pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+}
+
+TEST(Film, UnusedPixelsReserveNoMemory) {
+    const std::size_t before = addressSpace();
+    Film film({4096, 4096});
+    for (std::uint32_t i = 0; i < 4096; ++i)
+        film.setCentre(i * 4096 + i, {{1, 1}});
+    // Memory for all pixels would be 8 GB.
+    EXPECT_LT(addressSpace() - before, std::size_t{64} << 20);
+}
+
+TEST(Film, NextPictureUsesTheMemoryOfTheOneBefore) {
+    const std::shared_ptr<FilmMemory> memory = Film::makeMemory();
+    Film film({256, 256}, memory);
+    for (std::uint32_t i = 0; i < 65536; ++i)
+        film.setCentre(i, {{1, 1}});
+    const std::size_t all = memory->ready() + 65536 / Film::kBlockPixels;
+    film.begin();
+    EXPECT_EQ(memory->ready(), all);
+    EXPECT_FALSE(film.isSeen(5));
+    for (std::uint32_t i = 0; i < 65536; ++i)
+        film.setCentre(i, {{2, 1}});
+    EXPECT_EQ(memory->ready(), all - 65536 / Film::kBlockPixels);
+    {
+        const Film moved = std::move(film);
+    }
+    EXPECT_EQ(memory->ready(), all) << "a film's end gives its blocks back";
+}
+
+TEST(Film, PixelsOfProvidedMemoryCauseNoPageFaults) {
+    const auto faults = [] {
+        rusage usage{};
+        getrusage(RUSAGE_THREAD, &usage);
+        return usage.ru_minflt;
+    };
+    constexpr std::uint32_t kPixels = 256 * 256;
+    const std::shared_ptr<FilmMemory> memory = Film::makeMemory();
+    memory->provide(kPixels / Film::kBlockPixels);
+    Film film({256, 256}, memory);
+    film.setCentre(0, {{1, 1}});
+    const long before = faults();
+    for (std::uint32_t i = 0; i < kPixels; ++i)
+        film.setCentre(i, {{1, 1}});
+    EXPECT_LE(faults() - before, 20) << "32 MB are 8000 small pages or 16 large ones";
+}
+
+TEST(Film, ThreadsMayUsePixelsOfOneBlock) {
+    for (int round = 0; round < 20; ++round) {
+        Film film({64, 64});
+        std::vector<std::jthread> threads;
+        for (std::uint32_t first = 0; first < 4; ++first)
+            threads.emplace_back([&film, first] {
+                for (std::uint32_t i = first; i < 64 * 64; i += 4)
+                    film.setCentre(i, {{static_cast<float>(i + 1), 1}});
+            });
+        threads.clear();
+        for (std::uint32_t i = 0; i < 64 * 64; ++i)
+            ASSERT_EQ(film.centre(i).hit.depth, static_cast<float>(i + 1));
+    }
 }
 
 TEST(Film, ErrorIsTheStandardErrorOfTheDisplayedGreyLevel) {

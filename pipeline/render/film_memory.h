@@ -1,0 +1,39 @@
+#pragma once
+
+#include "base/large_pages.h"
+
+#include <cstddef>
+#include <mutex>
+#include <span>
+#include <vector>
+
+namespace mfar {
+
+/// Memory of films, in blocks of one size. Films share it, so that a new picture gets the blocks of
+/// an old one. It grows by the blocks that are in use at once and never shrinks. All functions may
+/// be called by several threads at the same time.
+class FilmMemory {
+public:
+    explicit FilmMemory(std::size_t blockBytes) : blockBytes_(blockBytes) {}
+
+    /// A block with any content. Throws std::bad_alloc.
+    [[nodiscard]] std::byte* take();
+    void giveBack(std::span<std::byte* const> blocks);
+
+    /// Number of blocks that take() can return without new memory.
+    [[nodiscard]] std::size_t ready() const;
+    /// Makes at least this number of blocks ready, with all their pages, so that the use of new
+    /// blocks does not wait for the kernel. Throws std::bad_alloc.
+    void provide(std::size_t blocks);
+
+private:
+    [[nodiscard]] LargePages newPages() const;
+    void add(LargePages pages);
+
+    const std::size_t blockBytes_;
+    mutable std::mutex mutex_;
+    std::vector<LargePages> pages_;
+    std::vector<std::byte*> free_;  // the last one is taken next
+};
+
+}  // namespace mfar
