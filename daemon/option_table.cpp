@@ -262,8 +262,7 @@ constexpr Option kVirtual[] = {
          "How virtual objects are drawn: \"path-traced\", with soft shadows on the real surface, "
          "or \"preview\", which takes little time."),
     number("budget_ms", {0.1, 1000, "ms"}, "8.0",
-           "Time for path tracing in each frame; twice this time until the first picture is shown. "
-           "One path-traced picture takes many frames."),
+           "Time for path tracing in each frame; twice this until the first picture is shown."),
     word("slicing", "time space", R"("time")",
          "Which part of a path-traced picture is computed in each frame: \"time\", some samples of "
          "all pixels; \"space\", all samples of some tiles."),

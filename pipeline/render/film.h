@@ -56,8 +56,8 @@ struct KnownLight {
 };
 
 /// Sums of the samples of each pixel of one view. Pixels are numbered row-major. A block of pixels
-/// gets memory when one of them is first used, so unused parts cost neither time nor memory. Threads
-/// may process different pixels at the same time.
+/// gets memory when one of them is first used, so unused parts cost neither time nor memory.
+/// Threads may process different pixels at the same time.
 class Film {
 public:
     /// Number of pixels in a block. A tile of Slices has four blocks. The pixels with even column

@@ -40,7 +40,7 @@ void FilmMemory::provide(std::size_t blocks) {
         LargePages pages = newPages();
         pages.provide();
         const std::scoped_lock lock(mutex_);
-        // Used memory is taken first.
+        // Blocks that were in use before are returned first.
         std::vector<std::byte*> used = std::exchange(free_, {});
         add(std::move(pages));
         free_.insert(free_.end(), used.begin(), used.end());

@@ -33,7 +33,7 @@ private:
     const std::size_t blockBytes_;
     mutable std::mutex mutex_;
     std::vector<LargePages> pages_;
-    std::vector<std::byte*> free_;  // the last one is taken next
+    std::vector<std::byte*> free_;  // take() returns the last one
 };
 
 }  // namespace mfar

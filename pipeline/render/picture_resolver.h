@@ -30,7 +30,7 @@ public:
                const Exposure& exposure, bool filter, RenderedPicture& out, Film* memory = nullptr,
                bool layered = false);
 
-    /// Resizes the arrays of a later begin(), which is the only work of begin() that takes long.
+    /// Resizes the arrays for a later begin(), which then takes little time.
     void reserve(Size size, bool filter, RenderedPicture& out);
 
     struct Portion {

@@ -75,7 +75,7 @@ public:
     /// True if begin() must be called. Until then next() returns no pixels.
     [[nodiscard]] bool toBegin() const;
     void begin();
-    /// Whether provide() should be called before begin().
+    /// True if provide() should be called before begin().
     [[nodiscard]] bool lacksMemory() const { return toBegin_ && scene_ && providedFor_ != scene_; }
     /// Provides the memory for pictures of a scene and for `out`, so that the first samples do not
     /// wait for the kernel.

@@ -53,7 +53,7 @@ TEST(BudgetController, EveryFrameUsesItsBudgetIfTheCostIsConstant) {
     EXPECT_EQ(framesOff(used, 0.02), 0);
 }
 
-TEST(BudgetController, ExtraTimeIsUsedInItsFrameAndIsNoDeviation) {
+TEST(BudgetController, ExtraTimeIsUsedInItsFrameAndDoesNotCountAsDeviation) {
     BudgetController budget(kBudget);
     const auto usedUp = [&] {
         for (BudgetGrant grant = budget.grant(); grant.samples > 0; grant = budget.grant())

@@ -1,4 +1,5 @@
-// What makes the first picture of a scene soon: memory that is provided before, and more time.
+// The first picture of a scene comes early, because its memory is provided before and the threads
+// get more time.
 #include "pipeline/slices/traced_renderer.h"
 #include "tests/render/picture_driver.h"
 #include "tests/render/still_life.h"
