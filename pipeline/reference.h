@@ -25,7 +25,7 @@ struct Reference {
     std::vector<WeighedCell> first{};  ///< cells of the first frame matched with the still; empty:
                                        ///< no frame was matched yet
 
-    void take(const ImageView& picture, Timestamp taken, SuperResMode mode);
+    void take(const ImageView& picture, Timestamp taken, SuperResMode mode, const StillTone& tone);
     void drop();
     /// Updates `shows` with the counts of a frame. `tiles`: number of tiles matched with this
     /// still; `shown`: number of these tiles that the still showed.

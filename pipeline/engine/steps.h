@@ -5,6 +5,7 @@
 #include "pipeline/engine/cells.h"
 #include "pipeline/engine/field.h"
 #include "pipeline/engine/params/layer.h"
+#include "pipeline/enlarge/still_tone.h"
 #include "pipeline/flow/flow_options.h"
 #include "pipeline/flow/luma_layout.h"
 #include "pipeline/plan/rgb_planes.h"
@@ -39,6 +40,7 @@ struct VideoFrame {
 struct StillPictures {
     std::uint64_t number = 0;  ///< each still has its own number
     StereoRig rig;             ///< its still camera has the resolution of the fields below
+    StillTone tone;            ///< the tone curve that was applied to luma, raised and pairs
     Field<std::uint8_t> luma;  ///< luma of the whole still
     // Luma whose finest detail is amplified, see params::kLinearLoss. An engine fills the one of
     // these two fields that has its format, and leaves the other empty.
@@ -80,8 +82,9 @@ class StillStep {
 public:
     virtual ~StillStep() = default;
     /// Prepares a still for the other steps. The still must be valid and have the still camera's
-    /// size.
-    virtual const StillPictures& run(const ImageView& still, SuperResMode mode) = 0;
+    /// size. `tone` is applied to its luma.
+    virtual const StillPictures& run(const ImageView& still, SuperResMode mode,
+                                     const StillTone& tone) = 0;
     /// Prepares the fields that another mode needs, from the still of the last run().
     virtual void setMode(SuperResMode mode) = 0;
 };

@@ -5,6 +5,7 @@
 #include "pipeline/enlarge/guidance_learner.h"
 #include "pipeline/enlarge/learner_counts.h"
 #include "pipeline/enlarge/matched_pictures.h"
+#include "pipeline/enlarge/tone_sums.h"
 #include "pipeline/enlarge/trusted_pairs.h"
 
 #include <array>
@@ -43,7 +44,8 @@ public:
     /// Learns from a still. If `stop` is requested, the call returns soon and nothing is learned.
     Outcome add(const MatchedPictures& pictures, const std::stop_token& stop = {});
     /// Learns the guidance, see enlarge::GuidanceLearner. `truth`: a frame matched with a new
-    /// still. `older`: the same frame matched with the older still that it was drawn with.
+    /// still. `older`: the same frame matched with the older still that it was drawn with. Refused
+    /// if this still had another tone curve than stills have now.
     Outcome addOlder(const MatchedPictures& truth, const MatchedPictures& older,
                      const std::stop_token& stop = {});
 
@@ -82,7 +84,8 @@ private:
                                    const std::stop_token& stop) const;
     bool choose(const enlarge::SumsOfClasses& check);
     [[nodiscard]] enlarge::ClassWeights solved(int unique) const;
-    bool putFineMatchInPlace();
+    void learnTone(const enlarge::TrustedPairs& pairs, const StillTone& applied);
+    bool putMatchInPlace();
     bool putInPlace(const std::vector<enlarge::ClassWeights>& weights,
                     const std::vector<bool>& learned);
     void measure();
@@ -92,6 +95,7 @@ private:
     enlarge::SumsOfClasses sums_, held_;
     enlarge::GuidanceLearner guidance_;
     enlarge::FineMatchLearner fineMatch_;
+    enlarge::ToneLearner tone_;
     std::shared_ptr<const FilterBank> inPlace_;
     // Means over 4x4 video pixels. shown_: for each tile, of the last picture that was learned from
     // there; means_: of the last picture given to findNew().

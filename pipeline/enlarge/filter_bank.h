@@ -2,6 +2,7 @@
 
 #include "base/rows.h"
 #include "pipeline/enlarge/filter_layout.h"
+#include "pipeline/enlarge/still_tone.h"
 
 #include <array>
 #include <cstdint>
@@ -47,8 +48,8 @@ struct FineMatch {
     bool operator==(const FineMatch&) const = default;
 };
 
-/// The filters of the learned enlarger, one per class (see filter_layout.h), with the Guidance and
-/// the FineMatch that were learned from the same sensors. Immutable.
+/// The filters of the learned enlarger, one per class (see filter_layout.h), with the Guidance,
+/// the FineMatch and the StillTone that were learned from the same sensors. Immutable.
 class FilterBank {
 public:
     /// Weights of the filter of a class. The weights are halved, because the residuals of both
@@ -57,7 +58,7 @@ public:
 
     /// `unique`: kUnique filters, those of the gradient classes first. Throws FilterBankError.
     explicit FilterBank(std::span<const Filter> unique, const Guidance& guidance = {},
-                        const FineMatch& fineMatch = {});
+                        const FineMatch& fineMatch = {}, const StillTone& tone = {});
     /// The shipped filters. They were learned by mfar-train-enlarger and are part of the program.
     [[nodiscard]] static const FilterBank& prior();
 
@@ -73,6 +74,8 @@ public:
     /// The FineMatch. It is unknown for the shipped filters, because it depends on the noise and
     /// sharpness of both sensors.
     [[nodiscard]] const FineMatch& fineMatch() const { return fineMatch_; }
+    /// The tone curve of the stills. The shipped filters leave stills as they are.
+    [[nodiscard]] const StillTone& tone() const { return tone_; }
     /// Keys' cubic minus the pixel itself, as a filter with the same taps and sub-pixels. Its
     /// weights are not halved; a weight of one is stored as 16384.
     [[nodiscard]] const std::int16_t* cubic() const { return cubic_[0]; }
@@ -81,6 +84,7 @@ private:
     std::uint64_t number_;
     Guidance guidance_;
     FineMatch fineMatch_;
+    StillTone tone_;
     AlignedRows<std::int16_t> gradient_, curvature_, cubic_;
 };
 

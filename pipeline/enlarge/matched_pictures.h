@@ -2,6 +2,7 @@
 
 #include "base/rows.h"
 #include "pipeline/engine/cells.h"
+#include "pipeline/enlarge/still_tone.h"
 #include "pipeline/plan/rgb_planes.h"
 
 #include <cmath>
@@ -21,12 +22,14 @@ struct MatchedPictures {
     AlignedRows<LookUpCell> lookUps;      ///< one entry per cell of 4x4 video pixels
     double scaleX = 1, scaleY = 1;        ///< look-up px per video px
     double stillPerX = 1, stillPerY = 1;  ///< px of `still` per look-up px
+    StillTone tone;                       ///< the tone curve that was applied to `still`
 
     /// The picture whose pixels ("look-up px") are the unit of the look-ups: the still, possibly
     /// reduced.
     struct LookedUp {
         Size size;
         double scaleX, scaleY;  ///< look-up px per video px
+        StillTone tone{};       ///< the tone curve that was applied to the luma
     };
     void take(const RgbPlanes& video, Rows<const std::uint8_t> still,
               Rows<const LookUpCell> lookUps, const LookedUp& lookedUp);

@@ -3,6 +3,7 @@
 #include "base/rows.h"
 #include "pipeline/enlarge/class_sums.h"
 #include "pipeline/enlarge/matched_pictures.h"
+#include "pipeline/enlarge/tone_sums.h"
 #include "pipeline/enlarge/warped_grid.h"
 
 #include <cstdint>
@@ -32,6 +33,8 @@ public:
     /// by Keys' cubic; over the trusted pixels with structure. If it is at most one, the still is
     /// no sharper than the video.
     [[nodiscard]] double sharpness() const { return sharpness_; }
+    /// The pairs of grey levels from which the tone curve was fitted.
+    [[nodiscard]] const ToneSums& toneSums() const { return toneSums_; }
 
 private:
     /// Sums of products of the still's gradient (x, y) and the difference e of the pictures.
@@ -71,9 +74,10 @@ private:
     AlignedRows<std::uint8_t> known_;    // per cell: 1 if mayTeach() is true
     AlignedRows<std::uint8_t> trusted_;  // per pixel: 1 if trusted
     WarpedGrid still_;
-    Plane seen_;               // mean of the still over each pixel, with tone and blur of the video
-    Plane mean_;               // video minus seen_, averaged over a larger area
-    std::vector<float> tone_;  // grey level of the video for each grey level of the still
+    Plane seen_;  // mean of the still over each pixel, with tone and blur of the video
+    Plane mean_;  // video minus seen_, averaged over a larger area
+    ToneSums toneSums_;
+    ToneSums::Curve tone_{};  // grey level of the video for each grey level of the still
     double trustedShare_ = 0, sharpness_ = 0;
 };
 

@@ -3,6 +3,7 @@
 #include "base/geometry.h"
 #include "base/gl/pass.h"
 #include "pipeline/flow/luma_layout.h"
+#include "pipeline/gles/tone_texture.h"
 
 #include <array>
 #include <cstdint>
@@ -28,9 +29,9 @@ public:
 
     /// Makes the video's pyramid from a frame (RGBA8 texture of the video's size).
     void buildVideo(const gpu::Texture& video);
-    /// Makes the still's pyramid from a still (RGBA8 texture with a linear filter). Called once per
-    /// still.
-    void buildStill(const gpu::Texture& still, const StereoRig& rig);
+    /// Makes the still's pyramid from a still (RGBA8 texture with a linear filter) and its tone
+    /// curve. Called once per still.
+    void buildStill(const gpu::Texture& still, const ToneTexture& tone, const StereoRig& rig);
     /// Makes the still's pyramid from a picture that already has the video's geometry, for the flow
     /// between two frames.
     void buildSecond(const gpu::Texture& picture);

@@ -5,6 +5,7 @@
 #include "pipeline/engine/params/still.h"
 #include "pipeline/gles/picture_texture.h"
 #include "pipeline/gles/still_reducer.h"
+#include "pipeline/gles/tone_texture.h"
 
 #include <cstdint>
 #include <optional>
@@ -22,8 +23,9 @@ public:
     StillReference(const StereoRig& rig, Size output, gpu::PictureTexture& picture);
 
     /// Uploads a still and computes the other pictures from it. The still must have the still
-    /// camera's size. Its pixel format may change from one still to the next.
-    void set(const ImageView& still);
+    /// camera's size. Its pixel format may change from one still to the next. `tone` is applied to
+    /// raised().
+    void set(const ImageView& still, const StillTone& tone = {});
 
     /// The rig whose still camera has picture()'s resolution. The lens is the same, but there may
     /// be fewer pixels.
@@ -36,11 +38,13 @@ public:
     /// Luma with the size of rig().still; R8, linear filter. Unless the still was reduced, its
     /// finest detail is amplified, which compensates the loss of detail in a linear look-up.
     [[nodiscard]] const gpu::Texture& raised() const { return raised_; }
+    [[nodiscard]] const ToneTexture& tone() const { return tone_; }
 
 private:
     StereoRig rig_;
     gpu::PictureTexture& picture_;
     std::optional<StillReducer> reducer_;
+    ToneTexture tone_;
     gpu::Texture raised_;
     gpu::Framebuffer raisedTarget_;
     gpu::DrawPass<params::RaiseStill> raise_;

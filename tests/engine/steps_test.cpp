@@ -85,7 +85,8 @@ TEST_P(StepsTest, StillPyramidIsResampledToTheVideosGeometry) {
         const auto engine = engineFor(rig, rig.still.size);
         const auto prepare = engine->still();
         const auto step = engine->pyramid();
-        const LumaPyramid& pyramid = step->still(prepare->run(still.view(), SuperResMode::Detail));
+        const LumaPyramid& pyramid =
+            step->still(prepare->run(still.view(), SuperResMode::Detail, {}));
         // Tolerance: the shaders' filter has weights of 8 bits; the kernels round luma before.
         EXPECT_LE(worstOf(levelOf(pyramid, pyramid.still[0]),
                           twin::lumaFromStill(twin::luma(still.view()), rig)),
@@ -126,11 +127,43 @@ TEST_P(StepsTest, FinestDetailOfTheStillIsAmplifiedUnlessTheStillIsReduced) {
             const TestPicture still = Waves(5, 4, 60, 30).shoot(rig.still.size, {.format = format});
             const auto engine = engineFor(rig, output);
             const auto step = engine->still();
-            const StillPictures& made = step->run(still.view(), SuperResMode::Detail);
+            const StillPictures& made = step->run(still.view(), SuperResMode::Detail, {});
             twin::Grey luma = twin::luma(still.view());
             if (share == 0) luma = twin::reduced(luma, made.rig.still.size);
             EXPECT_LE(worstOf(raisedOf(made), twin::raised(luma, share)), 1.6) << share;
         }
+}
+
+TEST_P(StepsTest, TheToneCurveOfTheStillIsInItsLumaPyramidAndDetail) {
+    StillTone tone;
+    for (std::size_t i = 0; i < tone.levels.size(); ++i)
+        tone.levels[i] = static_cast<std::uint8_t>(40 + i * i / 400);
+    const StereoRig rig = plainRig({50, 35}, {200, 140});
+    for (const auto& [output, share] : {std::pair{Size{200, 140}, 0.08}, {Size{100, 70}, 0.0}}) {
+        const TestPicture still = Waves(5, 4, 60, 30).shoot(rig.still.size, {});
+        const auto curve = [&](const twin::Grey& of) {
+            return twin::greyOf(of.size, [&](int x, int y) {
+                const double level = of.at(x, y);
+                return 40 + level * level / 400;
+            });
+        };
+        const auto engine = engineFor(rig, output);
+        const auto step = engine->still();
+        const StillPictures& made = step->run(still.view(), SuperResMode::Detail, tone);
+        EXPECT_EQ(made.tone, tone);
+        const twin::Grey luma = twin::luma(still.view());
+        const Rows<const std::uint8_t> host = made.luma.host();
+        EXPECT_LE(worstOf(twin::greyOf(host.size, [&](int x, int y) { return double(host[y][x]); }),
+                          curve(luma)),
+                  2);
+        const auto pyramids = engine->pyramid();
+        const LumaPyramid& pyramid = pyramids->still(made);
+        EXPECT_LE(
+            worstOf(levelOf(pyramid, pyramid.still[0]), twin::lumaFromStill(curve(luma), rig)),
+            2.5);
+        const twin::Grey shown = share == 0 ? twin::reduced(luma, made.rig.still.size) : luma;
+        EXPECT_LE(worstOf(raisedOf(made), twin::raised(curve(shown), share)), 3) << share;
+    }
 }
 
 /// One channel of a picture.

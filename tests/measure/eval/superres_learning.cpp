@@ -59,6 +59,7 @@ void learnFrom(const Recording& recording, const SuperResRequest& request, int& 
             // A still that shows the same view as a frame is the truth of that frame.
             learning.setMayUseOlder(last && !showsOwnView(recording, stillAt, *last));
             last = at;
+            pipeline.setFilters(learning.filters());
             PipelineShot(reference).giveAsStill(pipeline);
             PipelineShot(video).run(pipeline);
         }
