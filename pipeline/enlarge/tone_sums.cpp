@@ -7,11 +7,11 @@
 namespace mfar::enlarge {
 namespace {
 
-constexpr double kLeastOfRange = 100;  // smallest number of pixels of a range that counts
-constexpr double kKeptPerStill = 0.5;  // with every new still, the sums over older stills are
-                                       // multiplied by this factor
+constexpr double kLeastOfRange = 100;   // smallest number of pixels of a range that counts
+constexpr double kKeptPerStill = 0.25;  // with every new still, the sums over older stills are
+                                        // multiplied by this factor
 // A tone curve is replaced if it is wrong by more than this in the mean [grey levels].
-constexpr double kWrongTone = 1;
+constexpr double kWrongTone = 2;
 constexpr double kMostOfRange = 1e12;
 
 /// Returns the level at which a still showed `level` before its tone curve was applied.

@@ -33,6 +33,8 @@ public:
 
     [[nodiscard]] const gpu::Texture& texture() const { return picture_.texture(); }
     [[nodiscard]] const ToneTexture& tone() const { return tone_; }
+    /// Sets the format of the picture's texture, whose channels are read back in stored order.
+    void setFormat(PixelFormat format) { format_ = format; }
     void upload(const void*, std::ptrdiff_t) override { assert(!"a still's luma comes from here"); }
     void download(void* data, std::ptrdiff_t pitch) override {
         const std::vector<std::uint8_t> rgba = texture().readRgba8();
@@ -40,14 +42,20 @@ public:
         const auto& levels = tone_.tone().levels;
         for (int y = 0; y < height; ++y) {
             std::uint8_t* row = static_cast<std::uint8_t*>(data) + y * pitch;
-            simd::lumaRow(rgba.data() + 4UL * y * width, false, static_cast<std::size_t>(width),
-                          row);
+            const std::uint8_t* texels = rgba.data() + 4UL * y * width;
+            if (format_ == PixelFormat::Gray8)
+                for (int x = 0; x < width; ++x)
+                    row[x] = texels[4UL * x];
+            else
+                simd::lumaRow(texels, format_ == PixelFormat::Bgra8,
+                              static_cast<std::size_t>(width), row);
             std::transform(row, row + width, row,
                            [&](std::uint8_t level) { return levels[level]; });
         }
     }
 
 private:
+    PixelFormat format_ = PixelFormat::Rgba8;
     const gpu::PictureTexture& picture_;
     const ToneTexture& tone_;
 };
@@ -63,6 +71,7 @@ public:
 
     const StillPictures& run(const ImageView& still, SuperResMode, const StillTone& tone) override {
         still_.set(still, tone);
+        lumaCopy_.setFormat(still.format);
         pictures_.tone = tone;
         ++pictures_.number;
         pictureCopy_.emplace(still_.picture());

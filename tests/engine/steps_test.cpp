@@ -134,6 +134,27 @@ TEST_P(StepsTest, FinestDetailOfTheStillIsAmplifiedUnlessTheStillIsReduced) {
         }
 }
 
+TEST_P(StepsTest, LumaOfAStillIsThatOfItsColoursInAnyFormat) {
+    const StereoRig rig = plainRig({50, 35}, {200, 140});
+    for (const PixelFormat format : {PixelFormat::Rgba8, PixelFormat::Bgra8, PixelFormat::Gray8}) {
+        const bool isGrey = format == PixelFormat::Gray8;
+        TestPicture still = randomPicture(rig.still.size, 3, isGrey ? format : PixelFormat::Rgba8);
+        const twin::Grey wanted = twin::luma(still.view());
+        if (format == PixelFormat::Bgra8)
+            for (std::size_t i = 0; i < still.bytes.size(); i += 4)
+                std::swap(still.bytes[i], still.bytes[i + 2]);
+        ImageView view = still.view();
+        view.format = format;
+        const auto engine = engineFor(rig, rig.still.size);
+        const auto step = engine->still();
+        const Rows<const std::uint8_t> luma = step->run(view, SuperResMode::Detail, {}).luma.host();
+        EXPECT_LE(worstOf(twin::greyOf(luma.size, [&](int x, int y) { return double(luma[y][x]); }),
+                          wanted),
+                  1)
+            << int(format);
+    }
+}
+
 TEST_P(StepsTest, TheToneCurveOfTheStillIsInItsLumaPyramidAndDetail) {
     StillTone tone;
     for (std::size_t i = 0; i < tone.levels.size(); ++i)
