@@ -1,8 +1,9 @@
 // Computes the finest pyramid level of the still, in the geometry and resolution of the video. Each
-// value is the still's luma, averaged over the area of a video pixel.
-// In: still, RGBA8. Out: words of luma. One invocation per word.
+// value is the still's luma with its tone curve, averaged over the area of a video pixel.
+// In: still, RGBA8; tone curve. Out: words of luma. One invocation per word.
 #include "luma.glsl"
 #include "rig.glsl"
+#include "still_tone.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(std140, binding = 0) uniform Params {
@@ -15,15 +16,15 @@ layout(std430, binding = 0) writeonly buffer Luma {
 
 float footprintMean(vec2 centre) {
     vec2 texel = vec2(params.texelX, params.texelY);
-    vec3 sum = vec3(0.0);
+    float sum = 0.0;
     for (int j = 0; j < kFootprintTaps; ++j) {
         for (int i = 0; i < kFootprintTaps; ++i) {
             vec2 off = (vec2(i, j) + 0.5) / float(kFootprintTaps) - 0.5;
             vec2 q = centre + off * params.footprint;
-            sum += textureLod(still, (q + 0.5) * texel, 0.0).rgb;
+            sum += toned(lumaOf(textureLod(still, (q + 0.5) * texel, 0.0).rgb));
         }
     }
-    return 255.0 * lumaOf(sum) / float(kFootprintTaps * kFootprintTaps);
+    return 255.0 * sum / float(kFootprintTaps * kFootprintTaps);
 }
 
 void main() {

@@ -1,8 +1,9 @@
-// Computes the luma of the still and amplifies its finest detail, because linear look-ups lose some
-// of it.
-// In: still, RGBA8. Out: luma, clamped to 8 bits.
+// Computes the luma of the still with its tone curve and amplifies its finest detail, because linear
+// look-ups lose some of it.
+// In: still, RGBA8; tone curve. Out: luma, clamped to 8 bits.
 #include "luma.glsl"
 #include "pipeline/engine/params/still.h"
+#include "still_tone.glsl"
 
 layout(std140, binding = 0) uniform Params {
     RaiseStill params;
@@ -18,13 +19,13 @@ layout(location = 0) out vec4 raised;
 // The detail of a reduced still is not amplified, because its highest frequencies are strong
 // enough. (On a photograph reduced from 2304 to 1067 pixels across, leaving out the amplification
 // gains 2.5 dB.)
-vec3 stillAt(ivec2 p) {
-    return texelFetch(still, clamp(p, ivec2(0), textureSize(still, 0) - 1), 0).rgb;
+float stillAt(ivec2 p) {
+    return toned(lumaOf(texelFetch(still, clamp(p, ivec2(0), textureSize(still, 0) - 1), 0).rgb));
 }
 
 void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
-    vec3 beside = stillAt(at - ivec2(1, 0)) + stillAt(at + ivec2(1, 0)) + stillAt(at - ivec2(0, 1)) +
+    float beside = stillAt(at - ivec2(1, 0)) + stillAt(at + ivec2(1, 0)) + stillAt(at - ivec2(0, 1)) +
                   stillAt(at + ivec2(0, 1));
-    raised = vec4(lumaOf((1.0 + 4.0 * params.neighbours) * stillAt(at) - params.neighbours * beside));
+    raised = vec4((1.0 + 4.0 * params.neighbours) * stillAt(at) - params.neighbours * beside);
 }

@@ -85,14 +85,14 @@ void Pipeline::setStill(const ImageView& still, Timestamp time, const std::optio
     requireFit(still, s.rig.still.size, "still");
     s.tellReplaced();
     s.retireNewest();
-    s.newest.take(still, time, s.quality.mode);
+    s.filters = s.nextFilters;
+    s.newest.take(still, time, s.quality.mode, s.filterBank()->tone());
     if (s.options.engines.weigh == EngineKind::Simd || s.options.engines.detail == EngineKind::Simd)
         s.simd->take(*s.newest.pictures);
     if (s.epipolar) s.epipolar->dropStill();
     if (pose) s.needEpipolar().setStill(still, *pose);
     if (s.depth) s.depth->stage.renew();
     s.redraw = true;
-    s.filters = s.nextFilters;
     s.isNewStill = true;
 }
 
@@ -286,7 +286,7 @@ void Pipeline::State::listen(const CellWeights& weights) {
 
 MatchedPictures::LookedUp Pipeline::State::lookedUp() const {
     const CameraModel& looked = newest.pictures->rig.still;
-    return {looked.size, looked.fx / rig.video.fx, looked.fy / rig.video.fy};
+    return {looked.size, looked.fx / rig.video.fx, looked.fy / rig.video.fy, newest.pictures->tone};
 }
 
 void Pipeline::State::tellReplaced() {

@@ -14,9 +14,10 @@ constexpr double kSameView = 0.5 * kTileSize;
 
 }  // namespace
 
-void Reference::take(const ImageView& picture, Timestamp taken, SuperResMode mode) {
+void Reference::take(const ImageView& picture, Timestamp taken, SuperResMode mode,
+                     const StillTone& tone) {
     time = taken;
-    pictures = &still->run(picture, mode);
+    pictures = &still->run(picture, mode, tone);
     pyramid->still(*pictures);
     lastFlow = nullptr;
     shows = 1;

@@ -25,7 +25,7 @@ struct Reference {
     /// Cells of the first frame that was matched with the still, or empty.
     std::vector<WeighedCell> first{};
 
-    void take(const ImageView& picture, Timestamp taken, SuperResMode mode);
+    void take(const ImageView& picture, Timestamp taken, SuperResMode mode, const StillTone& tone);
     void drop();
     /// Updates `shows` after a frame: `shown` of the `tiles` matched tiles were visible in the
     /// still.

@@ -5,6 +5,7 @@
 #include "pipeline/engine/cells.h"
 #include "pipeline/engine/field.h"
 #include "pipeline/engine/params/layer.h"
+#include "pipeline/enlarge/still_tone.h"
 #include "pipeline/flow/flow_options.h"
 #include "pipeline/flow/luma_layout.h"
 #include "pipeline/plan/rgb_planes.h"
@@ -35,7 +36,8 @@ struct VideoFrame {
 
 struct StillPictures {
     std::uint64_t number = 0;
-    StereoRig rig;  ///< its still camera has the resolution of `raised` and `pairs`
+    StereoRig rig;   ///< its still camera has the resolution of `raised` and `pairs`
+    StillTone tone;  ///< the tone curve that was applied to `luma`, `raised` and `pairs`
     Field<std::uint8_t> luma;
     // Luma with amplified finest detail, see params::kLinearLoss. The GLES engine fills only
     // `raised`. The SIMD engine fills only `pairs`: the low byte is a pixel, and the high byte is
@@ -74,8 +76,9 @@ struct CellWeights {
 class StillStep {
 public:
     virtual ~StillStep() = default;
-    /// The still must be valid and have the still camera's size.
-    virtual const StillPictures& run(const ImageView& still, SuperResMode mode) = 0;
+    /// The still must be valid and have the still camera's size. `tone` is applied to its luma.
+    virtual const StillPictures& run(const ImageView& still, SuperResMode mode,
+                                     const StillTone& tone) = 0;
     /// Prepares the fields that the new mode needs, from the still of the last run().
     virtual void setMode(SuperResMode mode) = 0;
 };

@@ -68,13 +68,14 @@ EnlargerLearner::Outcome EnlargerLearner::add(const MatchedPictures& pictures,
     if (stop.stop_requested()) return Outcome::Stopped;
     fineMatch_.add(pictures, stop);
     if (stop.stop_requested()) return Outcome::Stopped;
+    learnTone(pairs, pictures.tone);
     ++counts_.stills;
     rememberShown();
     sums_.fade(kForgetting);
     sums_.add(still.learn);
     held_.fade(kForgetting);
     held_.add(still.choose);
-    const bool replaced = choose(still.check) || putFineMatchInPlace();
+    const bool replaced = choose(still.check) || putMatchInPlace();
     held_.add(still.check);
     measure();
     return replaced ? Outcome::Replaced : Outcome::Kept;
@@ -83,6 +84,7 @@ EnlargerLearner::Outcome EnlargerLearner::add(const MatchedPictures& pictures,
 EnlargerLearner::Outcome EnlargerLearner::addOlder(const MatchedPictures& truth,
                                                    const MatchedPictures& older,
                                                    const std::stop_token& stop) {
+    if (!older.tone.isNear(tone_.tone())) return Outcome::Refused;
     const TrustedPairs pairs(truth, stop);
     if (stop.stop_requested()) return Outcome::Stopped;
     if (!(pairs.trustedShare() >= kLeastTrusted && pairs.sharpness() >= kLeastSharpness))
@@ -94,6 +96,13 @@ EnlargerLearner::Outcome EnlargerLearner::addOlder(const MatchedPictures& truth,
     if (changes) putInPlace(current_, learned_);
     measure();
     return changes ? Outcome::Replaced : Outcome::Kept;
+}
+
+// Guidance that was learned with another tone curve adds and removes wrong shares of detail.
+void EnlargerLearner::learnTone(const TrustedPairs& pairs, const StillTone& applied) {
+    const StillTone before = tone_.tone();
+    tone_.add(pairs.toneSums(), applied);
+    if (!before.isNear(tone_.tone())) guidance_ = {};
 }
 
 bool EnlargerLearner::findNew(const MatchedPictures& pictures) {
@@ -205,8 +214,10 @@ bool EnlargerLearner::choose(const SumsOfClasses& check) {
     return putInPlace(weights, learned);
 }
 
-bool EnlargerLearner::putFineMatchInPlace() {
-    return fineMatch_.fineMatch() != inPlace_->fineMatch() && putInPlace(current_, learned_);
+bool EnlargerLearner::putMatchInPlace() {
+    const bool isSame =
+        fineMatch_.fineMatch() == inPlace_->fineMatch() && tone_.tone() == inPlace_->tone();
+    return !isSame && putInPlace(current_, learned_);
 }
 
 bool EnlargerLearner::putInPlace(const std::vector<ClassWeights>& weights,
@@ -216,7 +227,7 @@ bool EnlargerLearner::putInPlace(const std::vector<ClassWeights>& weights,
         filters.push_back(roundedFilter(of));
     try {
         inPlace_ = std::make_shared<const FilterBank>(filters, guidance_.guidance(),
-                                                      fineMatch_.fineMatch());
+                                                      fineMatch_.fineMatch(), tone_.tone());
     } catch (const FilterBankError&) {
         return false;  // the weights are too large for the SIMD code
     }

@@ -5,6 +5,7 @@
 #include "pipeline/enlarge/guidance_learner.h"
 #include "pipeline/enlarge/learner_counts.h"
 #include "pipeline/enlarge/matched_pictures.h"
+#include "pipeline/enlarge/tone_sums.h"
 #include "pipeline/enlarge/trusted_pairs.h"
 
 #include <array>
@@ -44,6 +45,7 @@ public:
     Outcome add(const MatchedPictures& pictures, const std::stop_token& stop = {});
     /// Learns the guidance (see enlarge::GuidanceLearner). `truth` is a frame matched with a new
     /// still. `older` is the same frame matched with the older still that it was drawn with.
+    /// Refused if the older still had another tone curve than new stills get.
     Outcome addOlder(const MatchedPictures& truth, const MatchedPictures& older,
                      const std::stop_token& stop = {});
 
@@ -79,7 +81,8 @@ private:
                                    const std::stop_token& stop) const;
     bool choose(const enlarge::SumsOfClasses& check);
     [[nodiscard]] enlarge::ClassWeights solved(int unique) const;
-    bool putFineMatchInPlace();
+    void learnTone(const enlarge::TrustedPairs& pairs, const StillTone& applied);
+    bool putMatchInPlace();
     bool putInPlace(const std::vector<enlarge::ClassWeights>& weights,
                     const std::vector<bool>& learned);
     void measure();
@@ -89,6 +92,7 @@ private:
     enlarge::SumsOfClasses sums_, held_;
     enlarge::GuidanceLearner guidance_;
     enlarge::FineMatchLearner fineMatch_;
+    enlarge::ToneLearner tone_;
     std::shared_ptr<const FilterBank> inPlace_;
     // Means over 4x4 video pixels. `shown_` has, for each tile, the last picture used for learning.
     // `means_` has the last picture given to findNew().

@@ -77,8 +77,9 @@ std::uint64_t nextNumber() {
 }  // namespace
 
 FilterBank::FilterBank(std::span<const Filter> unique, const Guidance& guidance,
-                       const FineMatch& fineMatch)
-    : number_(nextNumber()), guidance_(guidance), fineMatch_(fineMatch), cubic_({kFilterSize, 1}) {
+                       const FineMatch& fineMatch, const StillTone& tone)
+    : number_(nextNumber()), guidance_(guidance), fineMatch_(fineMatch), tone_(tone),
+      cubic_({kFilterSize, 1}) {
     if (unique.size() != kUnique)
         throw FilterBankError("found filters for " + std::to_string(unique.size()) +
                               " classes; expected " + std::to_string(kUnique));

@@ -2,6 +2,7 @@
 
 #include "base/rows.h"
 #include "pipeline/enlarge/filter_layout.h"
+#include "pipeline/enlarge/still_tone.h"
 
 #include <array>
 #include <cstdint>
@@ -45,8 +46,8 @@ struct FineMatch {
     bool operator==(const FineMatch&) const = default;
 };
 
-/// Filters of the learned enlarger, one per class (see filter_layout.h), with the Guidance and
-/// FineMatch learned from the same sensors. Immutable.
+/// Filters of the learned enlarger, one per class (see filter_layout.h), with the Guidance,
+/// FineMatch and StillTone learned from the same sensors. Immutable.
 class FilterBank {
 public:
     /// Weights of a class's filter. They are halved, because the residuals of a pixel's two classes
@@ -55,7 +56,7 @@ public:
 
     /// `unique` must contain kUnique filters, gradient classes first. Throws FilterBankError.
     explicit FilterBank(std::span<const Filter> unique, const Guidance& guidance = {},
-                        const FineMatch& fineMatch = {});
+                        const FineMatch& fineMatch = {}, const StillTone& tone = {});
     /// The shipped filters, which are part of the program. They were learned by
     /// mfar-train-enlarger.
     [[nodiscard]] static const FilterBank& prior();
@@ -70,6 +71,8 @@ public:
     /// Unknown for the shipped filters, because it depends on the noise and sharpness of both
     /// sensors.
     [[nodiscard]] const FineMatch& fineMatch() const { return fineMatch_; }
+    /// The tone curve of the stills. The shipped filters leave stills as they are.
+    [[nodiscard]] const StillTone& tone() const { return tone_; }
     /// Keys' cubic minus the pixel itself, as a filter with the same taps and sub-pixels. Its
     /// weights are not halved. A weight of one is stored as 16384.
     [[nodiscard]] const std::int16_t* cubic() const { return cubic_[0]; }
@@ -78,6 +81,7 @@ private:
     std::uint64_t number_;
     Guidance guidance_;
     FineMatch fineMatch_;
+    StillTone tone_;
     AlignedRows<std::int16_t> gradient_, curvature_, cubic_;
 };
 

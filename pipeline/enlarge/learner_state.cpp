@@ -13,10 +13,10 @@ using namespace enlarge;
 
 constexpr char kMagic[] = "mfarlern";
 constexpr std::size_t kMagicSize = 8;
-constexpr std::array<std::uint64_t, 4> kHeader{4, kUnique, kTaps, kPhases};
+constexpr std::array<std::uint64_t, 4> kHeader{5, kUnique, kTaps, kPhases};
 // Older readable versions of the format: without guidance; with one factor of guidance (ten
-// numbers); with two factors, but without FineMatch.
-constexpr std::uint64_t kWithoutGuidance = 1, kOneFactor = 2, kTwoFactors = 3;
+// numbers); with two factors, but without FineMatch; without the tone curve.
+constexpr std::uint64_t kWithoutGuidance = 1, kOneFactor = 2, kTwoFactors = 3, kWithoutTone = 4;
 constexpr int kOneFactorNumbers = 10;
 constexpr std::size_t kChecksumSize = 4;
 constexpr std::size_t kMostKeySize = 4096;
@@ -146,6 +146,8 @@ std::vector<std::uint8_t> EnlargerLearner::stored(const std::string& key) const 
         out.number(value);
     for (const double value : fineMatch_.stored())
         out.number(value);
+    for (const double value : tone_.stored())
+        out.number(value);
     return std::move(out).finished();
 }
 
@@ -173,9 +175,11 @@ EnlargerLearner EnlargerLearner::restored(std::span<const std::uint8_t> bytes,
     if (in.version() >= kTwoFactors &&
         !out.guidance_.restore(in.reals<GuidanceLearner::kNumbers>()))
         in.refuse("has guidance factors that are out of range");
-    if (in.version() == kHeader[0] &&
+    if (in.version() >= kWithoutTone &&
         !out.fineMatch_.restore(in.reals<FineMatchLearner::kNumbers>()))
         in.refuse("has values of fine_noise or fine_share that are out of range");
+    if (in.version() == kHeader[0] && !out.tone_.restore(in.reals<ToneLearner::kNumbers>()))
+        in.refuse("has values of the tone curve that are out of range");
     in.finish();
     if (!out.putInPlace(weights, learned)) in.refuse("has filter weights that are too large");
     out.measure();

@@ -32,6 +32,7 @@ void MatchedPictures::take(const RgbPlanes& planes, Rows<const std::uint8_t> sti
     copy(cells, lookUps);
     scaleX = lookedUp.scaleX;
     scaleY = lookedUp.scaleY;
+    tone = lookedUp.tone;
     stillPerX = double(stillLuma.size.width) / lookedUp.size.width;
     stillPerY = double(stillLuma.size.height) / lookedUp.size.height;
 }

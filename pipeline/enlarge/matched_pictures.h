@@ -2,6 +2,7 @@
 
 #include "base/rows.h"
 #include "pipeline/engine/cells.h"
+#include "pipeline/enlarge/still_tone.h"
 #include "pipeline/plan/rgb_planes.h"
 
 #include <cmath>
@@ -20,12 +21,14 @@ struct MatchedPictures {
     AlignedRows<LookUpCell> lookUps;      ///< one entry per cell of 4x4 video pixels
     double scaleX = 1, scaleY = 1;        ///< look-up px per video px
     double stillPerX = 1, stillPerY = 1;  ///< px of `still` per look-up px
+    StillTone tone;                       ///< the tone curve that was applied to `still`
 
     /// The picture whose pixels ("look-up px") are the unit of look-ups: the still, or a reduced
     /// still.
     struct LookedUp {
         Size size;
         double scaleX, scaleY;
+        StillTone tone{};
     };
     void take(const RgbPlanes& video, Rows<const std::uint8_t> still,
               Rows<const LookUpCell> lookUps, const LookedUp& lookedUp);

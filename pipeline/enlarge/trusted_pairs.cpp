@@ -69,42 +69,13 @@ double TrustedPairs::videoAt(int x, int y) const {
     return in_.row(y)[x] / double(kLumaScale);
 }
 
-/// Fits the video's grey level as a function of the still's. The function connects the means of 16
-/// ranges of levels.
+/// Fits the video's grey level as a function of the still's.
 void TrustedPairs::fitTone() {
-    constexpr int kRanges = 16;
-    struct Range {
-        double count = 0, still = 0, video = 0;
-    };
-    std::array<Range, kRanges> ranges;
+    toneSums_ = {};
     for (int y = kBorder; y < video_.height - kBorder; ++y)
-        for (int x = kBorder; x < video_.width - kBorder; ++x) {
-            if (known_[y / kCell][x / kCell] == 0) continue;
-            const float value = still_.mean(x, y);
-            Range& range = ranges[std::clamp(static_cast<int>(value) / kRanges, 0, kRanges - 1)];
-            ++range.count;
-            range.still += value;
-            range.video += videoAt(x, y);
-        }
-    constexpr double kLeastPixels = 100;
-    std::vector<std::array<double, 2>> knots;
-    for (const Range& range : ranges)
-        if (range.count >= kLeastPixels)
-            knots.push_back({range.still / range.count, range.video / range.count});
-    tone_.assign(256, 0);
-    for (int level = 0; level < 256; ++level) {
-        if (knots.size() < 2) {
-            tone_[level] =
-                static_cast<float>(knots.empty() ? level : level + knots[0][1] - knots[0][0]);
-            continue;
-        }
-        std::size_t i = 1;
-        while (i + 1 < knots.size() && level > knots[i][0])
-            ++i;
-        const auto [x0, y0] = knots[i - 1];
-        const auto [x1, y1] = knots[i];
-        tone_[level] = static_cast<float>(y0 + (y1 - y0) * (level - x0) / (x1 - x0));
-    }
+        for (int x = kBorder; x < video_.width - kBorder; ++x)
+            if (known_[y / kCell][x / kCell] != 0) toneSums_.add(still_.mean(x, y), videoAt(x, y));
+    tone_ = toneSums_.curve();
 }
 
 float TrustedPairs::toneOf(float value) const {

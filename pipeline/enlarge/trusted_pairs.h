@@ -3,6 +3,7 @@
 #include "base/rows.h"
 #include "pipeline/enlarge/class_sums.h"
 #include "pipeline/enlarge/matched_pictures.h"
+#include "pipeline/enlarge/tone_sums.h"
 #include "pipeline/enlarge/warped_grid.h"
 
 #include <cstdint>
@@ -32,6 +33,8 @@ public:
     /// enlarged by Keys' cubic. It is measured over trusted pixels with structure. The still is no
     /// sharper than the video if the result is at most one.
     [[nodiscard]] double sharpness() const { return sharpness_; }
+    /// The pairs of grey levels from which the tone curve was fitted.
+    [[nodiscard]] const ToneSums& toneSums() const { return toneSums_; }
 
 private:
     /// Sums of products of the still's gradient (x, y) and the pictures' difference e.
@@ -70,9 +73,10 @@ private:
     AlignedRows<std::uint8_t> known_;
     AlignedRows<std::uint8_t> trusted_;
     WarpedGrid still_;
-    Plane seen_;               // mean of the still over each pixel, with the video's tone and blur
-    Plane mean_;               // video minus seen_, averaged over a larger area
-    std::vector<float> tone_;  // video grey level for each still grey level
+    Plane seen_;  // mean of the still over each pixel, with the video's tone and blur
+    Plane mean_;  // video minus seen_, averaged over a larger area
+    ToneSums toneSums_;
+    ToneSums::Curve tone_{};  // video grey level for each still grey level
     double trustedShare_ = 0, sharpness_ = 0;
 };
 

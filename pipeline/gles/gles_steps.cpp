@@ -9,6 +9,7 @@
 #include "pipeline/gles/still_reference.h"
 #include "pipeline/simd/luma_rows.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cstring>
 
@@ -23,38 +24,57 @@ const gpu::Texture& raisedOf(const StillPictures& still) {
                                   : textureOf(still.raised, gpu::TexelFormat::R8, linear).texture();
 }
 
-/// Copy of the still's luma. The texture is the still in colour; download() computes its luma.
+/// Copy of the still's luma. The texture is the still in colour; download() computes its luma and
+/// applies the tone curve.
 class StillLumaCopy final : public DeviceCopy {
 public:
-    explicit StillLumaCopy(const gpu::PictureTexture& picture) : picture_(picture) {}
+    StillLumaCopy(const gpu::PictureTexture& picture, const ToneTexture& tone)
+        : picture_(picture), tone_(tone) {}
 
     [[nodiscard]] const gpu::Texture& texture() const { return picture_.texture(); }
     void upload(const void*, std::ptrdiff_t) override {
         assert(!"a still's luma is never uploaded");
     }
+    [[nodiscard]] const ToneTexture& tone() const { return tone_; }
+    /// Sets the format of the picture's texture, whose channels are read back in stored order.
+    void setFormat(PixelFormat format) { format_ = format; }
     void download(void* data, std::ptrdiff_t pitch) override {
         const std::vector<std::uint8_t> rgba = texture().readRgba8();
         const auto [width, height] = texture().size();
-        for (int y = 0; y < height; ++y)
-            simd::lumaRow(rgba.data() + 4UL * y * width, false, static_cast<std::size_t>(width),
-                          static_cast<std::uint8_t*>(data) + y * pitch);
+        const auto& levels = tone_.tone().levels;
+        for (int y = 0; y < height; ++y) {
+            std::uint8_t* row = static_cast<std::uint8_t*>(data) + y * pitch;
+            const std::uint8_t* texels = rgba.data() + 4UL * y * width;
+            if (format_ == PixelFormat::Gray8)
+                for (int x = 0; x < width; ++x)
+                    row[x] = texels[4UL * x];
+            else
+                simd::lumaRow(texels, format_ == PixelFormat::Bgra8,
+                              static_cast<std::size_t>(width), row);
+            std::transform(row, row + width, row,
+                           [&](std::uint8_t level) { return levels[level]; });
+        }
     }
 
 private:
+    PixelFormat format_ = PixelFormat::Rgba8;
     const gpu::PictureTexture& picture_;
+    const ToneTexture& tone_;
 };
 
 class GlesStill final : public StillStep {
 public:
     GlesStill(const StepSetup& setup, FrameOnGpu& frame)
-        : still_(setup.rig, setup.output, frame.stillPicture()), lumaCopy_(frame.stillPicture()),
-          raisedCopy_(still_.raised()) {
+        : still_(setup.rig, setup.output, frame.stillPicture()),
+          lumaCopy_(frame.stillPicture(), still_.tone()), raisedCopy_(still_.raised()) {
         pictures_.rig = still_.rig();
         pictures_.luma = Field<std::uint8_t>({}, setup.transfers);
     }
 
-    const StillPictures& run(const ImageView& still, SuperResMode) override {
-        still_.set(still);
+    const StillPictures& run(const ImageView& still, SuperResMode, const StillTone& tone) override {
+        still_.set(still, tone);
+        lumaCopy_.setFormat(still.format);
+        pictures_.tone = tone;
         ++pictures_.number;
         pictureCopy_.emplace(still_.picture());
         pictures_.luma.writtenOnDevice(lumaCopy_, still_.whole().size());
@@ -87,21 +107,20 @@ public:
         return written();
     }
     const LumaPyramid& still(const StillPictures& still) override {
-        pyramids_.buildStill(lumaTexture(still), rig_);
-        return written();
-    }
-
-private:
-    // Returns the still, or a texture of its luma if the SIMD engine prepared it. The shaders read
-    // both in the same way.
-    static const gpu::Texture& lumaTexture(const StillPictures& still) {
         DeviceCopy& copy = still.luma.device([&] {
             return std::make_unique<TextureCopy>(still.luma.size(), gpu::TexelFormat::R8,
                                                  gpu::Filter::Linear);
         });
-        if (const auto* own = dynamic_cast<const StillLumaCopy*>(&copy)) return own->texture();
-        return static_cast<const TextureCopy&>(copy).texture();
+        // If the SIMD engine prepared the still, this is a texture of its luma, which the shaders
+        // read as a grey picture. It already has the tone curve.
+        if (const auto* own = dynamic_cast<const StillLumaCopy*>(&copy))
+            pyramids_.buildStill(own->texture(), own->tone(), rig_);
+        else
+            pyramids_.buildStill(static_cast<const TextureCopy&>(copy).texture(), untoned_, rig_);
+        return written();
     }
+
+private:
     const LumaPyramid& written() {
         luma_.words.writtenOnDevice(copy_, {words_, 1});
         return luma_;
@@ -109,6 +128,7 @@ private:
 
     StereoRig rig_;
     FrameOnGpu& frame_;
+    ToneTexture untoned_;
     LumaPyramids pyramids_;
     int words_;
     BufferCopy copy_;

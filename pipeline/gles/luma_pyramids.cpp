@@ -38,14 +38,17 @@ void LumaPyramids::buildVideo(const gpu::Texture& video) {
     buildCoarse(video_);
 }
 
-void LumaPyramids::buildStill(const gpu::Texture& still, const StereoRig& rig) {
+void LumaPyramids::buildStill(const gpu::Texture& still, const ToneTexture& tone,
+                              const StereoRig& rig) {
     const double footprint = lumaBoxWidening() * rig.still.fx / rig.video.fx;
-    fromStill_.run({.rig = rigParams(rig),
-                    .target = still_[0],
-                    .texelX = static_cast<float>(1.0 / still.size().width),
-                    .texelY = static_cast<float>(1.0 / still.size().height),
-                    .footprint = static_cast<float>(footprint)},
-                   {gpu::sampler(0, still), gpu::storage(0, words_)}, groupsOf(still_[0]));
+    fromStill_.run(
+        {.rig = rigParams(rig),
+         .target = still_[0],
+         .texelX = static_cast<float>(1.0 / still.size().width),
+         .texelY = static_cast<float>(1.0 / still.size().height),
+         .footprint = static_cast<float>(footprint)},
+        {gpu::sampler(0, still), gpu::sampler(1, tone.texture()), gpu::storage(0, words_)},
+        groupsOf(still_[0]));
     buildCoarse(still_);
 }
 

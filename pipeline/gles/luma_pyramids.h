@@ -3,6 +3,7 @@
 #include "base/geometry.h"
 #include "base/gl/pass.h"
 #include "pipeline/flow/luma_layout.h"
+#include "pipeline/gles/tone_texture.h"
 
 #include <array>
 #include <cstdint>
@@ -28,7 +29,7 @@ public:
     /// `video` is an RGBA8 texture of the video's size.
     void buildVideo(const gpu::Texture& video);
     /// `still` is an RGBA8 texture with a linear filter. Called once per still.
-    void buildStill(const gpu::Texture& still, const StereoRig& rig);
+    void buildStill(const gpu::Texture& still, const ToneTexture& tone, const StereoRig& rig);
     /// Makes the still's pyramid from a picture with the video's geometry, for the flow between two
     /// frames.
     void buildSecond(const gpu::Texture& picture);

@@ -11,11 +11,12 @@ StillReference::StillReference(const StereoRig& rig, Size output, gpu::PictureTe
     if (rig_.still.size != rig.still.size) reducer_.emplace(rig.still.size, rig_.still.size);
 }
 
-void StillReference::set(const ImageView& still) {
+void StillReference::set(const ImageView& still, const StillTone& tone) {
+    if (tone != tone_.tone()) tone_.set(tone);
     picture_.upload(still);
     if (reducer_) reducer_->run(picture_.texture());
-    raise_.run({.neighbours = reducer_ ? 0 : kLinearLoss}, {gpu::sampler(0, picture())},
-               raisedTarget_);
+    raise_.run({.neighbours = reducer_ ? 0 : kLinearLoss},
+               {gpu::sampler(0, picture()), gpu::sampler(1, tone_.texture())}, raisedTarget_);
     picture_.finishReading();
 }
 

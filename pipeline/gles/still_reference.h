@@ -5,6 +5,7 @@
 #include "pipeline/engine/params/still.h"
 #include "pipeline/gles/picture_texture.h"
 #include "pipeline/gles/still_reducer.h"
+#include "pipeline/gles/tone_texture.h"
 
 #include <cstdint>
 #include <optional>
@@ -20,8 +21,8 @@ public:
     StillReference(const StereoRig& rig, Size output, gpu::PictureTexture& picture);
 
     /// Uploads a still of the still camera's size. Its pixel format may change from one still to
-    /// the next.
-    void set(const ImageView& still);
+    /// the next. `tone` is applied to raised().
+    void set(const ImageView& still, const StillTone& tone = {});
 
     /// The rig with picture()'s resolution as resolution of the still camera.
     [[nodiscard]] const StereoRig& rig() const { return rig_; }
@@ -32,11 +33,13 @@ public:
     /// Luma with the size of rig().still; R8, linear filter. If the still was not reduced, its
     /// finest detail is amplified to compensate for the loss in linear look-ups.
     [[nodiscard]] const gpu::Texture& raised() const { return raised_; }
+    [[nodiscard]] const ToneTexture& tone() const { return tone_; }
 
 private:
     StereoRig rig_;
     gpu::PictureTexture& picture_;
     std::optional<StillReducer> reducer_;
+    ToneTexture tone_;
     gpu::Texture raised_;
     gpu::Framebuffer raisedTarget_;
     gpu::DrawPass<params::RaiseStill> raise_;

@@ -23,9 +23,11 @@ public:
         pictures_.rig = still_.rig();
     }
 
-    const StillPictures& run(const ImageView& still, SuperResMode mode) override {
-        still_.set(still);
+    const StillPictures& run(const ImageView& still, SuperResMode mode,
+                             const StillTone& tone) override {
+        still_.set(still, tone);
         ++pictures_.number;
+        pictures_.tone = tone;
         pictures_.luma.writtenOnHost(still_.luma());
         const simd::StillPairs pairs = still_.pairs();
         pictures_.pairs.writtenOnHost(

@@ -38,13 +38,17 @@ void StillPreparation::inParts(int rows, const std::function<void(int, int, Scra
     });
 }
 
-void StillPreparation::set(const ImageView& still, bool keepsPicture) {
+void StillPreparation::set(const ImageView& still, const StillTone& tone, bool keepsPicture) {
     takeLuma(still);
     const Rows<const std::uint8_t> grey = luma();
     unmade_ =
         ImageView{grey.data, grey.size, static_cast<std::size_t>(grey.pitch), PixelFormat::Gray8};
     if (keepsPicture) keep(still);
-    if (reduction_) reduceLuma();
+    if (reduction_) {
+        reduceLuma();
+        applyTone(tone, reduction_->luma);
+    }
+    applyTone(tone, luma_);
     makePairs();
 }
 
@@ -101,6 +105,19 @@ void StillPreparation::reduceLuma() {
             resampleRow(scratch.wide[0], reduction_->rows.table(), 0, rig_.still.size.width,
                         reduction_->luma[y]);
             reduction_->luma.repeatBorder(y);
+        }
+    });
+}
+
+void StillPreparation::applyTone(const StillTone& tone, Luma& luma) {
+    if (tone.isIdentity()) return;
+    const auto [width, height] = luma.rows().size;
+    inParts(height, [&, width = width](int first, int last, Scratch&) {
+        for (int y = first; y < last; ++y) {
+            std::uint8_t* row = luma[y];
+            std::transform(row, row + width, row,
+                           [&](std::uint8_t level) { return tone.levels[level]; });
+            luma.repeatBorder(y);
         }
     });
 }

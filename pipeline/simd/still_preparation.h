@@ -3,6 +3,7 @@
 #include "base/geometry.h"
 #include "base/rows.h"
 #include "base/workers.h"
+#include "pipeline/enlarge/still_tone.h"
 #include "pipeline/plan/rgb_planes.h"
 #include "pipeline/simd/detail_kernels.h"
 #include "pipeline/simd/row_taps.h"
@@ -28,11 +29,13 @@ public:
 
     /// Sets a valid picture of the still camera's size, in any pixel format. `keepsPicture`: the
     /// still's colours are copied for picture(); otherwise, picture() returns a grey picture.
-    void set(const ImageView& still, bool keepsPicture = true);
+    /// `tone` is applied to the luma, but not to picture().
+    void set(const ImageView& still, const StillTone& tone = {}, bool keepsPicture = true);
 
     /// The rig whose still camera has the size of pairs(): the same lens with the same or fewer
     /// pixels.
     [[nodiscard]] const StereoRig& rig() const { return rig_; }
+    /// Rec. 601 luma of the whole still, with the tone curve.
     [[nodiscard]] Rows<const std::uint8_t> luma() const { return luma_.rows(); }
     /// Luma at the size of rig().still. If it was not reduced, its finest detail is raised to
     /// compensate for the loss in a linear look-up.
@@ -78,6 +81,7 @@ private:
     void takeLuma(const ImageView& still);
     void keep(const ImageView& still);
     void reduceLuma();
+    void applyTone(const StillTone& tone, Luma& luma);
     void makePairs();
     void reducePictureRow(int y, Scratch& scratch);
     void raisedRowOf(int y, std::uint8_t* to);

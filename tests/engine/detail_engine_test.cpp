@@ -39,7 +39,7 @@ public:
         : setup_{first.rig, output, {}, std::make_shared<Workers>(2)},
           stillEngine_(engineOf(engines.still)), detailEngine_(engineOf(engines.detail)),
           still_(stillEngine_->still()), step_(detailEngine_->detail()),
-          pictures_(still_->run(first.stillView(), SuperResMode::Detail)) {}
+          pictures_(still_->run(first.stillView(), SuperResMode::Detail, {})) {}
 
     Rows<const std::uint32_t> draw(const DetailCase& frame, const FilterBank* filters = nullptr) {
         const CellWeights weights = weightsOf(frame);
@@ -49,7 +49,8 @@ public:
     Rows<const std::uint32_t> drawBoth(const DetailCase& frame, const DetailCase& second,
                                        const FilterBank* filters) {
         if (!secondStill_) secondStill_ = stillEngine_->still();
-        const StillPictures& pictures = secondStill_->run(second.stillView(), SuperResMode::Detail);
+        const StillPictures& pictures =
+            secondStill_->run(second.stillView(), SuperResMode::Detail, {});
         const CellWeights weights = weightsOf(frame), secondWeights = weightsOf(second);
         const DetailStep::Matched other{pictures, secondWeights},
             matched{pictures_, weights, &other};

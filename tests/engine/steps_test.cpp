@@ -83,7 +83,8 @@ TEST_P(StepsTest, StillPyramidIsResampledToPixelsOfTheVideo) {
         const auto engine = engineFor(rig, rig.still.size);
         const auto prepare = engine->still();
         const auto step = engine->pyramid();
-        const LumaPyramid& pyramid = step->still(prepare->run(still.view(), SuperResMode::Detail));
+        const LumaPyramid& pyramid =
+            step->still(prepare->run(still.view(), SuperResMode::Detail, {}));
         // Tolerance: the shaders' filter has weights of 8 bits; the kernels filter rounded luma.
         EXPECT_LE(worstOf(levelOf(pyramid, pyramid.still[0]),
                           twin::lumaFromStill(twin::luma(still.view()), rig)),
@@ -123,11 +124,64 @@ TEST_P(StepsTest, FinestDetailOfTheStillIsAmplifiedUnlessTheStillIsReduced) {
             const TestPicture still = Waves(5, 4, 60, 30).shoot(rig.still.size, {.format = format});
             const auto engine = engineFor(rig, output);
             const auto step = engine->still();
-            const StillPictures& made = step->run(still.view(), SuperResMode::Detail);
+            const StillPictures& made = step->run(still.view(), SuperResMode::Detail, {});
             twin::Grey luma = twin::luma(still.view());
             if (share == 0) luma = twin::reduced(luma, made.rig.still.size);
             EXPECT_LE(worstOf(raisedOf(made), twin::raised(luma, share)), 1.6) << share;
         }
+}
+
+TEST_P(StepsTest, LumaOfAStillIsThatOfItsColoursInAnyFormat) {
+    const StereoRig rig = plainRig({50, 35}, {200, 140});
+    for (const PixelFormat format : {PixelFormat::Rgba8, PixelFormat::Bgra8, PixelFormat::Gray8}) {
+        const bool isGrey = format == PixelFormat::Gray8;
+        TestPicture still = randomPicture(rig.still.size, 3, isGrey ? format : PixelFormat::Rgba8);
+        const twin::Grey wanted = twin::luma(still.view());
+        if (format == PixelFormat::Bgra8)
+            for (std::size_t i = 0; i < still.bytes.size(); i += 4)
+                std::swap(still.bytes[i], still.bytes[i + 2]);
+        ImageView view = still.view();
+        view.format = format;
+        const auto engine = engineFor(rig, rig.still.size);
+        const auto step = engine->still();
+        const Rows<const std::uint8_t> luma = step->run(view, SuperResMode::Detail, {}).luma.host();
+        EXPECT_LE(worstOf(twin::greyOf(luma.size, [&](int x, int y) { return double(luma[y][x]); }),
+                          wanted),
+                  1)
+            << int(format);
+    }
+}
+
+TEST_P(StepsTest, TheToneCurveOfTheStillIsInItsLumaPyramidAndDetail) {
+    StillTone tone;
+    for (std::size_t i = 0; i < tone.levels.size(); ++i)
+        tone.levels[i] = static_cast<std::uint8_t>(40 + i * i / 400);
+    const StereoRig rig = plainRig({50, 35}, {200, 140});
+    for (const auto& [output, share] : {std::pair{Size{200, 140}, 0.08}, {Size{100, 70}, 0.0}}) {
+        const TestPicture still = Waves(5, 4, 60, 30).shoot(rig.still.size, {});
+        const auto curve = [&](const twin::Grey& of) {
+            return twin::greyOf(of.size, [&](int x, int y) {
+                const double level = of.at(x, y);
+                return 40 + level * level / 400;
+            });
+        };
+        const auto engine = engineFor(rig, output);
+        const auto step = engine->still();
+        const StillPictures& made = step->run(still.view(), SuperResMode::Detail, tone);
+        EXPECT_EQ(made.tone, tone);
+        const twin::Grey luma = twin::luma(still.view());
+        const Rows<const std::uint8_t> host = made.luma.host();
+        EXPECT_LE(worstOf(twin::greyOf(host.size, [&](int x, int y) { return double(host[y][x]); }),
+                          curve(luma)),
+                  2);
+        const auto pyramids = engine->pyramid();
+        const LumaPyramid& pyramid = pyramids->still(made);
+        EXPECT_LE(
+            worstOf(levelOf(pyramid, pyramid.still[0]), twin::lumaFromStill(curve(luma), rig)),
+            2.5);
+        const twin::Grey shown = share == 0 ? twin::reduced(luma, made.rig.still.size) : luma;
+        EXPECT_LE(worstOf(raisedOf(made), twin::raised(curve(shown), share)), 3) << share;
+    }
 }
 
 twin::Grey channelOf(const TestPicture& picture, int channel) {

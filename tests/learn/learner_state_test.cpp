@@ -77,13 +77,14 @@ TEST(LearnerState, NonFiniteNumbersAreRefusedDespiteAValidChecksum) {
 }
 
 constexpr std::size_t kGuidanceSize = 8 * enlarge::GuidanceLearner::kNumbers,
-                      kFineMatchSize = 8 * enlarge::FineMatchLearner::kNumbers;
+                      kFineMatchSize = 8 * enlarge::FineMatchLearner::kNumbers,
+                      kToneSize = 8 * enlarge::ToneLearner::kNumbers;
 
 TEST(LearnerState, StatesOfVersionsOneAndTwoAreReadWithoutGuidance) {
     const EnlargerLearner now = learned();
     for (const auto& [version, numbers] : {std::pair{1, 0}, {2, 10}}) {
         auto bytes = now.stored("a, b");
-        bytes.resize(bytes.size() - 4 - kGuidanceSize - kFineMatchSize);
+        bytes.resize(bytes.size() - 4 - kGuidanceSize - kFineMatchSize - kToneSize);
         bytes[8] = static_cast<std::uint8_t>(version);
         bytes.resize(bytes.size() + 8U * numbers);
         enlarge::putNumber(bytes, enlarge::fnv1a(bytes), 4);
@@ -99,7 +100,7 @@ TEST(LearnerState, StatesOfVersionsOneAndTwoAreReadWithoutGuidance) {
 TEST(LearnerState, StateOfVersionThreeIsReadWithGuidanceButWithoutFineMatch) {
     const EnlargerLearner now = learned();
     auto bytes = now.stored("a, b");
-    bytes.resize(bytes.size() - 4 - kFineMatchSize);
+    bytes.resize(bytes.size() - 4 - kFineMatchSize - kToneSize);
     bytes[8] = 3;
     enlarge::putNumber(bytes, enlarge::fnv1a(bytes), 4);
     const EnlargerLearner then = EnlargerLearner::restored(bytes, "a, b", "state");
@@ -107,16 +108,35 @@ TEST(LearnerState, StateOfVersionThreeIsReadWithGuidanceButWithoutFineMatch) {
     EXPECT_FALSE(then.filters()->fineMatch().isKnown());
 }
 
-TEST(LearnerState, GuidanceOutOfRangeIsRefusedDespiteAValidChecksum) {
+TEST(LearnerState, AStateOfVersionFourIsReadWithoutTheToneCurve) {
+    EnlargerLearner now;
+    now.add(matchedPictures(sharpDiscs(1), {.gain = 0.7, .gamma = 1.3}));
+    ASSERT_FALSE(now.filters()->tone().isIdentity());
+    auto bytes = now.stored("a, b");
+    EXPECT_EQ(EnlargerLearner::restored(bytes, "a, b", "state").filters()->tone(),
+              now.filters()->tone());
+    bytes.resize(bytes.size() - 4 - kToneSize);
+    bytes[8] = 4;
+    enlarge::putNumber(bytes, enlarge::fnv1a(bytes), 4);
+    const EnlargerLearner then = EnlargerLearner::restored(bytes, "a, b", "state");
+    EXPECT_TRUE(then.filters()->tone().isIdentity());
+    EXPECT_EQ(then.filters()->fineMatch(), now.filters()->fineMatch());
+}
+
+TEST(LearnerState, NumbersOutOfRangeAreRefusedDespiteAValidChecksum) {
     auto bytes = learned().stored("a, b");
     bytes.resize(bytes.size() - 4);
-    auto guidance = bytes;
-    guidance[bytes.size() - kFineMatchSize - kGuidanceSize + 15] ^= 0x40;
-    enlarge::putNumber(guidance, enlarge::fnv1a(guidance), 4);
-    EXPECT_THAT(faultOf(guidance), HasSubstr("guidance factors that are out of range"));
-    bytes[bytes.size() - 1] ^= 0x40;
-    enlarge::putNumber(bytes, enlarge::fnv1a(bytes), 4);
-    EXPECT_THAT(faultOf(bytes), HasSubstr("fine_share that are out of range"));
+    const std::size_t guidance = bytes.size() - kToneSize - kFineMatchSize - kGuidanceSize;
+    // Sets a bit of an exponent, so that the number is far above its range.
+    for (const auto& [at, fault] :
+         {std::pair{guidance + 15, "guidance factors that are out of range"},
+          {bytes.size() - kToneSize - 1, "fine_share that are out of range"},
+          {bytes.size() - 1, "tone curve that are out of range"}}) {
+        auto wrong = bytes;
+        wrong[at] ^= 0x40;
+        enlarge::putNumber(wrong, enlarge::fnv1a(wrong), 4);
+        EXPECT_THAT(faultOf(wrong), HasSubstr(fault));
+    }
 }
 
 TEST(LearnerState, WrongLengthIsRefusedDespiteAValidChecksum) {

@@ -116,6 +116,29 @@ TEST_P(PipelineLearning, ReplacedStillIsReportedWithTheLastFrame) {
     EXPECT_EQ(heard.replacements, 1);
 }
 
+TEST_P(PipelineLearning, StillsGetTheToneCurveOfTheFilters) {
+    struct Luma final : MatchListener {
+        void matched(const RgbPlanes&, Rows<const std::uint8_t> still, Rows<const LookUpCell>,
+                     const MatchedPictures::LookedUp& lookedUp) override {
+            level = still[300][400];
+            tone = lookedUp.tone;
+        }
+        int level = -1;
+        StillTone tone;
+    } heard;
+    StillTone inverted;
+    for (std::uint8_t& level : inverted.levels)
+        level = static_cast<std::uint8_t>(255 - level);
+    pipeline_.setFilters(std::make_shared<const FilterBank>(
+        std::vector<FilterBank::Filter>(enlarge::kUnique, FilterBank::Filter{}), Guidance{},
+        FineMatch{}, inverted));
+    pipeline_.setMatchListener(&heard);
+    setStill(pipeline_);
+    (void)picture(pipeline_);
+    EXPECT_EQ(heard.tone, inverted);
+    EXPECT_NEAR(heard.level, 255 - sharp_.at(400, 300), 1);
+}
+
 TEST_P(PipelineLearning, NewFiltersTakeEffectAtTheNextStillOrAtOnceWithoutAStill) {
     const auto none = std::make_shared<const FilterBank>(
         std::vector<FilterBank::Filter>(enlarge::kUnique, FilterBank::Filter{}));

@@ -92,6 +92,31 @@ TEST(StillPreparation, PairsContainAPixelAndThePixelBelow) {
     }
 }
 
+TEST(StillPreparation, TheToneCurveChangesLumaAndPairsButNotThePicture) {
+    StillTone tone;
+    for (std::size_t i = 0; i < tone.levels.size(); ++i)
+        tone.levels[i] = static_cast<std::uint8_t>(40 + i / 2);
+    for (const Size output : {Size{131, 97}, Size{50, 37}}) {
+        Still plain({40, 30}, {131, 97}, output), changed({40, 30}, {131, 97}, output);
+        const TestPicture picture({131, 97});
+        plain.preparation.set(picture.view);
+        changed.preparation.set(picture.view, tone);
+        const auto before = plain.preparation.luma(), after = changed.preparation.luma();
+        const StillPairs pairs = plain.preparation.pairs(), toned = changed.preparation.pairs();
+        for (int y = 0; y < 97; ++y)
+            for (int x = -1; x <= 131; ++x)
+                ASSERT_EQ(after[y][x], tone.levels[before[y][x]]) << x << " " << y;
+        for (int y = 0; y < pairs.size.height; ++y)
+            for (int x = 0; x < pairs.size.width; ++x) {
+                const int level = pairs.data[y * pairs.pitch + x] & 255;
+                if (level == 0 || level == 255) continue;  // may be clamped
+                ASSERT_NEAR(toned.data[y * toned.pitch + x] & 255, 40 + level / 2.0, 2.5)
+                    << x << " " << y;
+            }
+        EXPECT_EQ(changed.preparation.picture()[5][7], plain.preparation.picture()[5][7]);
+    }
+}
+
 TEST(StillPreparation, ConstantStillStaysConstant) {
     for (const int level : {0, 90, 255}) {
         for (const Size output : {Size{200, 140}, Size{60, 42}}) {
@@ -182,7 +207,7 @@ TEST(StillPreparation, PictureKeepsColoursAndOutlivesItsSource) {
 
 TEST(StillPreparation, IfColoursAreNotKeptThePictureIsGrey) {
     Still s({40, 25}, {90, 60}, {90, 60});
-    s.preparation.set(TestPicture({90, 60}).view, false);
+    s.preparation.set(TestPicture({90, 60}).view, {}, false);
     const Rows<const std::uint32_t> got = s.preparation.picture();
     for (int x = 0; x < 90; ++x)
         ASSERT_EQ(got[7][x], 0xff000000U | 0x10101U * s.preparation.luma()[7][x]);

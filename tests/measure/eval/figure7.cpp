@@ -82,6 +82,7 @@ std::shared_ptr<const FilterBank> learnedFrom(SceneRun& board, int stills) {
     for (int i = 0; i < kStillEvery * stills; ++i) {
         const SceneRun::Shots shots = board.next();
         if (i % kStillEvery == 0) board.fire();
+        pipeline.setFilters(learning.filters());
         runOn(pipeline, shots);
     }
     learning.report();

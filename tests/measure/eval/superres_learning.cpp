@@ -60,6 +60,7 @@ void learnFrom(const Recording& recording, const SuperResRequest& request, int& 
             // still is the frame's true picture.
             learning.setMayUseOlder(last && !showsOwnView(recording, stillAt, *last));
             last = at;
+            pipeline.setFilters(learning.filters());
             PipelineShot(reference).giveAsStill(pipeline);
             PipelineShot(video).run(pipeline);
         }

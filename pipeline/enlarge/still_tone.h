@@ -1,0 +1,37 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+
+namespace mfar {
+
+/// The tone curve from a still to the video: the grey level that the video's sensor shows where the
+/// still's sensor shows level i. It is applied to the luma of a still before the still is matched,
+/// so that the still's detail has the contrast of the video.
+struct StillTone {
+    static constexpr int kLevels = 256;
+    std::array<std::uint8_t, kLevels> levels = unchanged();
+
+    [[nodiscard]] bool isIdentity() const { return *this == StillTone{}; }
+    bool operator==(const StillTone&) const = default;
+    /// True if both curves differ by so little that what was learned with one holds for the other.
+    [[nodiscard]] bool isNear(const StillTone& other) const {
+        constexpr int kNear = 4;  // mean difference [grey levels]
+        int sum = 0;
+        for (std::size_t i = 0; i < kLevels; ++i)
+            sum += std::abs(levels[i] - other.levels[i]);
+        return sum <= kNear * kLevels;
+    }
+
+private:
+    [[nodiscard]] static constexpr std::array<std::uint8_t, kLevels> unchanged() {
+        std::array<std::uint8_t, kLevels> out{};
+        for (std::size_t i = 0; i < kLevels; ++i)
+            out[i] = static_cast<std::uint8_t>(i);
+        return out;
+    }
+};
+
+}  // namespace mfar

@@ -1,0 +1,141 @@
+#include "pipeline/enlarge/tone_sums.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace mfar::enlarge {
+namespace {
+
+constexpr double kLeastOfRange = 100;   // smallest number of pixels of a range that counts
+constexpr double kKeptPerStill = 0.25;  // with every new still, the sums over older stills are
+                                        // multiplied by this factor
+// A tone curve is replaced if it is wrong by more than this in the mean [grey levels].
+constexpr double kWrongTone = 2;
+constexpr double kMostOfRange = 1e12;
+
+/// Returns the level at which a still showed `level` before its tone curve was applied.
+double levelBefore(double level, const StillTone& tone) {
+    if (tone.isIdentity()) return level;
+    const auto& levels = tone.levels;
+    const auto first = std::ranges::lower_bound(levels, level),
+               last = std::ranges::upper_bound(levels, level);
+    // A range of levels has become this one: its middle.
+    if (first != last)
+        return (double(first - levels.begin()) + double(last - levels.begin()) - 1) / 2;
+    if (first == levels.begin()) return 0;
+    if (first == levels.end()) return StillTone::kLevels - 1;
+    const double below = first[-1], above = *first;
+    return double(first - levels.begin()) - 1 + (level - below) / (above - below);
+}
+
+}  // namespace
+
+void ToneSums::add(double still, double video, double count) {
+    constexpr double kPerRange = double(StillTone::kLevels) / kRanges;
+    const double number = std::clamp(still / kPerRange, 0.0, kRanges - 1.0);
+    Range& range = ranges_[static_cast<std::size_t>(number)];
+    range.count += count;
+    range.still += count * still;
+    range.video += count * video;
+}
+
+void ToneSums::add(const ToneSums& others, const StillTone& tone) {
+    for (const Range& range : others.ranges_)
+        if (range.count > 0)
+            add(levelBefore(range.still / range.count, tone), range.video / range.count,
+                range.count);
+}
+
+void ToneSums::fade(double share) {
+    for (Range& range : ranges_) {
+        range.count *= share;
+        range.still *= share;
+        range.video *= share;
+    }
+}
+
+ToneSums::Curve ToneSums::curve() const {
+    std::vector<std::array<double, 2>> knots;
+    for (const Range& range : ranges_)
+        if (range.count >= kLeastOfRange)
+            knots.push_back({range.still / range.count, range.video / range.count});
+    Curve out{};
+    for (std::size_t level = 0; level < out.size(); ++level) {
+        const auto still = static_cast<double>(level);
+        if (knots.size() < 2) {
+            out[level] =
+                static_cast<float>(knots.empty() ? still : still + knots[0][1] - knots[0][0]);
+            continue;
+        }
+        std::size_t i = 1;
+        while (i + 1 < knots.size() && still > knots[i][0])
+            ++i;
+        const auto [x0, y0] = knots[i - 1];
+        const auto [x1, y1] = knots[i];
+        out[level] = static_cast<float>(y0 + (y1 - y0) * (still - x0) / (x1 - x0));
+    }
+    return out;
+}
+
+double ToneSums::distanceFrom(const StillTone& tone) const {
+    double sum = 0, count = 0;
+    for (const Range& range : ranges_) {
+        if (range.count < kLeastOfRange) continue;
+        const double still = std::clamp(range.still / range.count, 0.0, 255.0);
+        const auto below = static_cast<std::size_t>(std::min(still, 254.0));
+        const double shown = std::lerp(double(tone.levels[below]), double(tone.levels[below + 1]),
+                                       still - double(below));
+        sum += std::abs(range.video - range.count * shown);
+        count += range.count;
+    }
+    return count > 0 ? sum / count : 0;
+}
+
+std::array<double, ToneSums::kNumbers> ToneSums::stored() const {
+    std::array<double, kNumbers> out{};
+    std::size_t next = 0;
+    for (const Range& range : ranges_)
+        for (const double value : {range.count, range.still, range.video})
+            out[next++] = value;
+    return out;
+}
+
+bool ToneSums::restore(const std::array<double, kNumbers>& numbers) {
+    std::array<Range, kRanges> ranges;
+    std::size_t next = 0;
+    for (Range& range : ranges) {
+        range = {numbers[next], numbers[next + 1], numbers[next + 2]};
+        next += 3;
+        const double most = 256 * range.count;
+        if (!(range.count >= 0 && range.count <= kMostOfRange)) return false;
+        if (!(range.still >= -most && range.still <= most)) return false;
+        if (!(range.video >= -most && range.video <= most)) return false;
+    }
+    ranges_ = ranges;
+    return true;
+}
+
+void ToneLearner::add(const ToneSums& seen, const StillTone& tone) {
+    sums_.fade(kKeptPerStill);
+    sums_.add(seen, tone);
+    decide();
+}
+
+bool ToneLearner::restore(const std::array<double, kNumbers>& numbers) {
+    if (!sums_.restore(numbers)) return false;
+    decide();
+    return true;
+}
+
+void ToneLearner::decide() {
+    if (sums_.distanceFrom(tone_) <= kWrongTone) return;
+    const ToneSums::Curve curve = sums_.curve();
+    float least = 0;
+    for (std::size_t i = 0; i < curve.size(); ++i) {
+        least = std::max(least, curve[i]);  // a brighter pixel of the still stays brighter
+        tone_.levels[i] = static_cast<std::uint8_t>(std::lround(std::min(least, 255.0F)));
+    }
+}
+
+}  // namespace mfar::enlarge

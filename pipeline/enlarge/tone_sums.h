@@ -1,0 +1,60 @@
+#pragma once
+
+#include "pipeline/enlarge/still_tone.h"
+
+#include <array>
+#include <cstddef>
+
+namespace mfar::enlarge {
+
+/// Pairs of grey levels of still and video, summed in 16 ranges of the still's level. The tone
+/// curve interpolates linearly between the means of these ranges.
+class ToneSums {
+public:
+    void add(double still, double video, double count = 1);
+    /// Adds the pairs of `others`, whose still had the tone curve `tone`.
+    void add(const ToneSums& others, const StillTone& tone);
+    /// Multiplies all sums by the factor `share`.
+    void fade(double share);
+
+    using Curve = std::array<float, StillTone::kLevels>;
+    /// Returns the video's level for each level of the still. Ranges with few pixels are left out.
+    [[nodiscard]] Curve curve() const;
+    /// Mean distance between the video's level and the level that `tone` gives [grey levels].
+    [[nodiscard]] double distanceFrom(const StillTone& tone) const;
+
+    /// stored() returns the sums for a later run of mfard. restore() sets them, and returns false
+    /// if a number is out of range.
+    static constexpr std::size_t kRanges = 16, kNumbers = 3 * kRanges;
+    [[nodiscard]] std::array<double, kNumbers> stored() const;
+    [[nodiscard]] bool restore(const std::array<double, kNumbers>& numbers);
+
+private:
+    struct Range {
+        double count = 0, still = 0, video = 0;
+    };
+    std::array<Range, kRanges> ranges_;
+};
+
+/// Learns FilterBank::tone() from matched stills. Older stills are soon forgotten, because the
+/// exposure of the sensors may change.
+class ToneLearner {
+public:
+    /// `seen`: pairs of levels of a still that had the tone curve `tone` already.
+    void add(const ToneSums& seen, const StillTone& tone);
+    [[nodiscard]] const StillTone& tone() const { return tone_; }
+
+    /// stored() returns the learner's state for a later run of mfard. restore() sets this state,
+    /// and returns false if a number is out of range.
+    static constexpr std::size_t kNumbers = ToneSums::kNumbers;
+    [[nodiscard]] std::array<double, kNumbers> stored() const { return sums_.stored(); }
+    [[nodiscard]] bool restore(const std::array<double, kNumbers>& numbers);
+
+private:
+    void decide();
+
+    ToneSums sums_;
+    StillTone tone_;
+};
+
+}  // namespace mfar::enlarge

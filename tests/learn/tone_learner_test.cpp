@@ -1,0 +1,120 @@
+#include "pipeline/enlarge/enlarger_learner.h"
+#include "pipeline/enlarge/tone_sums.h"
+#include "pipeline/enlarge/trusted_pairs.h"
+#include "tests/learn/sensor_pair.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace mfar::enlarge {
+namespace {
+
+constexpr SensorPair kDarker{.gain = 0.7, .gamma = 1.3};
+
+double shownBy(const SensorPair& pair, double level) {
+    return 255 * pair.gain * std::pow(level / 255, pair.gamma);
+}
+
+ToneLearner afterOneStill(const SensorPair& pair) {
+    ToneLearner out;
+    out.add(TrustedPairs(matchedPictures(sharpDiscs(1), pair)).toneSums(), {});
+    return out;
+}
+
+/// Expects that the tone curve turns the still's levels into those of the scene.
+void expectUndoes(const StillTone& tone, const SensorPair& pair) {
+    for (double level = 60; level <= 210; level += 15)
+        EXPECT_NEAR(tone.levels[std::size_t(std::lround(shownBy(pair, level)))], level, 5) << level;
+}
+
+/// Pictures whose still already has the tone curve `tone`.
+MatchedPictures toned(const SensorPair& pair, const StillTone& tone) {
+    MatchedPictures out = matchedPictures(sharpDiscs(1), pair);
+    for (int y = 0; y < out.still.size().height; ++y)
+        for (int x = 0; x < out.still.size().width; ++x)
+            out.still[y][x] = tone.levels[out.still[y][x]];
+    out.tone = tone;
+    return out;
+}
+
+TEST(ToneLearner, SensorsOfEqualExposureKeepTheStillAsItIs) {
+    EXPECT_TRUE(ToneLearner().tone().isIdentity());
+    EXPECT_TRUE(FilterBank::prior().tone().isIdentity());
+    EXPECT_TRUE(afterOneStill({.videoNoise = 2}).tone().isIdentity());
+}
+
+TEST(ToneLearner, FindsTheCurveFromTheStillToTheVideo) {
+    for (const SensorPair& pair : {kDarker, SensorPair{.gain = 1.0, .gamma = 0.8}})
+        expectUndoes(afterOneStill(pair).tone(), pair);
+}
+
+TEST(ToneLearner, BrighterPixelsOfTheStillStayBrighter) {
+    ToneSums sums;
+    for (const auto& [still, video] : {std::pair{40, 90}, {100, 60}, {200, 150}})
+        sums.add(still, video, 1000);
+    ToneLearner learner;
+    learner.add(sums, {});
+    const auto& levels = learner.tone().levels;
+    EXPECT_TRUE(std::ranges::is_sorted(levels));
+    EXPECT_FALSE(learner.tone().isIdentity());
+}
+
+TEST(ToneLearner, AStillWithTheRightCurveChangesNothing) {
+    ToneLearner learner = afterOneStill(kDarker);
+    const StillTone first = learner.tone();
+    for (int i = 0; i < 4; ++i)
+        learner.add(TrustedPairs(toned(kDarker, learner.tone())).toneSums(), learner.tone());
+    EXPECT_EQ(learner.tone(), first);
+}
+
+TEST(ToneLearner, FollowsANewExposure) {
+    ToneLearner learner = afterOneStill(kDarker);
+    for (int i = 0; i < 5; ++i)
+        learner.add(TrustedPairs(toned({.gain = 0.9}, learner.tone())).toneSums(), learner.tone());
+    expectUndoes(learner.tone(), {.gain = 0.9});
+}
+
+TEST(ToneLearner, StoredNumbersOutOfRangeAreRefused) {
+    ToneLearner learner = afterOneStill(kDarker);
+    const auto good = learner.stored();
+    const StillTone tone = learner.tone();
+    constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+    for (const auto& [at, value] :
+         {std::pair{0, -1.0}, {0, 1e13}, {1, 1e9}, {2, 1e9}, {0, kNan}, {1, kNan}, {2, kNan}}) {
+        auto bad = good;
+        bad[static_cast<std::size_t>(at)] = value;
+        EXPECT_FALSE(learner.restore(bad)) << at << " " << value;
+        EXPECT_EQ(learner.stored(), good);
+    }
+    ToneLearner restored;
+    EXPECT_TRUE(restored.restore(good));
+    EXPECT_EQ(restored.tone(), tone);
+}
+
+TEST(EnlargerLearner, TheToneCurveIsLearnedWithTheFilters) {
+    EnlargerLearner learner;
+    EXPECT_EQ(learner.add(matchedPictures(sharpDiscs(1), kDarker)),
+              EnlargerLearner::Outcome::Replaced);
+    expectUndoes(learner.filters()->tone(), kDarker);
+}
+
+TEST(EnlargerLearner, GuidanceIsLearnedOnlyFromStillsWithTheToneCurveOfNow) {
+    constexpr SensorPair kNoisy{.videoNoise = 4};
+    const MatchedPictures noisy = matchedPictures(sharpDiscs(5), kNoisy);
+    EnlargerLearner learner;
+    MatchedPictures older = matchedPictures(sharpDiscs(5), kNoisy);
+    older.tone.levels.fill(90);
+    EXPECT_EQ(learner.addOlder(noisy, older), EnlargerLearner::Outcome::Refused);
+    EXPECT_EQ(learner.addOlder(noisy, noisy), EnlargerLearner::Outcome::Replaced);
+    EXPECT_TRUE(learner.filters()->guidance().any());
+    learner.add(matchedPictures(sharpDiscs(1), kDarker));
+    ASSERT_FALSE(learner.filters()->tone().isIdentity());
+    EXPECT_FALSE(learner.filters()->guidance().any())
+        << "with another tone curve, guidance must be learned anew";
+}
+
+}  // namespace
+}  // namespace mfar::enlarge
