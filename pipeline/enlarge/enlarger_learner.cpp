@@ -82,8 +82,9 @@ EnlargerLearner::Outcome EnlargerLearner::add(const MatchedPictures& pictures,
 }
 
 EnlargerLearner::Outcome EnlargerLearner::addOlder(const MatchedPictures& truth,
-                                                   const MatchedPictures& older,
+                                                   MatchedPictures& older,
                                                    const std::stop_token& stop) {
+    if (older.tone.isIdentity()) older.apply(tone_.tone());
     if (!older.tone.isNear(tone_.tone())) return Outcome::Refused;
     const TrustedPairs pairs(truth, stop);
     if (stop.stop_requested()) return Outcome::Stopped;

@@ -45,8 +45,9 @@ public:
     Outcome add(const MatchedPictures& pictures, const std::stop_token& stop = {});
     /// Learns the guidance (see enlarge::GuidanceLearner). `truth` is a frame matched with a new
     /// still. `older` is the same frame matched with the older still that it was drawn with.
-    /// Refused if the older still had another tone curve than new stills get.
-    Outcome addOlder(const MatchedPictures& truth, const MatchedPictures& older,
+    /// If `older` has no tone curve yet, the curve of new stills is applied to it. Refused if it
+    /// has another curve.
+    Outcome addOlder(const MatchedPictures& truth, MatchedPictures& older,
                      const std::stop_token& stop = {});
 
     [[nodiscard]] std::shared_ptr<const FilterBank> filters() const { return inPlace_; }

@@ -3,6 +3,7 @@
 #include "pipeline/simd/enlarge_rows.h"
 
 #include <algorithm>
+#include <cassert>
 
 namespace mfar {
 namespace {
@@ -35,6 +36,15 @@ void MatchedPictures::take(const RgbPlanes& planes, Rows<const std::uint8_t> sti
     tone = lookedUp.tone;
     stillPerX = double(stillLuma.size.width) / lookedUp.size.width;
     stillPerY = double(stillLuma.size.height) / lookedUp.size.height;
+}
+
+void MatchedPictures::apply(const StillTone& curve) {
+    assert(tone.isIdentity());
+    const auto [width, height] = still.size();
+    for (int y = 0; y < height; ++y)
+        std::transform(still[y], still[y] + width, still[y],
+                       [&](std::uint8_t level) { return curve.levels[level]; });
+    tone = curve;
 }
 
 const std::int16_t* MatchedPictures::row(int y) const {

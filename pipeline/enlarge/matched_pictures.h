@@ -32,6 +32,8 @@ struct MatchedPictures {
     };
     void take(const RgbPlanes& video, Rows<const std::uint8_t> still,
               Rows<const LookUpCell> lookUps, const LookedUp& lookedUp);
+    /// Applies a tone curve to `still`, which must not have one yet.
+    void apply(const StillTone& curve);
     /// Returns row y of `luma` from the picture's first pixel on. Rows outside the picture are the
     /// border row.
     [[nodiscard]] const std::int16_t* row(int y) const;

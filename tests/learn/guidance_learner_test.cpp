@@ -157,7 +157,7 @@ TEST(GuidanceLearner, StoredNumbersOutOfRangeAreRefused) {
 
 TEST(EnlargerLearner, GuidanceIsLearnedAndKeptWithTheFilters) {
     EnlargerLearner learner;
-    const Stills of(4, 8, 1);
+    Stills of(4, 8, 1);
     EXPECT_EQ(learner.addOlder(of.truth, of.older), EnlargerLearner::Outcome::Replaced);
     EXPECT_GT(learner.filters()->guidance().still, 0.5);
     EXPECT_EQ(learner.counts().pairs, 1U);

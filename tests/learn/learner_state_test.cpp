@@ -15,7 +15,7 @@ EnlargerLearner learned() {
     EnlargerLearner out;
     for (int i = 1; i <= 3; ++i)
         out.add(matchedPictures(sharpDiscs(i), kPair));
-    const MatchedPictures noisy = matchedPictures(sharpDiscs(5), {.videoNoise = 4});
+    MatchedPictures noisy = matchedPictures(sharpDiscs(5), {.videoNoise = 4});
     out.addOlder(noisy, noisy);
     return out;
 }

@@ -101,9 +101,9 @@ TEST(EnlargerLearner, TheToneCurveIsLearnedWithTheFilters) {
     expectUndoes(learner.filters()->tone(), kDarker);
 }
 
-TEST(EnlargerLearner, GuidanceIsLearnedOnlyFromStillsWithTheToneCurveOfNow) {
+TEST(EnlargerLearner, GuidanceIsLearnedOnlyFromStillsWithThePresentToneCurve) {
     constexpr SensorPair kNoisy{.videoNoise = 4};
-    const MatchedPictures noisy = matchedPictures(sharpDiscs(5), kNoisy);
+    MatchedPictures noisy = matchedPictures(sharpDiscs(5), kNoisy);
     EnlargerLearner learner;
     MatchedPictures older = matchedPictures(sharpDiscs(5), kNoisy);
     older.tone.levels.fill(90);
@@ -114,6 +114,20 @@ TEST(EnlargerLearner, GuidanceIsLearnedOnlyFromStillsWithTheToneCurveOfNow) {
     ASSERT_FALSE(learner.filters()->tone().isIdentity());
     EXPECT_FALSE(learner.filters()->guidance().any())
         << "with another tone curve, guidance must be learned anew";
+}
+
+TEST(EnlargerLearner, AnOlderStillWithoutToneCurveGetsTheCurveOfNewStills) {
+    constexpr SensorPair kNoisyAndDarker{.videoNoise = 4, .gain = 0.7, .gamma = 1.3};
+    EnlargerLearner learner;
+    learner.add(matchedPictures(sharpDiscs(1), kNoisyAndDarker));
+    const StillTone tone = learner.filters()->tone();
+    ASSERT_FALSE(tone.isIdentity());
+    MatchedPictures older = matchedPictures(sharpDiscs(5), kNoisyAndDarker);
+    const int level = older.still[200][300];
+    EXPECT_EQ(learner.addOlder(matchedPictures(sharpDiscs(5), kNoisyAndDarker), older),
+              EnlargerLearner::Outcome::Replaced);
+    EXPECT_EQ(older.tone, tone);
+    EXPECT_EQ(older.still[200][300], tone.levels[static_cast<std::size_t>(level)]);
 }
 
 }  // namespace
