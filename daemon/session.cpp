@@ -130,7 +130,7 @@ std::string Session::showFrames(Mailbox<CapturedFrame>& mailbox, CaptureThread& 
     stats_.recorderDropped(rig_.notRecorded());
     leavePictures();
     finishDisplay();
-    return enough ? "the requested number of frames is shown" : "end of the source";
+    return enough ? "the requested number of frames has been shown" : "end of the source";
 }
 
 bool Session::mayDraw() {

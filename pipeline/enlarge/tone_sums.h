@@ -20,7 +20,8 @@ public:
     using Curve = std::array<float, StillTone::kLevels>;
     /// Returns the video's level for each level of the still. Ranges with few pixels are left out.
     [[nodiscard]] Curve curve() const;
-    /// Mean distance between the video's level and the level that `tone` gives [grey levels].
+    /// Mean absolute difference between the video's grey level and the still's grey level after
+    /// `tone`, over all summed pairs [grey levels].
     [[nodiscard]] double distanceFrom(const StillTone& tone) const;
 
     /// stored() returns the sums for a later run of mfard. restore() sets them, and returns false

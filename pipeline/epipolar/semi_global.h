@@ -41,12 +41,12 @@ public:
     /// once.
     using CostRow = std::function<void(int y, std::uint8_t* costs)>;
 
-    /// `vectors` is the largest number of label vectors that a picture needs in total.
+    /// `vectors`: largest number of SIMD vectors of kLabels labels that a picture needs in total.
     explicit SemiGlobal(std::size_t vectors);
 
     /// Finds the best label of every pixel. `base` is the first label of each pixel. At edges of
-    /// `guide`, jumps between labels cost less. `vectors` is the number of vectors of labels per
-    /// pixel. `base` and `out` have one entry per pixel of `guide`.
+    /// `guide`, jumps between labels cost less. A pixel has kLabels * `vectors` labels. `base` and
+    /// `out` have one entry per pixel of `guide`.
     void run(const LumaImage& guide, const std::vector<std::int16_t>& base, int vectors,
              const Smoothness& smoothness, const CostRow& costs, Workers& workers,
              std::span<Valley> out);

@@ -33,7 +33,7 @@ public:
 
     [[nodiscard]] const gpu::Texture& texture() const { return picture_.texture(); }
     void upload(const void*, std::ptrdiff_t) override {
-        assert(!"a still's luma is never uploaded");
+        assert(!"upload() of a still's luma, which is computed from its colours");
     }
     [[nodiscard]] const ToneTexture& tone() const { return tone_; }
     /// Sets the format of the picture's texture, whose channels are read back in stored order.

@@ -38,9 +38,8 @@ public:
     [[nodiscard]] const RayScene& objects() const { return objects_; }
     [[nodiscard]] const RayScene& catcher() const { return catcher_; }
 
-    /// Returns the ray's first hit on a surface that is visible from the side of the hit.
-    /// Single-sided surfaces are invisible from behind. `hit` must be the ray's first hit on any
-    /// surface.
+    /// Returns the ray's first hit, leaving out hits on the backs of single-sided surfaces. `hit`
+    /// must be the ray's first hit on any surface, backs included.
     [[nodiscard]] RayHit shown(const Ray& ray, RayHit hit) const;
     [[nodiscard]] std::uint8_t idOf(const RayHit& hit) const { return meshes_[hit.mesh]->id; }
 

@@ -161,8 +161,8 @@ HWY_INLINE void tryPrior(const SearchStep& step, SearchRoom& room) {
     room.compare(step.to);
 }
 
-/// Compares each cell's patch at the k-th of the four vectors around it at the coarser pyramid
-/// level. The nearest vector is k = 0.
+/// Matches each cell's patch with the k-th flow vector of the coarser pyramid level. Of the four
+/// vectors around the cell, k = 0 is the nearest.
 HWY_INLINE void tryCoarser(const SearchStep& step, int k, SearchRoom& room) {
     Batch& batch = room.batch;
     for (int i = 0; i < batch.count; ++i) {

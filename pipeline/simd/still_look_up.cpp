@@ -56,8 +56,8 @@ HWY_INLINE Point Unproject(const LensParams& lens, V x, V y) {
     return ray;
 }
 
-// Returns the still's pixel on a video pixel's ray, after rotation into the still camera. The
-// position is far outside the still if the ray points away from the still's view.
+// Returns the position in the still where the ray of a video pixel is seen. The ray is rotated into
+// the still camera. The position is far outside if the ray points away from the still's view.
 HWY_INLINE Point StillPixel(const LookUpParams& lookUp, V x, V y) {
     const Point ray = Unproject(lookUp.video, x, y);
     const auto turned = [&](int row) HWY_ATTR {

@@ -148,8 +148,8 @@ bool Warp::isUnmoved(const RigidTransform& from, const RigidTransform& to) const
            std::max(options_.leastMotion, kSamePose);
 }
 
-// Removes pixels that were already rendered for this view, but are still missing. Rendering them
-// again would not help.
+// Removes the pixels of the last request if it was for the same view. They are holes again although
+// they were rendered, so rendering them once more would not help.
 void Warp::dropRefused(std::vector<std::uint32_t>& pixels) const {
     if (!isUnmoved(lastRequest_.view.T_world_camera, listPose_)) return;
     std::erase_if(pixels, [&](std::uint32_t p) {

@@ -123,7 +123,7 @@ TEST(SyntheticBoard, NextTimesOutIfAllVideoBuffersAreInUse) {
     EXPECT_TRUE(board.video().next(10s));
 }
 
-TEST(SyntheticBoard, RealtimeTimesAreRecentAndIncrease) {
+TEST(SyntheticBoard, AtRealtimePaceTimesOfFramesIncreaseAndAreRecent) {
     SyntheticBoard board(flat(Pace::Realtime));
     const Timestamp before = Timestamp::now();
     board.video().start();

@@ -113,7 +113,7 @@ TEST(WaitForFlip, EndsWithTheEventOfTheFlip) {
         << "without a pending flip there is nothing to wait for";
 }
 
-TEST(WaitForFlip, AMissingFlipEndsAtTheLimitDespiteOtherEvents) {
+TEST(WaitForFlip, WithoutAFlipTheWaitEndsAtTheLimitDespiteOtherEvents) {
     const TalkingCard card;
     bool pending = true;
     const std::jthread other([&](const std::stop_token& stop) {

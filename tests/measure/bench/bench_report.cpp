@@ -156,8 +156,9 @@ std::string toTable(const BenchResult& result) {
            line("warp, new picture", result.warp.newPicture) + '\n' +
            line("peer cv::remap", result.warp.remap) + '\n';
     const TriangulationTimes& t = result.triangulation;
-    out += fmt::format("triangulation [ns per point]: mfar from flow {:.1f}, mfar by midpoints "
-                       "{:.1f}, cv::triangulatePoints {:.0f} = {:.0f} times mfar from flow\n",
+    out += fmt::format("triangulation [ns per point]: mfar's flow method {:.1f}, mfar's midpoint "
+                       "method {:.1f}, cv::triangulatePoints {:.0f} ({:.0f} times as long as the "
+                       "flow method)\n",
                        t.flow, t.midpoint, t.opencv, t.opencv / t.flow);
     return out + toTable(result.render);
 }

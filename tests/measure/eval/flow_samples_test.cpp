@@ -103,7 +103,7 @@ TEST(FlowSamples, ARecordingWithoutTruthIsRefused) {
     EXPECT_THROW((void)flowSamplesOf(folder / "r"), EvalError);
 }
 
-TEST(FlowSamples, TrueFlowToAStillIsPreferredToDepthAndToFlowBetweenFrames) {
+TEST(FlowSamples, TrueFlowIntoAStillGoesBeforeDepthAndFlowBetweenFrames) {
     const TempFolder folder;
     const auto truth = folder / "r/truth";
     writeRecording(folder / "r", true);

@@ -18,7 +18,7 @@ constexpr std::uint32_t kTruthSeed = 7;  // other random numbers than the produc
 PathTracerOptions truthOptions() {
     PathTracerOptions out;
     out.shadowReach = kShadowReach;
-    out.fireflyClamp = 1;  // as in the product, so that clamping causes no error
+    out.fireflyClamp = 1;  // mfard's limit, so that clamping does not count as an error
     out.seed = kTruthSeed;
     return out;
 }

@@ -11,9 +11,9 @@ inline Eigen::Vector2f onGrid(const Eigen::Vector2f& v) {
     return ((v * kGrid).array() + 0.5F).floor() / kGrid;
 }
 
-/// Undistorts a step `g` of up to a pixel on the sensor [normalised units], which starts at the ray
-/// `r`. Newton steps find w with distort(r + w) - distort(r) = g. The difference is computed term
-/// by term to avoid cancellation. Zero where the lens model folds over.
+/// Returns w with distort(r + w) - distort(r) = g: the change of the ray `r` that belongs to a
+/// displacement `g` of up to a pixel on the sensor [normalised units]. Newton's method computes the
+/// difference term by term to avoid cancellation. Zero where the lens model folds over.
 SplitVector undistortStep(const CameraModel& camera, const Eigen::Vector2f& r,
                           const Eigen::Vector2f& g);
 

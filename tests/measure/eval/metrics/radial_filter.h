@@ -12,8 +12,8 @@ namespace mfar::eval {
 /// are padded to twice their size, so that opposite borders do not affect each other.
 class RadialFilter {
 public:
-    /// Calls `gain` with frequencies [cycles/degree] from several threads. Not thread-safe, because
-    /// FFTW's planner is not.
+    /// `gain` takes a frequency [cycles/degree] and must be thread-safe. Two filters must not be
+    /// constructed at the same time, because FFTW's planner is not thread-safe.
     RadialFilter(cv::Size size, double pixelsPerDegree, const std::function<double(double)>& gain);
 
     /// Filters a CV_64F picture, padded at the right and below with the value `padding`.
