@@ -7,7 +7,9 @@
 
 namespace mfar {
 
-TracedRenderer::TracedRenderer(const TracedRendererOptions& options) : workers_(options, mail_) {
+TracedRenderer::TracedRenderer(const TracedRendererOptions& options,
+                               std::shared_ptr<FilmMemory> memory)
+    : workers_(options, mail_, std::move(memory)) {
     if (options.threads < 1 || options.threads > 64)
         throw std::invalid_argument("path tracer: the number of threads must be from 1 to 64");
     for (int i = 0; i < options.threads; ++i)

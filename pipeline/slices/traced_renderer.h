@@ -17,7 +17,9 @@ namespace mfar {
 /// lock. No function allocates memory after the first pictures.
 class TracedRenderer {
 public:
-    explicit TracedRenderer(const TracedRendererOptions& options);
+    /// `memory` is for the films. Throws std::invalid_argument if an option is out of range.
+    explicit TracedRenderer(const TracedRendererOptions& options,
+                            std::shared_ptr<FilmMemory> memory = Film::makeMemory());
     /// Waits for the running portions of work, the conversion of a picture, and the building of a
     /// scene.
     ~TracedRenderer();

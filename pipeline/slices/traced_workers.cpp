@@ -42,10 +42,11 @@ TracedRendererOptions checked(const TracedRendererOptions& o) {
 
 }  // namespace
 
-TracedWorkers::TracedWorkers(const TracedRendererOptions& options, RenderMail& mail)
+TracedWorkers::TracedWorkers(const TracedRendererOptions& options, RenderMail& mail,
+                             std::shared_ptr<FilmMemory> memory)
     : options_(checked(options)), mail_(mail), budget_(options.budgetMs),
-      predictor_(options.prediction), pictures_(options.slices, options.policy, memory_),
-      holes_(options.mostHolePixels, memory_) {}
+      predictor_(options.prediction), pictures_(options.slices, options.policy, memory),
+      holes_(options.mostHolePixels, std::move(memory)) {}
 
 void TracedWorkers::work() {
     const bool lowered = lowerThreadPriority();

@@ -35,8 +35,10 @@ struct RenderMail {
 
 class TracedWorkers {
 public:
-    /// Throws std::invalid_argument if an option is out of range. `mail` must outlive this object.
-    TracedWorkers(const TracedRendererOptions& options, RenderMail& mail);
+    /// `memory` is for the films. Throws std::invalid_argument if an option is out of range. `mail`
+    /// must outlive this object.
+    TracedWorkers(const TracedRendererOptions& options, RenderMail& mail,
+                  std::shared_ptr<FilmMemory> memory);
 
     /// Runs in each thread until mail.stop is set.
     void work();
@@ -96,7 +98,6 @@ private:
 
     const TracedRendererOptions options_;
     RenderMail& mail_;
-    const std::shared_ptr<FilmMemory> memory_ = Film::makeMemory();
 
     mutable std::mutex mutex_;
     BudgetController budget_;

@@ -57,6 +57,33 @@ TEST(FirstPicture, ObjectsOutOfViewNeedNoMemory) {
     EXPECT_LT(memory->ready(), 20000U);
 }
 
+// A picture uses at most half of the memory that is provided. If none is provided, a film takes
+// pieces of a few blocks when it needs them, and nearly no unused memory is left.
+TEST(FirstPicture, ThreadsOfTheRendererProvideItsMemory) {
+    const std::shared_ptr<FilmMemory> expected = Film::makeMemory(), piece = Film::makeMemory();
+    TracedPictures pictures(kThirtyTwo, kProduct, expected);
+    pictures.setScene(preparedStillLife(1, 1));
+    const RenderView view = render_scenes::viewFrom({256, 192}, 20);
+    pictures.look(view, view, {});
+    RenderedPicture out;
+    pictures.provide(out);
+    static_cast<void>(piece->take());
+    ASSERT_LT(piece->ready(), expected->ready() / 4);
+
+    const std::shared_ptr<FilmMemory> memory = Film::makeMemory();
+    TracedRendererOptions options;
+    options.slices = kThirtyTwo;
+    options.policy = kProduct;
+    TracedRenderer renderer(options, memory);
+    renderer.setScene(render_scenes::stillLife());
+    for (int frame = 1; renderer.counters().shown == 0; ++frame) {
+        renderer.update(view, Timestamp::fromSeconds(1 + frame / 30.0));
+        while (!renderer.rests())
+            std::this_thread::yield();
+    }
+    EXPECT_GE(memory->ready(), expected->ready() / 2);
+}
+
 // Each frame waits until the threads have used up their time.
 TEST(FirstPicture, UntilItIsShownTheThreadsMayUseTwiceTheirTime) {
     TracedRendererOptions options;
