@@ -156,8 +156,8 @@ void stepByStep(Context& c) {
     const VideoFrame frame{sensors.video.view(), shot.planes, 1};
 
     const auto glesStill = engines[0]->still(), simdStill = engines[1]->still();
-    const StillPictures& still = glesStill->run(sensors.still.view(), mode);
-    const StillPictures& simdPictures = simdStill->run(sensors.still.view(), mode);
+    const StillPictures& still = glesStill->run(sensors.still.view(), mode, {});
+    const StillPictures& simdPictures = simdStill->run(sensors.still.view(), mode, {});
     compareStills(c, still, simdPictures);
 
     const auto glesPyramid = engines[0]->pyramid(), simdPyramid = engines[1]->pyramid();

@@ -37,7 +37,7 @@ BenchCase preparing(const std::string& name, Size output, bool keepsPicture) {
     return {name, [=](const std::shared_ptr<Workers>& workers) {
                 auto still =
                     std::make_shared<simd::StillPreparation>(frame(1).rig, output, workers);
-                return [=] { still->set(frame(1).stillView(), keepsPicture); };
+                return [=] { still->set(frame(1).stillView(), {}, keepsPicture); };
             }};
 }
 
