@@ -1,3 +1,4 @@
+// Refines an approximate displacement by Gauss-Newton steps until the cost no longer falls.
 #include "patch_template.glsl"
 
 // Takes Gauss-Newton steps from `best` as long as they lower the cost, or none if `steps` is -1.

@@ -1,3 +1,5 @@
+// Computes where the still shows a video pixel that is infinitely far away. This depends on both
+// lenses and on the rotation between the cameras, but not on parallax.
 #include "camera.glsl"
 #include "pipeline/engine/params/luma.h"
 

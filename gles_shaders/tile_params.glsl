@@ -1,3 +1,4 @@
+// Parameters of all shaders that draw tiles.
 #include "pipeline/engine/params/detail.h"
 
 layout(std140, binding = 0) uniform Params {

@@ -1,3 +1,4 @@
+// Packs the position of a tile into one word. A tile has 16x16 video pixels, that is, 4x4 cells.
 #include "pipeline/engine/params/detail.h"
 
 uint packTile(ivec2 tile) {

@@ -1,3 +1,5 @@
+// Parameters of the shaders that sharpen the layer while the camera rests (warp_edges.comp,
+// warp_sharpen.comp).
 #include "pipeline/warp/pass_params.h"
 
 layout(std140, binding = 0) uniform Params {
