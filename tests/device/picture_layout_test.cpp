@@ -70,7 +70,7 @@ TEST_F(PictureLayoutTest, TooSmallMemoryIsRefused) {
         const PlaneBytes less{memory_.data(), c.bytes - 1};
         EXPECT_NO_THROW((void)layOut(layout, {&enough, 1}));
         EXPECT_THAT([&] { (void)layOut(layout, {&less, 1}); },
-                    ThrowsMessage<std::runtime_error>(HasSubstr("instead of")));
+                    ThrowsMessage<std::runtime_error>(HasSubstr("a picture needs")));
     }
 }
 

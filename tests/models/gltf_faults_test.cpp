@@ -77,7 +77,7 @@ TEST(GltfFaults, DeeplyNestedJsonIsRefused) {
 
 TEST(GltfFaults, InvalidBufferRangesAreRefused) {
     EXPECT_THAT(faultAfter([](json& r) { r["bufferViews"][1]["byteOffset"] = -4; }),
-                saysAt("bufferViews[1]", "byteOffset must be a number"));
+                saysAt("bufferViews[1]", "byteOffset must be a whole number"));
     EXPECT_THAT(faultAfter([](json& r) {
                     r["bufferViews"][1]["byteOffset"] = std::numeric_limits<std::uint64_t>::max();
                 }),
