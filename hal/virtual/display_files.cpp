@@ -97,6 +97,7 @@ protected:
             if (policy_.isLive && !drainWhileWriting()) cancel_.request_stop();
             writer_.drain();
         } catch (const std::exception&) {
+            // A destructor cannot report errors; finish() reports them.
         }
     }
 

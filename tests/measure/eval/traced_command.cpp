@@ -43,12 +43,10 @@ CLI::App* addTracedCommand(CLI::App& app, TracedRequest& request) {
         ->delimiter(',')
         ->check(CLI::IsMember(tracedMethodNames()));
     addSize(*sub, request.size, "layer");
-    sub->add_option("--budget", request.budgetMs,
-                    "processor time of the path tracer per frame [ms]")
+    sub->add_option("--budget", request.budgetMs, "path tracer's processor time per frame [ms]")
         ->check(isBudget)
         ->capture_default_str();
-    sub->add_option("--frames", request.frames,
-                    "number of frames of each path, at 30 frames per second")
+    sub->add_option("--frames", request.frames, "frames of each path, at 30 frames per second")
         ->check(CLI::Range(1, 100000))
         ->capture_default_str();
     sub->add_option("--every", request.every,
@@ -60,8 +58,7 @@ CLI::App* addTracedCommand(CLI::App& app, TracedRequest& request) {
         ->check(CLI::Range(1, 65536))
         ->capture_default_str();
     sub->add_option("--truth", request.truth, "folder that keeps the truth for later runs");
-    sub->add_option("--save", request.save,
-                    "folder to write the compared frames and their truth into");
+    sub->add_option("--save", request.save, "folder for the compared frames and their truth");
     sub->add_option("--video", request.video,
                     "folder to write a Y4M video of each path into, with the methods side by side");
     return sub;
