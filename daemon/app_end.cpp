@@ -129,9 +129,7 @@ ExitCode App::finish(std::future<std::string>& end) {
         if (*one)
             (*one)->said.set_exception(
                 std::make_exception_ptr(std::runtime_error("mfard is ending")));
-    // ControlSocket's destructor waits for pending answers. They end now with the errors that the
-    // lines above have set.
-    control_.reset();
+    control_.reset();  // waits for pending answers, which the lines above have ended
     onReady();
     const Counted counted = stats_.count();
     const Health last = health(counted);
@@ -143,8 +141,7 @@ ExitCode App::finish(std::future<std::string>& end) {
         const ExitCode code = writeResults(stopReason_.value_or(reason), ExitCode::Ok)
                                   ? ExitCode::Ok
                                   : ExitCode::OutputFailed;
-        // Reading a configuration cannot be interrupted, so the process ends without waiting for
-        // it.
+        // Reading a configuration cannot be interrupted, so the process does not wait for it.
         if (isReading()) std::_Exit(static_cast<int>(code));
         return code;
     } catch (const std::exception& error) {
