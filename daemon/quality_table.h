@@ -30,7 +30,7 @@ struct QualityLevel {
 [[nodiscard]] std::string toToml(std::span<const QualityLevel> levels);
 
 /// Limits the levels to the mode `best`: in a level with a better mode, `best` replaces that mode.
-/// Of levels that become equal, only the fastest is kept.
+/// If levels become equal, the fastest of them is kept.
 [[nodiscard]] std::vector<QualityLevel> limitedTo(std::span<const QualityLevel> levels,
                                                   SuperResMode best);
 

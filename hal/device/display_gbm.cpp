@@ -170,8 +170,8 @@ public:
         if (fences) fences_.emplace(importer_.display);
     }
 
-    // Of the three buffers, one is on the screen, one may wait for the vertical blank, and the
-    // third is free.
+    // One of the three buffers is on the screen, one may wait for the vertical blank, and the third
+    // is free.
     void begin(const Picture& picture) override {
         const KeptTarget kept;
         current_ = (current_ + 1) % targets_.size();

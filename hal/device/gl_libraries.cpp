@@ -32,8 +32,8 @@ Function findIn(void* library, const char* name) {
 void loadGlLibraries(const GlLibraryNames& names) {
     void* egl = opened(names.egl);
     void* gles = opened(names.gles);
-    // Of the EGL functions, only eglGetProcAddress must exist. Old versions lack some of the
-    // others, but those are never called.
+    // Only eglGetProcAddress must exist. Old versions of EGL lack some of the other functions, but
+    // those are never called.
     gl_libraries::connectEgl([egl](const char* name) { return findIn(egl, name); });
     if (findIn(egl, "eglGetProcAddress") == nullptr)
         throw std::runtime_error(names.egl + " has no eglGetProcAddress" + kAdvice);

@@ -42,8 +42,7 @@ void MatchedPictures::apply(const StillTone& curve) {
     assert(tone.isIdentity());
     const auto [width, height] = still.size();
     for (int y = 0; y < height; ++y)
-        std::transform(still[y], still[y] + width, still[y],
-                       [&](std::uint8_t level) { return curve.levels[level]; });
+        curve.apply({still[y], static_cast<std::size_t>(width)});
     tone = curve;
 }
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <span>
 
 namespace mfar {
 
@@ -23,6 +24,11 @@ struct StillTone {
         for (std::size_t i = 0; i < kLevels; ++i)
             sum += std::abs(levels[i] - other.levels[i]);
         return sum <= kNear * kLevels;
+    }
+    /// Replaces the grey levels of a row by those of the curve.
+    void apply(std::span<std::uint8_t> row) const {
+        for (std::uint8_t& level : row)
+            level = levels[level];
     }
 
 private:

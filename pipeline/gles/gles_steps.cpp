@@ -9,7 +9,6 @@
 #include "pipeline/gles/still_reference.h"
 #include "pipeline/simd/luma_rows.h"
 
-#include <algorithm>
 #include <cassert>
 #include <cstring>
 
@@ -41,7 +40,6 @@ public:
     void download(void* data, std::ptrdiff_t pitch) override {
         const std::vector<std::uint8_t> rgba = texture().readRgba8();
         const auto [width, height] = texture().size();
-        const auto& levels = tone_.tone().levels;
         for (int y = 0; y < height; ++y) {
             std::uint8_t* row = static_cast<std::uint8_t*>(data) + y * pitch;
             const std::uint8_t* texels = rgba.data() + 4UL * y * width;
@@ -51,8 +49,7 @@ public:
             else
                 simd::lumaRow(texels, format_ == PixelFormat::Bgra8,
                               static_cast<std::size_t>(width), row);
-            std::transform(row, row + width, row,
-                           [&](std::uint8_t level) { return levels[level]; });
+            tone_.tone().apply({row, static_cast<std::size_t>(width)});
         }
     }
 

@@ -114,9 +114,7 @@ void StillPreparation::applyTone(const StillTone& tone, Luma& luma) {
     const auto [width, height] = luma.rows().size;
     inParts(height, [&, width = width](int first, int last, Scratch&) {
         for (int y = first; y < last; ++y) {
-            std::uint8_t* row = luma[y];
-            std::transform(row, row + width, row,
-                           [&](std::uint8_t level) { return tone.levels[level]; });
+            tone.apply({luma[y], static_cast<std::size_t>(width)});
             luma.repeatBorder(y);
         }
     });

@@ -67,8 +67,8 @@ private:
         std::span<const std::uint32_t> holes;
         int holeSamples = 0;
         std::shared_ptr<const Scene> source, previousSource;
-        // Of a Build job: the previous scene before the job, and the new scene after it. A null
-        // result keeps the previous scene.
+        // A Build job gets the previous scene here and returns the new one. A null result keeps
+        // the previous scene.
         std::shared_ptr<const PictureScene> scene;
         std::string error;
 
