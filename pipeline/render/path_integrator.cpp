@@ -11,6 +11,9 @@ namespace {
 constexpr std::uint32_t kSunPair = 0, kEnvironmentPair = 1, kScatterPair = 2, kRoulettePair = 3;
 constexpr std::uint32_t kPairsOfVertex = 4;
 constexpr std::uint32_t kPairsOfPath = kPairsOfVertex * 64;
+// The pairs of emissive triangles come after those of both walks of a sample, so that a scene
+// without emission uses the same numbers as if there were no emission at all.
+constexpr std::uint32_t kEmitterPair = 2 * kPairsOfPath, kFineEmitterPair = kEmitterPair + 1;
 // A path that carries at least this share of the light always survives. Ending such paths at random
 // would add much noise, also with a good sampler.
 constexpr float kSurvives = 0.25F;
@@ -21,8 +24,8 @@ float balanceWeight(float taken, float other) {
     return taken / (taken + other);
 }
 
-/// Power heuristic (Veach 1997, equation 9.13) for the sun. Samples of a broad lobe rarely hit the
-/// sun. With the balance heuristic, these few samples would be very bright.
+/// Power heuristic (Veach 1997, equation 9.13) for the sun and emissive triangles. Samples of a
+/// broad lobe rarely hit them. With the balance heuristic, these few samples would be very bright.
 float powerWeight(float taken, float other) {
     const float ratio = other / taken;
     return 1 / (1 + ratio * ratio);
@@ -36,6 +39,7 @@ constexpr float kWidestKnownSun = 0.05F;
 
 struct PathIntegrator::World {
     const TracedScene& scene;
+    const EmissiveTriangles& emitters;
     bool objects;
     bool touched = false;
 
@@ -47,7 +51,22 @@ struct PathIntegrator::World {
         return !scene.catcher().empty() && scene.catcher().blocked(ray);
     }
 
-    std::optional<SurfacePoint> next(Ray ray) {
+    /// True if nothing hides the sampled point. The ray must hit the sampled triangle itself. So of
+    /// two triangles in the same place, only the one that other rays hit gives light, and the holes
+    /// of an alpha mask give none.
+    bool sees(const EmissiveTriangles::Sample& sample) {
+        Ray ray = sample.ray;
+        const RayHit hit = scene.objects().first(ray);
+        if (hit.mesh != sample.point.mesh || hit.triangle != sample.point.triangle) return false;
+        ray.most = hit.t;
+        if (!scene.catcher().empty() && scene.catcher().blocked(ray)) return false;
+        touched = true;
+        return true;
+    }
+
+    /// Returns the point that a ray hits. `density` is the one of the ray's direction. The point's
+    /// emission is multiplied by its weight in multiple importance sampling.
+    std::optional<SurfacePoint> next(Ray ray, float density) {
         RayHit object;
         if (objects && !scene.objects().empty()) object = scene.objects().first(ray);
         if (object.found()) {
@@ -56,8 +75,10 @@ struct PathIntegrator::World {
         }
         const RayHit real = scene.catcher().empty() ? RayHit{} : scene.catcher().first(ray);
         if (real.found()) return scene.catcherPoint(real, ray.direction);
-        if (object.found()) return scene.objectPoint(object, ray.direction);
-        return std::nullopt;
+        if (!object.found()) return std::nullopt;
+        SurfacePoint point = scene.objectPoint(object, ray.direction);
+        if (!emitters.dark()) point.emission *= powerWeight(density, emitters.density(ray, object));
+        return point;
     }
 };
 
@@ -98,6 +119,7 @@ PathIntegrator::PathIntegrator(const TracedScene& scene, const PathTracerOptions
     : scene_(scene), options_(options), sun_(scene.scene().lighting.sun),
       sunIsKnown_(sun_.angularRadius() <= kWidestKnownSun),
       environment_(scene.scene().lighting.environment),
+      emitters_(options.emissionByChance ? EmissiveTriangles() : EmissiveTriangles(scene)),
       far_(environment_, scene.scene().lighting, scene.scene().catcher),
       leastFar_(std::max(kLeastFarShare * far_.brightness(), kLeastFar)) {}
 
@@ -138,6 +160,23 @@ PathIntegrator::Arrived PathIntegrator::direct(const Vertex& vertex, Lobes lobes
                 world));
     }
     return sum;
+}
+
+PathIntegrator::Sent PathIntegrator::emitted(const Vertex& vertex, Lobes lobes,
+                                             const PixelSampler& sampler, std::uint32_t pair,
+                                             World& world) const {
+    if (!world.objects) return {};
+    // The ray starts off the surface, like a reflected one.
+    const Eigen::Vector3f from = vertex.point.leaving(vertex.point.geometric).origin;
+    const EmissiveTriangles::Sample sample = emitters_.sample(
+        from, sampler.pair(pair + kEmitterPair), sampler.pair(pair + kFineEmitterPair).x());
+    if (!(sample.density > 0) || !vertex.faces(sample.ray.direction)) return {};
+    const ScatterValue f =
+        vertex.scatter.evaluate(vertex.frame.transpose() * sample.ray.direction, lobes);
+    if (!(f.density > 0) || !world.sees(sample)) return {};
+    const Eigen::Vector3f light =
+        scene_.emission(sample.point) * (powerWeight(sample.density, f.density) / sample.density);
+    return {f.value.cwiseProduct(light), f.white * light};
 }
 
 PathIntegrator::Escaped PathIntegrator::escaped(const Eigen::Vector3f& direction,
@@ -208,43 +247,49 @@ PathIntegrator::Sent PathIntegrator::sent(const Carried& carried, const Eigen::V
     return {all * share, carried.white.cwiseProduct(light) * share};
 }
 
+bool PathIntegrator::survives(Carried& carried, int depth, const PixelSampler& sampler,
+                              std::uint32_t pair) const {
+    return depth < options_.rouletteDepth ||
+           carried.survives(sampler.pair(pair + kRoulettePair).x());
+}
+
 PathIntegrator::Parts PathIntegrator::walk(SurfacePoint point, Eigen::Vector3f wo, Lobes lobes,
                                            const PixelSampler& sampler, World& world) const {
     Parts out;
     std::uint32_t pair = kCameraPairs + (lobes == Lobes::Mirrored ? kPairsOfPath : 0);
     Carried carried;
-    const auto add = [&](Sent& sum, const Eigen::Vector3f& light, int depth) {
-        sum += sent(carried, light, depth);
-    };
     for (int depth = 1;; ++depth, pair += kPairsOfVertex) {
         const bool first = depth == 1, last = depth == options_.maxDepth;
         const Lobes here = first ? lobes : Lobes::Both;
         // The walk with Lobes::Broad already adds the first surface's own emission. Emission of the
         // second surface counts as direct light (depth 1).
-        if (!first || lobes != Lobes::Mirrored) add(out.rest, point.emission, depth - 1);
+        if (!first || lobes != Lobes::Mirrored)
+            out.rest += sent(carried, point.emission, depth - 1);
         const Vertex vertex(point, wo);
         const Arrived lit = direct(vertex, here, sampler, pair, world);
         if (first) out.direct = lit;
         if (first && lobes != Lobes::Both) out.known = known(vertex, wo, lobes, sunIsKnown_);
-        if (!first) add(out.rest, lit.light.radiance, depth);
+        if (!first) out.rest += sent(carried, lit.light.radiance, depth);
+        if (!last && !emitters_.dark()) {
+            const Sent light = emitted(vertex, here, sampler, pair, world);
+            out.rest += first ? light : sent(carried, light.radiance, depth);
+        }
         const ScatterSample scattered =
             vertex.scatter.sample(sampler.pair(pair + kScatterPair), here);
         if (!(scattered.density > 0)) return out;
         const Eigen::Vector3f direction = vertex.frame * scattered.wi;
         carried.scatter(scattered, first);
-        if (first) add(out.direct.unblocked, escaped(direction, scattered.density).far, depth);
-        if (!vertex.faces(direction)) return out;
-        if (depth >= options_.rouletteDepth &&
-            !carried.survives(sampler.pair(pair + kRoulettePair).x()))
-            return out;
+        if (first)
+            out.direct.unblocked += sent(carried, escaped(direction, scattered.density).far, depth);
+        if (!vertex.faces(direction) || !survives(carried, depth, sampler, pair)) return out;
         const Ray ray = point.leaving(direction);
         std::optional<SurfacePoint> next;
         // At the last surface, the ray only tests if the lights in the sampled direction are
         // visible. That completes the multiple importance sampling.
-        const bool free = last ? !world.blocked(ray) : !(next = world.next(ray));
+        const bool free = last ? !world.blocked(ray) : !(next = world.next(ray, scattered.density));
         if (free)
-            add(first ? out.direct.light : out.rest, escaped(direction, scattered.density).light,
-                depth);
+            (first ? out.direct.light : out.rest) +=
+                sent(carried, escaped(direction, scattered.density).light, depth);
         if (free || last) return out;
         point = *next;
         wo = -direction;
@@ -273,7 +318,7 @@ PathIntegrator::OfObject PathIntegrator::ofObject(const RayHit& hit,
                                                   const PixelSampler& sampler) const {
     const SurfacePoint point = scene_.objectPoint(hit, direction);
     const Eigen::Vector3f wo = -direction.normalized();
-    World all{scene_, true};
+    World all{scene_, emitters_, true};
     Sent sent = sum(walk(point, wo, Lobes::Broad, sampler, all), sampler.number());
     if (!point.look.matt)
         sent += sum(walk(point, wo, Lobes::Mirrored, sampler, all), sampler.number());
@@ -312,7 +357,7 @@ PathIntegrator::OfCatcher PathIntegrator::ofCatcher(const RayHit& hit,
                                                     const PixelSampler& sampler) const {
     const SurfacePoint point = scene_.catcherPoint(hit, direction);
     const Eigen::Vector3f wo = -direction.normalized();
-    World all{scene_, true}, real{scene_, false};
+    World all{scene_, emitters_, true}, real{scene_, emitters_, false};
     const auto radiance = [&](World& world) {
         const Parts parts = walk(point, wo, Lobes::Both, sampler, world);
         return Eigen::Vector3f(parts.direct.light.radiance + parts.rest.radiance);

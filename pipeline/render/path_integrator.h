@@ -1,5 +1,6 @@
 #pragma once
 
+#include "pipeline/render/emissive_triangles.h"
 #include "pipeline/render/environment_light.h"
 #include "pipeline/render/far_light.h"
 #include "pipeline/render/paint.h"
@@ -80,6 +81,9 @@ private:
     using Weight = float (*)(float taken, float other);
     [[nodiscard]] static Arrived lit(const Vertex& vertex, Lobes lobes, const LightSample& light,
                                      const Eigen::Vector3f& far, Weight weight, World& world);
+    /// Light of a point on an emissive triangle.
+    [[nodiscard]] Sent emitted(const Vertex& vertex, Lobes lobes, const PixelSampler& sampler,
+                               std::uint32_t pair, World& world) const;
     /// Light from a direction in which a ray hits no surface. `far` is FarLight's approximation of
     /// `light`.
     struct Escaped {
@@ -95,6 +99,9 @@ private:
     /// Returns the factor (at most 1) that limits `light` to the firefly clamp. It is 1 for light
     /// on the first surface (`depth` 1).
     [[nodiscard]] float kept(const Eigen::Vector3f& light, int depth) const;
+    /// Russian roulette. The light of a path that survives is divided by its chance.
+    [[nodiscard]] bool survives(Carried& carried, int depth, const PixelSampler& sampler,
+                                std::uint32_t pair) const;
     [[nodiscard]] Sent sent(const Carried& carried, const Eigen::Vector3f& light, int depth) const;
 
     const TracedScene& scene_;
@@ -102,6 +109,7 @@ private:
     SunLight sun_;
     bool sunIsKnown_;
     EnvironmentLight environment_;
+    EmissiveTriangles emitters_;
     FarLight far_;
     float leastFar_;
 };

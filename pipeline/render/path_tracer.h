@@ -14,10 +14,10 @@
 
 namespace mfar {
 
-/// Unidirectional path tracer with next-event estimation for sun and environment. Multiple
-/// importance sampling combines light samples with samples of the surface's reflection (Veach
-/// 1997). Objects behind the shadow catcher are traced as if they were visible; the composition
-/// hides them where a real surface is in front.
+/// Unidirectional path tracer with next-event estimation for sun, environment and emissive
+/// triangles. Multiple importance sampling combines light samples with samples of the surface's
+/// reflection (Veach 1997). Objects behind the shadow catcher are traced as if they were visible;
+/// the composition hides them where a real surface is in front.
 class PathTracer {
 public:
     /// Throws std::invalid_argument if the scene or an option is invalid, and std::runtime_error if

@@ -21,6 +21,8 @@ struct PathTracerOptions {
     std::uint32_t seed = 0;
     /// If true, the random numbers are independent instead of a Sobol sequence.
     bool independentSamples = false;
+    /// If true, light of emissive triangles is found only where a path hits them by chance.
+    bool emissionByChance = false;
     /// Radius around an object within which the shadow catcher is traced [object radii]; at least
     /// 1.
     float shadowReach = 3;

@@ -102,13 +102,16 @@ bool TracedScene::isHole(const void* mesh, std::uint32_t triangle, float u, floa
     return alpha < material.alphaCutoff;
 }
 
+bool TracedScene::isOnBack(const TracedMesh& mesh, const RayHit& hit,
+                           const Eigen::Vector3f& direction) {
+    return !mesh.material().doubleSided &&
+           crossed(mesh.positions, mesh.mesh->triangles[hit.triangle]).dot(direction) > 0;
+}
+
 RayHit TracedScene::shown(const Ray& ray, RayHit hit) const {
     Ray rest = ray;
     for (int i = 0; hit.found(); ++i) {
-        const TracedMesh& mesh = *meshes_[hit.mesh];
-        if (mesh.material().doubleSided) return hit;
-        const auto& corners = mesh.mesh->triangles[hit.triangle];
-        if (!(crossed(mesh.positions, corners).dot(ray.direction) > 0)) return hit;
+        if (!isOnBack(*meshes_[hit.mesh], hit, ray.direction)) return hit;
         if (i == kMostBackFaces) return {};
         rest.least = hit.t * (1 + kStepOver);
         hit = objects_.first(rest);
@@ -116,11 +119,36 @@ RayHit TracedScene::shown(const Ray& ray, RayHit hit) const {
     return hit;
 }
 
+std::array<Eigen::Vector3f, 3> TracedScene::corners(std::uint32_t mesh,
+                                                    std::uint32_t triangle) const {
+    const TracedMesh& m = *meshes_[mesh];
+    const auto& corners = m.mesh->triangles[triangle];
+    return {m.positions[corners[0]], m.positions[corners[1]], m.positions[corners[2]]};
+}
+
+float TracedScene::emissionTexels(std::uint32_t mesh, std::uint32_t triangle) const {
+    const TracedMesh& m = *meshes_[mesh];
+    const SurfaceTexture* texture = m.texture(m.material().emissionTexture);
+    if (texture == nullptr) return 0;
+    const auto& corners = m.mesh->triangles[triangle];
+    const Eigen::Vector2f a = m.mesh->uvs[corners[0]];
+    const Eigen::Vector2f b = m.mesh->uvs[corners[1]] - a, c = m.mesh->uvs[corners[2]] - a;
+    return 0.5F * std::abs(b.x() * c.y() - b.y() * c.x()) *
+           static_cast<float>(texture->size.width) * static_cast<float>(texture->size.height);
+}
+
+Eigen::Vector3f TracedScene::emissionAt(const TracedMesh& mesh, const RayHit& hit) {
+    const Material& m = mesh.material();
+    const SurfaceTexture* texture = mesh.texture(m.emissionTexture);
+    if (texture == nullptr) return m.emission;
+    return m.emission.cwiseProduct(lookUp(*texture, textureAt(mesh, hit)).head<3>());
+}
+
 void TracedScene::setLook(const TracedMesh& mesh, const RayHit& hit, SurfacePoint& point) {
     const Material& m = mesh.material();
     const Eigen::Vector2f uv = textureAt(mesh, hit);
     point.look = {m.baseColour.head<3>(), m.metallic, m.roughness};
-    point.emission = m.emission;
+    point.emission = emissionAt(mesh, hit);
     if (const SurfaceTexture* t = mesh.texture(m.baseColourTexture))
         point.look.baseColour = point.look.baseColour.cwiseProduct(lookUp(*t, uv).head<3>());
     if (const SurfaceTexture* t = mesh.texture(m.metallicRoughnessTexture)) {
@@ -128,8 +156,6 @@ void TracedScene::setLook(const TracedMesh& mesh, const RayHit& hit, SurfacePoin
         point.look.roughness *= data.y();
         point.look.metallic *= data.z();
     }
-    if (const SurfaceTexture* t = mesh.texture(m.emissionTexture))
-        point.emission = point.emission.cwiseProduct(lookUp(*t, uv).head<3>());
     point.look.baseColour = point.look.baseColour.cwiseMin(1.0F);
 }
 
@@ -205,8 +231,10 @@ SurfacePoint TracedScene::bareObjectPoint(const RayHit& hit,
 }
 
 SurfacePoint TracedScene::objectPoint(const RayHit& hit, const Eigen::Vector3f& direction) const {
+    const TracedMesh& mesh = *meshes_[hit.mesh];
     SurfacePoint out = bareObjectPoint(hit, direction);
-    setLook(*meshes_[hit.mesh], hit, out);
+    setLook(mesh, hit, out);
+    if (isOnBack(mesh, hit, direction)) out.emission.setZero();
     return out;
 }
 

@@ -43,6 +43,31 @@ public:
     [[nodiscard]] RayHit shown(const Ray& ray, RayHit hit) const;
     [[nodiscard]] std::uint8_t idOf(const RayHit& hit) const { return meshes_[hit.mesh]->id; }
 
+    /// Meshes of objects() and their triangles, numbered as in RayHit.
+    [[nodiscard]] std::uint32_t meshes() const {
+        return static_cast<std::uint32_t>(meshes_.size());
+    }
+    [[nodiscard]] std::uint32_t triangles(std::uint32_t mesh) const {
+        return static_cast<std::uint32_t>(meshes_[mesh]->mesh->triangles.size());
+    }
+    [[nodiscard]] std::array<Eigen::Vector3f, 3> corners(std::uint32_t mesh,
+                                                         std::uint32_t triangle) const;
+    /// False if no point of the mesh emits light.
+    [[nodiscard]] bool emits(std::uint32_t mesh) const {
+        return meshes_[mesh]->material().emission.maxCoeff() > 0;
+    }
+    /// True if only the fronts of the mesh's triangles emit light.
+    [[nodiscard]] bool isSingleSided(std::uint32_t mesh) const {
+        return !meshes_[mesh]->material().doubleSided;
+    }
+    /// Radiance that the hit point emits from its front, and from its back unless the material is
+    /// single-sided.
+    [[nodiscard]] Eigen::Vector3f emission(const RayHit& hit) const {
+        return emissionAt(*meshes_[hit.mesh], hit);
+    }
+    /// The triangle's area in texels of the emission texture, 0 without a texture.
+    [[nodiscard]] float emissionTexels(std::uint32_t mesh, std::uint32_t triangle) const;
+
     /// True if the normal turns by at most 0.1 rad per `width` [m] on the hit triangle.
     [[nodiscard]] bool isEven(const RayHit& hit, float width) const;
     [[nodiscard]] SurfacePoint objectPoint(const RayHit& hit,
@@ -73,7 +98,11 @@ private:
 
     void add(const SceneObject& object, std::uint8_t id);
     static bool isHole(const void* mesh, std::uint32_t triangle, float u, float v);
+    /// True if the ray hits the back of a single-sided surface.
+    static bool isOnBack(const TracedMesh& mesh, const RayHit& hit,
+                         const Eigen::Vector3f& direction);
     static Eigen::Vector2f textureAt(const TracedMesh& mesh, const RayHit& hit);
+    static Eigen::Vector3f emissionAt(const TracedMesh& mesh, const RayHit& hit);
     static void setLook(const TracedMesh& mesh, const RayHit& hit, SurfacePoint& point);
     static Eigen::Vector3f shadingNormal(const TracedMesh& mesh, const RayHit& hit,
                                          const Eigen::Vector3f& ofTriangle);

@@ -44,7 +44,8 @@ TEST(SceneCheck, FaultsOfModelsAreFound) {
     expectUnsound([](Scene&, Model& m) { m.meshes[0].material = 1; });
     expectUnsound([](Scene&, Model& m) { m.materials[0].normalTexture = 0; });
     expectUnsound([](Scene&, Model& m) { m.materials[0].roughness = kNotANumber; });
-    expectUnsound([](Scene&, Model& m) { m.materials[0].emission.y() = -1; });
+    for (const float emission : {-1.0F, kNotANumber, std::numeric_limits<float>::infinity()})
+        expectUnsound([=](Scene&, Model& m) { m.materials[0].emission.y() = emission; });
     expectUnsound([](Scene&, Model& m) { m.textures.push_back({{2, 2}, true, {}}); });
 }
 

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace mfar {
+
+/// Draws indices with given probabilities. Similar random numbers draw indices that are near each
+/// other, so that well distributed numbers stay well distributed.
+class ShareTable {
+public:
+    ShareTable() = default;
+    /// The weights must be finite and not negative. The table is empty if their sum is 0.
+    explicit ShareTable(std::span<const double> weights);
+
+    [[nodiscard]] bool empty() const { return ends_.empty(); }
+    /// `rest` is the part of the random number that did not decide the index, uniform in [0, 1).
+    struct Drawn {
+        std::uint32_t index;
+        float rest;
+    };
+    /// `u` is in [0, 1). It needs many more bits than the number of indices has. An index of weight
+    /// 0 is never drawn. The table must not be empty.
+    [[nodiscard]] Drawn draw(double u) const;
+
+private:
+    std::vector<double> ends_;  // cumulative probabilities
+};
+
+}  // namespace mfar
