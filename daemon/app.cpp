@@ -47,6 +47,7 @@ std::ofstream openSummary(const Options& options, const Config& config) {
 App::App(const Options& options, Log& log)
     : options_(options), log_(log), config_(effectiveConfig(options)),
       summary_(openSummary(options, config_)) {
+    logNotes();
     // SIGPIPE is ignored: writing to a closed pipe then returns an error and does not end the
     // process.
     signal(SIGPIPE, SIG_IGN);
@@ -208,6 +209,7 @@ std::string App::take(const Config& wanted) {
     config_.status = wanted.status;
     config_.objects = wanted.objects;
     config_.light = wanted.light;
+    logNotes();
     changes_.put(tunables(config_));
     setTicks();
     if (running_) running_->description.mode = name(config_.superres.mode);
@@ -216,6 +218,11 @@ std::string App::take(const Config& wanted) {
         (restart.empty() ? "" : "; these settings change only after a restart: " + restart);
     log_.notice(said, {message::kReloaded});
     return said;
+}
+
+void App::logNotes() {
+    for (const std::string& note : modelNotes(config_.objects))
+        log_.warning(note, {}, {message::kObjects});
 }
 
 void App::setTicks() {

@@ -99,6 +99,8 @@ private:
     void startRecording(const std::string& name);
     [[nodiscard]] nlohmann::ordered_json stopRecording();
     void onTick();
+    /// Warns about parts of the models that are not shown.
+    void logNotes();
     void setTicks();
     [[nodiscard]] Health health(const Counted& counted);
     void feedWatchdog(const Health& health);

@@ -42,7 +42,8 @@ int main(int argc, char** argv) {
             return static_cast<int>(ExitCode::Ok);
         }
         if (line.options.checkConfig) {
-            (void)effectiveConfig(line.options);
+            for (const std::string& note : modelNotes(effectiveConfig(line.options).objects))
+                log.warning(note);
             fmt::print("ok\n");
             return static_cast<int>(ExitCode::Ok);
         }

@@ -13,6 +13,7 @@
 #include <map>
 #include <memory>
 #include <new>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -154,6 +155,15 @@ std::vector<std::string> leftOut(const std::vector<PlacedObject>& objects, const
             out.push_back(who +
                           fmt::format("{} is a model, but {}", object.modelName, shapesAlone));
     }
+    return out;
+}
+
+std::vector<std::string> modelNotes(const std::vector<PlacedObject>& objects) {
+    std::vector<std::string> out;
+    std::set<const Model*> seen;
+    for (const PlacedObject& object : objects)
+        if (object.model && seen.insert(object.model.get()).second)
+            out.insert(out.end(), object.model->notes.begin(), object.model->notes.end());
     return out;
 }
 

@@ -128,8 +128,12 @@ void requireVersionAndExtensions(const GltfDocument& document) {
 
 }  // namespace
 
+std::string GltfDocument::sentence(std::string_view place, std::string_view what) const {
+    return oneLine(fmt::format("{}: {}: {}", name, place, what));
+}
+
 void GltfDocument::refuse(std::string_view place, std::string_view what) const {
-    throw ModelError(oneLine(fmt::format("{}: {}: {}", name, place, what)));
+    throw ModelError(sentence(place, what));
 }
 
 std::span<const std::uint8_t> GltfDocument::view(int bufferView, std::string_view place) const {

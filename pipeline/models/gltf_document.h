@@ -20,7 +20,9 @@ struct GltfDocument {
     std::filesystem::path folder;
     ModelLimits limits;
 
-    /// Throws ModelError with the message "name: place: what".
+    /// Returns "name: place: what" on one line.
+    [[nodiscard]] std::string sentence(std::string_view place, std::string_view what) const;
+    /// Throws ModelError with this sentence.
     [[noreturn]] void refuse(std::string_view place, std::string_view what) const;
     /// Refuses an index that is out of range.
     template <class T>

@@ -47,6 +47,29 @@ Eigen::Affine3d transformOf(const GltfDocument& document, const tinygltf::Node& 
     return T;
 }
 
+/// Returns a sentence for each kind of motion in the document, with the first place.
+std::vector<std::string> stillParts(const GltfDocument& document) {
+    std::vector<std::string> out;
+    const tinygltf::Model& gltf = document.gltf;
+    if (!gltf.animations.empty())
+        out.push_back(document.sentence("animations[0]",
+                                        "animations are not played; the model is shown at rest"));
+    if (!gltf.skins.empty())
+        out.push_back(document.sentence(
+            "skins[0]", "skins are not applied; the mesh is shown as if it had no skeleton"));
+    for (std::size_t mesh = 0; mesh < gltf.meshes.size(); ++mesh) {
+        const auto& parts = gltf.meshes[mesh].primitives;
+        const auto morphed =
+            std::ranges::find_if(parts, [](const auto& part) { return !part.targets.empty(); });
+        if (morphed == parts.end()) continue;
+        out.push_back(document.sentence(
+            fmt::format("meshes[{}].primitives[{}].targets", mesh, morphed - parts.begin()),
+            "morph targets are not applied; the mesh is shown without them"));
+        break;
+    }
+    return out;
+}
+
 class ModelBuilder {
 public:
     explicit ModelBuilder(const GltfDocument& document)
@@ -58,6 +81,7 @@ public:
         if (model_.meshes.empty()) document_.refuse("scene", "the scene contains no triangles");
         model_.materials = materials_.takeMaterials();
         model_.textures = materials_.takeTextures();
+        model_.notes = stillParts(document_);
         return std::move(model_);
     }
 

@@ -48,8 +48,9 @@ struct ModelLimits {
 /// with textures (PNG, JPEG; all repeat), emission, alpha mask, double-sided surfaces,
 /// KHR_texture_transform, KHR_materials_emissive_strength. Alpha mode BLEND is treated as a mask
 /// with cutoff 0.5.
-/// Ignored: points and lines, vertex colours, occlusion textures, animations, skins and morph
-/// targets (shown at rest), cameras, lights, and extensions that are not required.
+/// Ignored: points and lines, vertex colours, occlusion textures, cameras, lights, and extensions
+/// that are not required; also animations, skins and morph targets, each with a sentence in
+/// Model::notes.
 /// Throws ModelError for everything else, and if the model exceeds `limits`. Source: Khronos, glTF
 /// 2.0 Specification, 2.0.1.
 [[nodiscard]] Model loadGltf(const std::filesystem::path& file, const ModelLimits& limits = {});

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace mfar {
@@ -56,6 +57,8 @@ struct Model {
     std::vector<Mesh> meshes;
     std::vector<Material> materials;
     std::vector<SurfaceTexture> textures;
+    /// Sentences about parts of the model's file that are not shown: "file: place: fact".
+    std::vector<std::string> notes;
 };
 
 /// Distant light from all directions, as a latitude-longitude picture of linear RGB radiance, row

@@ -154,6 +154,15 @@ TEST(ObjectsConfig, ObjectsAreAnchoredToTheirTag) {
     EXPECT_TRUE(placedShapes({object}, map).empty());
 }
 
+TEST(ObjectsConfig, NotesOfAModelAreReportedOnce) {
+    auto model = std::make_shared<Model>();
+    model->notes = {"a.glb: animations[0]: first", "a.glb: skins[0]: second"};
+    PlacedObject shape, one;
+    one.model = model;
+    EXPECT_EQ(modelNotes({shape, one, one}), model->notes);
+    EXPECT_TRUE(modelNotes({shape}).empty());
+}
+
 TEST(ObjectsConfig, OmittedObjectsAreReported) {
     const TagMap map({{{TagFamily::Tag36h11, 5}, 0.1, {}}});
     PlacedObject shape, onTag, model;

@@ -205,6 +205,31 @@ TEST(GltfModel, TwoNodesMayUseTheSameMesh) {
     expectNear(model.meshes[1].positions[0], {5, 0, 0});
 }
 
+TEST(GltfModel, AModelWithoutMotionHasNoNotes) {
+    EXPECT_TRUE(modelOf(richModel()).notes.empty());
+}
+
+TEST(GltfModel, MotionThatIsNotShownIsNotedWithItsPlace) {
+    GltfMaker maker = richModel();
+    const nlohmann::json still = maker.root;
+    maker.root["animations"] = {
+        {{"channels", nlohmann::json::array()}, {"samplers", nlohmann::json::array()}}};
+    maker.root["animations"].push_back(maker.root["animations"][0]);
+    EXPECT_EQ(modelOf(maker).notes,
+              std::vector<std::string>{"test.glb: animations[0]: animations are not played; the "
+                                       "model is shown at rest"});
+    maker.root["skins"] = {{{"joints", {0}}}};
+    nlohmann::json& part = maker.root["meshes"][0]["primitives"][0];
+    part["targets"] = {{{"POSITION", part["attributes"]["POSITION"]}}};
+    const std::vector<std::string> notes = modelOf(maker).notes;
+    ASSERT_EQ(notes.size(), 3U);
+    EXPECT_EQ(notes[1], "test.glb: skins[0]: skins are not applied; the mesh is shown as if it had "
+                        "no skeleton");
+    EXPECT_EQ(notes[2], "test.glb: meshes[0].primitives[0].targets: morph targets are not applied; "
+                        "the mesh is shown without them");
+    EXPECT_EQ(modelOf(maker).meshes.size(), modelOf(richModel()).meshes.size());
+}
+
 TEST(GltfModel, FilesInTheModelsFolderAreRead) {
     const test::TempFolder folder;
     GltfMaker maker = richModel();
