@@ -134,11 +134,17 @@ void readObjects(TomlReader& file, const std::filesystem::path& folder, FileMemo
         objects.push_back(readObject(file, prefix, models));
 }
 
-std::optional<RigidTransform> worldPlace(const PlacedObject& object, const TagMap& tags) {
-    if (!object.tag) return object.T_anchor_object;
+std::optional<RigidTransform> worldAnchor(const PlacedObject& object, const TagMap& tags) {
+    if (!object.tag) return RigidTransform{};
     const MappedTag* tag = tags.find(*object.tag);
     if (tag == nullptr) return std::nullopt;
-    return tag->T_world_tag * standOnTag() * object.T_anchor_object;
+    return tag->T_world_tag * standOnTag();
+}
+
+std::optional<RigidTransform> worldPlace(const PlacedObject& object, const TagMap& tags) {
+    const std::optional<RigidTransform> anchor = worldAnchor(object, tags);
+    if (!anchor) return std::nullopt;
+    return *anchor * object.T_anchor_object;
 }
 
 std::vector<std::string> leftOut(const std::vector<PlacedObject>& objects, const TagMap& tags,

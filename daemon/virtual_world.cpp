@@ -30,13 +30,14 @@ Scene sceneOf(const std::vector<PlacedObject>& objects, const LightOptions& ligh
               const TagMap& tags) {
     Scene scene;
     for (const PlacedObject& object : objects) {
-        const std::optional<RigidTransform> place = worldPlace(object, tags);
-        if (!place) continue;
+        const std::optional<RigidTransform> anchor = worldAnchor(object, tags);
+        if (!anchor) continue;
+        const RigidTransform place = *anchor * object.T_anchor_object;
         if (object.model)
-            scene.objects.push_back({object.model, *place, object.scale});
+            scene.objects.push_back({object.model, place, object.scale, *anchor});
         else
             scene.objects.push_back(
-                {std::make_shared<const Model>(shapeModel(object.shape)), *place, 1});
+                {std::make_shared<const Model>(shapeModel(object.shape)), place, 1, *anchor});
     }
     if (!scene.objects.empty()) scene.lighting = {environmentOf(light), light.sun};
     return scene;

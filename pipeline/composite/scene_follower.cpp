@@ -24,9 +24,9 @@ double angleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
 
 std::shared_ptr<const Scene> SceneFollower::set(Scene scene) {
     scene_ = std::move(scene);
-    objects_ = boundsOf(scene_);
+    planes_ = groundPlanes(scene_);
     const Eigen::Vector3f albedo = scene_.catcher.albedo;
-    scene_.catcher = planeCatcher(objects_);
+    scene_.catcher = planeCatcher(planes_);
     scene_.catcher.albedo = albedo;
     frames_ = 0;
     caught_.reset();
@@ -42,7 +42,7 @@ bool SceneFollower::isDue(const RigidTransform& T_world_video, Timestamp time) c
     if (frames_ < rule_.settling) return false;
     if (!caught_) return true;
     const double age = static_cast<double>((time - *caught_).count()) * 1e-9;
-    const Eigen::Vector3d centre = objects_.center();
+    const Eigen::Vector3d centre = planes_.front().objects.center();
     return age >= rule_.leastInterval &&
            angleBetween(caughtFrom_ - centre, T_world_video.translation - centre) >= rule_.turn;
 }
@@ -52,10 +52,10 @@ std::shared_ptr<const Scene> SceneFollower::follow(const InverseDepthField& fiel
                                                    const RigidTransform& T_world_video,
                                                    const PixelRect& region, Timestamp time) {
     const PixelRect seen = common(region, {0, 0, field.size.width, field.size.height});
-    if (objects_.isEmpty() || seen.empty()) return nullptr;
+    if (planes_.empty() || planes_.front().objects.isEmpty() || seen.empty()) return nullptr;
     ++frames_;
     if (!isDue(T_world_video, time) || knownShare(field, seen) < rule_.leastKnown) return nullptr;
-    ShadowCatcher measured = depthCatcher(field, video, T_world_video, seen, objects_);
+    ShadowCatcher measured = depthCatcher(field, video, T_world_video, seen, planes_);
     if (measured.triangles.size() < kLeastTriangles) return nullptr;
     measured.albedo = scene_.catcher.albedo;
     scene_.catcher = std::move(measured);

@@ -7,12 +7,14 @@
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 namespace mfar {
 
-/// Rule for measuring the shadow catcher. At first, it is the plane of the tag map. After
-/// `settling` frames, a measured surface replaces the plane as soon as depth is known at a share of
-/// at least `leastKnown` of the pixels around the objects. The surface is measured again if at
+/// Rule for measuring the shadow catcher. At first, it is the plane of the tag map, and those
+/// of other tags on which objects stand. After
+/// `settling` frames, a measured surface replaces the planes as soon as depth is known at a share
+/// of at least `leastKnown` of the pixels around the objects. The surface is measured again if at
 /// least `leastInterval` [s] have passed and the camera has moved around the objects by the angle
 /// `turn` [rad].
 struct CatcherRule {
@@ -22,13 +24,13 @@ struct CatcherRule {
     double leastInterval = 4;
 };
 
-/// Replaces the plane of the tag map, onto which shadows of virtual objects fall at first, by the
+/// Replaces the planes of tags, onto which shadows of virtual objects fall at first, by the
 /// measured surface of the real scene.
 class SceneFollower {
 public:
     explicit SceneFollower(const CatcherRule& rule = {}) : rule_(rule) {}
 
-    /// Replaces the scene and starts again with the plane of the tag map as shadow catcher. Returns
+    /// Replaces the scene and starts again with the planes of tags as shadow catcher. Returns
     /// the scene that must be shown.
     std::shared_ptr<const Scene> set(Scene scene);
 
@@ -47,7 +49,7 @@ private:
 
     CatcherRule rule_;
     Scene scene_;
-    Eigen::AlignedBox3d objects_;
+    std::vector<GroundPlane> planes_;  // the first one has the bounds of all objects
     int frames_ = 0;
     std::optional<Timestamp> caught_;
     Eigen::Vector3d caughtFrom_{0, 0, 0};

@@ -16,6 +16,9 @@ constexpr double kJump = 0.04;
 // A surface within this distance of the tags' plane [m] counts as the plane, because the tags'
 // paper has a thickness and waves.
 constexpr double kPlaneSlack = 0.004;
+// Tags that lie on the same surface have planes that differ by up to this distance [m], because
+// their poses have errors.
+constexpr double kSamePlane = 0.01;
 
 double radiusOf(const Eigen::AlignedBox3d& box) {
     return 0.5 * box.diagonal().norm();
@@ -56,8 +59,12 @@ private:
 class SeenSurface {
 public:
     SeenSurface(const InverseDepthField& field, const CameraModel& video,
-                const RigidTransform& T_world_video)
-        : field_(field), video_(video), eye_(T_world_video) {}
+                const RigidTransform& T_world_video, std::span<const GroundPlane> planes)
+        : field_(field), video_(video), eye_(T_world_video) {
+        for (const GroundPlane& plane : planes)
+            planes_.emplace_back(plane.T_world_plane.rotation * Eigen::Vector3d::UnitZ(),
+                                 plane.T_world_plane.translation);
+    }
 
     /// Returns z [m], or 0 if z is unknown or too large for a surface near an object.
     [[nodiscard]] double depth(int x, int y) const {
@@ -71,12 +78,17 @@ public:
         const Eigen::Vector2d ray = video_.unproject({x, y});
         const Eigen::Vector3d direction = eye_.rotation * ray.homogeneous();
         const Eigen::Vector3d& eye = eye_.translation;
-        Eigen::Vector3d p = eye + z * direction;
-        if (!(std::abs(direction.z()) > 1e-6)) return p;
-        const double zOnPlane = -eye.z() / direction.z();
+        const Eigen::Vector3d p = eye + z * direction;
         const double sigma = z * z * std::sqrt(static_cast<double>(field_.variance[pixel(x, y)]));
-        const bool isPlane = std::abs(zOnPlane - z) < 3 * sigma || std::abs(p.z()) < kPlaneSlack;
-        return isPlane && zOnPlane > 0 ? eye + zOnPlane * direction : p;
+        for (const Plane& plane : planes_) {
+            const double fall = -plane.normal().dot(direction);
+            if (!(std::abs(fall) > 1e-6)) continue;
+            const double zOnPlane = plane.signedDistance(eye) / fall;
+            const bool isPlane =
+                std::abs(zOnPlane - z) < 3 * sigma || plane.absDistance(p) < kPlaneSlack;
+            if (isPlane && zOnPlane > 0) return eye + zOnPlane * direction;
+        }
+        return p;
     }
 
 private:
@@ -84,25 +96,67 @@ private:
         return static_cast<std::size_t>(y) * field_.size.width + x;
     }
 
+    using Plane = Eigen::Hyperplane<double, 3>;
+
     const InverseDepthField& field_;
     const CameraModel& video_;
     const RigidTransform& eye_;
+    std::vector<Plane> planes_;
 };
+
+Eigen::AlignedBox3d boundsIn(const RigidTransform& T_frame_world, const SceneObject& object) {
+    const RigidTransform T = T_frame_world * object.T_world_object;
+    Eigen::AlignedBox3d box;
+    for (const Mesh& mesh : object.model->meshes)
+        for (const Eigen::Vector3f& p : mesh.positions)
+            box.extend(T * (object.scale * p).cast<double>());
+    return box;
+}
+
+/// True if the ground hardly differs from the plane below and around `objects`, which are bounds in
+/// the ground's frame.
+bool isSamePlane(const RigidTransform& T_plane_ground, const Eigen::AlignedBox3d& objects) {
+    const double reach = kShadowReach * radiusOf(objects);
+    for (const auto corner : {objects.BottomLeftFloor, objects.BottomRightFloor,
+                              objects.TopLeftFloor, objects.TopRightFloor}) {
+        Eigen::Vector3d p = objects.corner(corner);
+        p += reach * (p - objects.center()).cwiseSign();
+        p.z() = 0;
+        if (!(std::abs((T_plane_ground * p).z()) < kSamePlane)) return false;
+    }
+    return true;
+}
 
 }  // namespace
 
 Eigen::AlignedBox3d boundsOf(const Scene& scene) {
     Eigen::AlignedBox3d box;
     for (const SceneObject& object : scene.objects)
-        for (const Mesh& mesh : object.model->meshes)
-            for (const Eigen::Vector3f& p : mesh.positions)
-                box.extend(object.T_world_object * (object.scale * p).cast<double>());
+        box.extend(boundsIn({}, object));
     return box;
 }
 
-ShadowCatcher planeCatcher(const Eigen::AlignedBox3d& objects) {
+std::vector<GroundPlane> groundPlanes(const Scene& scene) {
+    const double reach = glows(scene) ? kGlowReach * kShadowReach : kShadowReach;
+    std::vector<GroundPlane> out{{{}, boundsOf(scene), reach}};
+    for (const SceneObject& object : scene.objects) {
+        const RigidTransform T_ground_world = object.T_world_ground.inverse();
+        const Eigen::AlignedBox3d objects = boundsIn(T_ground_world, object);
+        if (objects.isEmpty()) continue;
+        const auto same = std::ranges::find_if(out, [&](const GroundPlane& plane) {
+            return isSamePlane(plane.T_world_plane.inverse() * object.T_world_ground, objects);
+        });
+        if (same == out.end())
+            out.push_back({object.T_world_ground, objects, reach});
+        else if (same != out.begin())
+            same->objects.extend(boundsIn(same->T_world_plane.inverse(), object));
+    }
+    return out;
+}
+
+ShadowCatcher planeCatcher(const Eigen::AlignedBox3d& objects, double reachInRadii) {
     if (objects.isEmpty()) return {};
-    const double reach = kShadowReach * radiusOf(objects);
+    const double reach = reachInRadii * radiusOf(objects);
     if (objects.max().z() < 0 || objects.min().z() > reach || !(reach > 0)) return {};
     const Eigen::Vector2d low = objects.min().head<2>().array() - reach;
     const Eigen::Vector2d high = objects.max().head<2>().array() + reach;
@@ -120,16 +174,31 @@ ShadowCatcher planeCatcher(const Eigen::AlignedBox3d& objects) {
     return grid.take();
 }
 
+ShadowCatcher planeCatcher(std::span<const GroundPlane> planes) {
+    ShadowCatcher out;
+    for (const GroundPlane& plane : planes) {
+        const auto first = static_cast<std::uint32_t>(out.positions.size());
+        const ShadowCatcher part = planeCatcher(plane.objects, plane.reach);
+        for (const Eigen::Vector3f& p : part.positions)
+            out.positions.emplace_back((plane.T_world_plane * p.cast<double>()).cast<float>());
+        for (const auto& t : part.triangles)
+            out.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+    }
+    return out;
+}
+
 ShadowCatcher depthCatcher(const InverseDepthField& field, const CameraModel& video,
                            const RigidTransform& T_world_video, const PixelRect& where,
-                           const Eigen::AlignedBox3d& objects) {
+                           std::span<const GroundPlane> planes) {
+    if (planes.empty()) return {};
+    const Eigen::AlignedBox3d& objects = planes.front().objects;
     const PixelRect area = common(where, {0, 0, field.size.width, field.size.height});
     if (area.empty() || objects.isEmpty()) return {};
-    const double reach = kShadowReach * radiusOf(objects);
+    const double reach = planes.front().reach * radiusOf(objects);
     const Eigen::AlignedBox3d near(objects.min().array() - reach, objects.max().array() + reach);
     const int columns = (area.x1 - area.x0 + kStep - 1) / kStep;
     const int rows = (area.y1 - area.y0 + kStep - 1) / kStep;
-    const SeenSurface surface(field, video, T_world_video);
+    const SeenSurface surface(field, video, T_world_video, planes);
     const auto x = [&](int column) { return area.x0 + column * kStep; };
     const auto y = [&](int row) { return area.y0 + row * kStep; };
     Grid grid(columns, rows);

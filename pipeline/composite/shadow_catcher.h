@@ -5,6 +5,9 @@
 
 #include <Eigen/Geometry>
 
+#include <span>
+#include <vector>
+
 namespace mfar {
 
 /// Returns the bounds of all objects in world coordinates. They are empty if the scene has no
@@ -12,21 +15,38 @@ namespace mfar {
 [[nodiscard]] Eigen::AlignedBox3d boundsOf(const Scene& scene);
 
 /// Shadows are expected up to this distance from the objects' bounding box, in units of half the
-/// box's diagonal.
+/// box's diagonal. Around a scene that glows, light is expected kGlowReach times as far.
 inline constexpr double kShadowReach = 1;
 
 /// Returns the part of the tag map's plane (z = 0 in the world) below and around the objects'
 /// bounding box. Empty if all objects are below the plane, or so far above it that no shadow is
-/// expected on it (kShadowReach).
-[[nodiscard]] ShadowCatcher planeCatcher(const Eigen::AlignedBox3d& objects);
+/// expected on it (`reach`, in half diagonals of the box).
+[[nodiscard]] ShadowCatcher planeCatcher(const Eigen::AlignedBox3d& objects,
+                                         double reach = kShadowReach);
+
+/// A plane of the real scene: z = 0 of its frame.
+struct GroundPlane {
+    RigidTransform T_world_plane;
+    Eigen::AlignedBox3d objects;  ///< bounds, in the plane's frame, of the objects that shade it
+    double reach = kShadowReach;  ///< in half diagonals of the bounds
+};
+
+/// Returns the planes that objects are expected to shade. The first is that of the tag map, which
+/// all objects may shade. Each other is the ground of the objects that stand on it
+/// (SceneObject::T_world_ground). Grounds that hardly differ around the objects count as one plane.
+[[nodiscard]] std::vector<GroundPlane> groundPlanes(const Scene& scene);
+
+/// Returns the parts of the planes below and around their objects, as planeCatcher() does.
+[[nodiscard]] ShadowCatcher planeCatcher(std::span<const GroundPlane> planes);
 
 /// Returns the measured surface of the real scene around the objects. Its vertices are video pixels
 /// of `where` with known depth, a few pixels apart. Four neighbours are joined by two triangles
-/// unless depth jumps between them. Vertices that cannot be distinguished from the plane of the tag
-/// map are moved onto it. `objects` is the bounding box of the objects.
+/// unless depth jumps between them. Vertices that cannot be distinguished from one of the planes
+/// are moved onto it. The bounds in the first of the planes, that of the tag map, are those of all
+/// objects.
 [[nodiscard]] ShadowCatcher depthCatcher(const InverseDepthField& field, const CameraModel& video,
                                          const RigidTransform& T_world_video,
                                          const PixelRect& where,
-                                         const Eigen::AlignedBox3d& objects);
+                                         std::span<const GroundPlane> planes);
 
 }  // namespace mfar

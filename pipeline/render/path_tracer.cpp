@@ -56,6 +56,7 @@ void validate(const PathTracerOptions& o) {
 struct PathTracer::Parts {
     Parts(std::shared_ptr<const Scene> sound, const PathTracerOptions& o)
         : options(o), scene(std::move(sound), o.buildThreads), integrator(scene, options),
+          reach(o.shadowReach * (glows(scene.scene()) ? static_cast<float>(kGlowReach) : 1)),
           mirrors(std::make_shared<const MirrorLight>(integrator.mirrorLight())) {}
 
     [[nodiscard]] std::shared_ptr<const LensRays> lensOf(const CameraModel& camera) const {
@@ -68,6 +69,7 @@ struct PathTracer::Parts {
     PathTracerOptions options;
     TracedScene scene;
     PathIntegrator integrator;
+    float reach;  ///< of shadows and light on the shadow catcher [object radii]
     std::shared_ptr<const MirrorLight> mirrors;
     mutable std::mutex lensMutex;
     mutable std::shared_ptr<const LensRays> lens;
@@ -298,7 +300,7 @@ PixelRect PathTracer::bounds(const RenderView& view) const {
     Eigen::AlignedBox3f box = parts_->scene.objects().box();
     if (box.isEmpty()) return {};
     const Eigen::AlignedBox3f& real = parts_->scene.catcher().box();
-    const float reach = 0.5F * parts_->options.shadowReach * box.diagonal().norm();
+    const float reach = 0.5F * parts_->reach * box.diagonal().norm();
     const Eigen::Vector3f side = Eigen::Vector3f::Constant(reach);
     const auto shaded =
         Eigen::AlignedBox3f(box.center() - side, box.center() + side).intersection(real);

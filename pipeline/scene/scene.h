@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -88,6 +89,8 @@ struct SceneObject {
     std::shared_ptr<const Model> model;
     RigidTransform T_world_object;
     float scale = 1;
+    /// The plane z = 0 of this frame is the real surface on which the object stands.
+    RigidTransform T_world_ground{};
 
     friend bool operator==(const SceneObject& a, const SceneObject& b) {
         return a.model == b.model && a.scale == b.scale &&
@@ -109,5 +112,17 @@ struct Scene {
     Lighting lighting;
     ShadowCatcher catcher;
 };
+
+/// True if a material of an object emits light.
+[[nodiscard]] inline bool glows(const Scene& scene) {
+    return std::ranges::any_of(scene.objects, [](const SceneObject& object) {
+        return std::ranges::any_of(object.model->materials, [](const Material& material) {
+            return material.emission.maxCoeff() > 0;
+        });
+    });
+}
+
+/// Light of a glowing object is seen farther away than its shadow, by this factor.
+inline constexpr double kGlowReach = 4;
 
 }  // namespace mfar

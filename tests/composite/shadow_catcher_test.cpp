@@ -12,6 +12,8 @@ const CameraModel kLens{{160, 120}, 150, 150, 79.5, 59.5, {-0.1, 0.02, 0, 0, 0}}
 const Eigen::AlignedBox3d kThing(Eigen::Vector3d(-0.05, -0.05, 0),
                                  Eigen::Vector3d(0.05, 0.05, 0.1));
 
+const std::vector<GroundPlane> kGround = {{{}, kThing}};
+
 RigidTransform eyeAbove() {
     const Eigen::Vector3d eye(0, -0.4, 0.35);
     const Eigen::Vector3d z = -eye.normalized(), x(1, 0, 0), y = z.cross(x);
@@ -60,7 +62,7 @@ TEST(ShadowCatcher, PlaneReachesAroundTheObjectsOnIt) {
     EXPECT_NEAR(areaOf(plane), (0.1 + 2 * reach) * (0.1 + 2 * reach), 1e-6);
     for (const Eigen::Vector3f& p : plane.positions)
         EXPECT_EQ(p.z(), 0);
-    EXPECT_TRUE(planeCatcher({}).triangles.empty());
+    EXPECT_TRUE(planeCatcher(Eigen::AlignedBox3d()).triangles.empty());
     const Eigen::AlignedBox3d above = kThing.translated(Eigen::Vector3d(0, 0, 5)),
                               below = kThing.translated(Eigen::Vector3d(0, 0, -2));
     EXPECT_TRUE(planeCatcher(above).triangles.empty());
@@ -72,7 +74,7 @@ TEST(ShadowCatcher, NoisyDepthOfAPlaneGivesAFlatShadowCatcher) {
     std::normal_distribution<double> noise(0, 0.01);
     const InverseDepthField field = fieldOf(
         [&](int x, int y) { return 1 / (1 / depthOfPlane(x, y, 0) + noise(random)); }, 0.01);
-    const ShadowCatcher c = depthCatcher(field, kLens, eyeAbove(), kAll, kThing);
+    const ShadowCatcher c = depthCatcher(field, kLens, eyeAbove(), kAll, kGround);
     ASSERT_GT(c.triangles.size(), 100U);
     const auto off = std::count_if(c.positions.begin(), c.positions.end(),
                                    [](const auto& p) { return std::abs(p.z()) > 1e-5; });
@@ -82,7 +84,7 @@ TEST(ShadowCatcher, NoisyDepthOfAPlaneGivesAFlatShadowCatcher) {
 TEST(ShadowCatcher, ObjectsOnThePlaneKeepTheirHeightAndAreNotJoinedToIt) {
     const InverseDepthField field =
         fieldOf([&](int x, int y) { return depthOfPlane(x, y, x < 80 ? 0 : 0.06); }, 1e-4);
-    const ShadowCatcher c = depthCatcher(field, kLens, eyeAbove(), kAll, kThing);
+    const ShadowCatcher c = depthCatcher(field, kLens, eyeAbove(), kAll, kGround);
     int low = 0, high = 0;
     for (const auto& t : c.triangles) {
         const float z[] = {c.positions[t[0]].z(), c.positions[t[1]].z(), c.positions[t[2]].z()};
@@ -97,7 +99,7 @@ TEST(ShadowCatcher, ObjectsOnThePlaneKeepTheirHeightAndAreNotJoinedToIt) {
 
 TEST(ShadowCatcher, UnknownDistantAndOutsideDepthGivesNoSurface) {
     const auto none = [](const InverseDepthField& field, const PixelRect& where) {
-        return depthCatcher(field, kLens, eyeAbove(), where, kThing).triangles.empty();
+        return depthCatcher(field, kLens, eyeAbove(), where, kGround).triangles.empty();
     };
     EXPECT_TRUE(none(InverseDepthField(kLens.size), kAll));
     EXPECT_TRUE(none(fieldOf([](int, int) { return 20.0; }, 1e-3), kAll));
@@ -105,6 +107,90 @@ TEST(ShadowCatcher, UnknownDistantAndOutsideDepthGivesNoSurface) {
         fieldOf([](int x, int y) { return depthOfPlane(x, y, 0); }, 1e-3);
     EXPECT_TRUE(none(plane, {200, 0, 300, 50}));
     EXPECT_FALSE(none(plane, {-50, -50, 1000, 1000}));
+}
+
+/// A thing that stands on the plane z = 0 of `T_world_ground`.
+SceneObject standingOn(const RigidTransform& T_world_ground, double x = 0) {
+    auto model = std::make_shared<Model>();
+    model->meshes.resize(1);
+    model->meshes[0].positions = {{-0.05F, -0.05F, 0}, {0.05F, 0.05F, 0.1F}};
+    return {model, T_world_ground * RigidTransform{{1, 0, 0, 0}, {x, 0, 0}}, 1, T_world_ground};
+}
+
+/// The ground of a tag on a wall at y = 2 that faces -y, 1 m above the plane of the tag map.
+RigidTransform wall() {
+    Eigen::Matrix3d axes;
+    axes << 1, 0, 0, 0, 0, -1, 0, 1, 0;
+    return {Eigen::Quaterniond(axes), {0, 2, 1}};
+}
+
+TEST(ShadowCatcher, ObjectsOnATagOfAWallShadeTheWall) {
+    Scene scene;
+    scene.objects = {standingOn({}), standingOn(wall())};
+    const std::vector<GroundPlane> planes = groundPlanes(scene);
+    ASSERT_EQ(planes.size(), 2U);
+    const ShadowCatcher c = planeCatcher(planes);
+    int onWall = 0;
+    for (const Eigen::Vector3f& p : c.positions) {
+        EXPECT_TRUE(std::abs(p.z()) < 1e-6F || std::abs(p.y() - 2) < 1e-6F) << p.transpose();
+        onWall += std::abs(p.y() - 2) < 1e-6F && p.z() > 0.5F;
+    }
+    EXPECT_EQ(onWall, 81);
+    EXPECT_EQ(c.triangles.size(), 256U);
+    for (const auto& t : c.triangles)
+        for (const std::uint32_t corner : t)
+            EXPECT_LT(corner, c.positions.size());
+    Scene floor;
+    floor.objects = {standingOn({}), standingOn({})};
+    EXPECT_EQ(groundPlanes(floor).size(), 1U);
+    EXPECT_EQ(planeCatcher(groundPlanes(floor)).positions, planeCatcher(kThing).positions);
+}
+
+TEST(ShadowCatcher, LightOfAGlowingObjectReachesFarther) {
+    Scene scene;
+    scene.objects = {standingOn({})};
+    const float dark = planeCatcher(groundPlanes(scene)).positions.back().x();
+    Model lamp = *scene.objects[0].model;
+    lamp.materials.resize(1);
+    lamp.materials[0].emission = {0, 0, 1};
+    scene.objects[0].model = std::make_shared<const Model>(lamp);
+    const float lit = planeCatcher(groundPlanes(scene)).positions.back().x();
+    EXPECT_NEAR(lit - 0.05F, kGlowReach * (dark - 0.05F), 1e-5);
+}
+
+TEST(ShadowCatcher, TagsOnTheSameSurfaceGiveOnePlane) {
+    // The second tag's pose has an error of 2 mm and half a degree.
+    RigidTransform other = wall();
+    other.translation += Eigen::Vector3d(0.3, 0.002, 0);
+    other.rotation = other.rotation * Eigen::AngleAxisd(0.009, Eigen::Vector3d::UnitX());
+    Scene scene;
+    scene.objects = {standingOn(wall()), standingOn(other)};
+    const std::vector<GroundPlane> planes = groundPlanes(scene);
+    ASSERT_EQ(planes.size(), 2U) << "the plane of the tag map and the wall";
+    EXPECT_NEAR(planes[1].objects.sizes().x(), 0.4, 1e-3);
+    RigidTransform paper;
+    paper.translation.z() = 0.003;
+    scene.objects = {standingOn(paper)};
+    EXPECT_EQ(groundPlanes(scene).size(), 1U);
+    paper.translation.z() = 0.05;  // a tag on a box
+    scene.objects = {standingOn(paper)};
+    EXPECT_EQ(groundPlanes(scene).size(), 2U);
+}
+
+TEST(ShadowCatcher, NoisyDepthOfAWallGivesAFlatShadowCatcher) {
+    std::mt19937 random(2);
+    std::normal_distribution<double> noise(0, 0.01);
+    // The camera looks at the wall's plane z = 0 in the wall's frame.
+    const RigidTransform T_world_video = wall() * eyeAbove();
+    const InverseDepthField field = fieldOf(
+        [&](int x, int y) { return 1 / (1 / depthOfPlane(x, y, 0) + noise(random)); }, 0.01);
+    Scene scene;
+    scene.objects = {standingOn(wall())};
+    const ShadowCatcher c = depthCatcher(field, kLens, T_world_video, kAll, groundPlanes(scene));
+    ASSERT_GT(c.triangles.size(), 100U);
+    const auto off = std::count_if(c.positions.begin(), c.positions.end(),
+                                   [](const auto& p) { return std::abs(p.y() - 2) > 1e-5; });
+    EXPECT_LT(off, static_cast<long>(c.positions.size()) / 50);
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 #include "daemon/config.h"
+#include "daemon/virtual_world.h"
 #include "tests/daemon/config_faults.h"
 #include "tests/models/gltf_maker.h"
 #include "tests/unit/temp_folder.h"
@@ -145,6 +146,11 @@ TEST(ObjectsConfig, ObjectsAreAnchoredToTheirTag) {
     // The offset points to the right along the wall, upwards, and out of the wall.
     EXPECT_LT((T.translation - Eigen::Vector3d(1.1, 1.7, 3.2)).norm(), 1e-9);
     EXPECT_LT((T.rotation * Eigen::Vector3d::UnitZ() - Eigen::Vector3d(0, -1, 0)).norm(), 1e-9);
+    const Scene scene = sceneOf({object}, {}, map);
+    ASSERT_EQ(scene.objects.size(), 1U);
+    EXPECT_LT((scene.objects[0].T_world_ground.translation - Eigen::Vector3d(1, 2, 3)).norm(),
+              1e-9);
+    EXPECT_LT((scene.objects[0].T_world_ground.rotation.inverse() * T.rotation).vec().norm(), 1e-9);
     ASSERT_EQ(placedShapes({object}, map).size(), 1U);
     EXPECT_LT((placedShapes({object}, map)[0].T_world_object.translation - T.translation).norm(),
               1e-12);

@@ -277,6 +277,17 @@ TEST(Emission, SampledLampHasMuchLessNoiseThanALampHitByChance) {
     EXPECT_LT(20 * sampled, chance);
 }
 
+TEST(Emission, BoundsContainTheGroundThatALampLights) {
+    auto scene = lampOverGround(0.1F, 0.3F, {2, 2, 2});
+    const RenderView view = lookingAt({0, 0, 6}, {0, 0, 0}, {200, 200}, 200);
+    const PixelRect lit = PathTracer(scene).bounds(view);
+    Model dark = *scene->objects[0].model;
+    dark.materials[0].emission.setZero();
+    scene->objects[0] = objectOf(dark);
+    const PixelRect shaded = PathTracer(scene).bounds(view);
+    EXPECT_GT(lit.x1 - lit.x0, 2 * (shaded.x1 - shaded.x0));
+}
+
 TEST(Emission, GroundThatNoLampLightsIsUnchanged) {
     // The lamp is single-sided and black, and a plate separates it from the ground.
     auto scene = lampOverGround(0.2F, 0.8F, {3, 2, 1});
