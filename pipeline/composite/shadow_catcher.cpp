@@ -78,7 +78,7 @@ public:
         const Eigen::Vector2d ray = video_.unproject({x, y});
         const Eigen::Vector3d direction = eye_.rotation * ray.homogeneous();
         const Eigen::Vector3d& eye = eye_.translation;
-        const Eigen::Vector3d p = eye + z * direction;
+        Eigen::Vector3d p = eye + z * direction;
         const double sigma = z * z * std::sqrt(static_cast<double>(field_.variance[pixel(x, y)]));
         for (const Plane& plane : planes_) {
             const double fall = -plane.normal().dot(direction);

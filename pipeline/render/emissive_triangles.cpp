@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace mfar {
 namespace {
@@ -94,7 +95,9 @@ EmissiveTriangles::EmissiveTriangles(const TracedScene& scene)
             sum += power;
         }
     }
-    std::ranges::stable_sort(found, {}, &Weighed::place);
+    std::ranges::sort(found, {}, [](const Weighed& t) {
+        return std::tuple(t.place, t.triangle.mesh, t.triangle.index);
+    });
     std::vector<double> powers;
     for (const Weighed& t : found) {
         triangles_.push_back(t.triangle);
