@@ -22,9 +22,9 @@ Eigen::Quaterniond axes(const Eigen::Vector3d& x, const Eigen::Vector3d& y) {
     return Eigen::Quaterniond(m);
 }
 
-/// Returns the smallest rotation that turns the z axis into this direction. Eigen's FromTwoVectors()
-/// has the same result, but takes 12 s to compile, because it instantiates a singular value
-/// decomposition for opposite vectors.
+/// Returns the smallest rotation that turns the z axis into this direction. Eigen's
+/// FromTwoVectors() has the same result, but takes 12 s to compile, because it instantiates a
+/// singular value decomposition for opposite vectors.
 Eigen::Quaterniond fromZ(const Eigen::Vector3d& direction) {
     const Eigen::Vector3d z = Eigen::Vector3d::UnitZ(), to = direction.normalized();
     const double cosine = to.dot(z);
