@@ -23,26 +23,26 @@ constexpr int kSide = 16;
 
 class SyntheticStore : public testing::Test {
 protected:
-    SyntheticStore() { fs::remove_all(folder); }
-    ~SyntheticStore() override { fs::remove_all(folder); }
+    SyntheticStore() { fs::remove_all(folder_); }
+    ~SyntheticStore() override { fs::remove_all(folder_); }
 
     /// Returns the texels of a key, which all have the value `colour` if they must be computed.
     cv::Mat4b get(std::uint64_t key, unsigned char colour) {
-        return TexelStore(folder).get(key, kSide, [&] {
-            ++made;
+        return TexelStore(folder_).get(key, kSide, [&] {
+            ++made_;
             return cv::Mat4b(kSide, kSide, cv::Vec4b::all(colour));
         });
     }
 
     std::vector<fs::path> files() const {
         std::vector<fs::path> out;
-        for (const auto& entry : fs::directory_iterator(folder))
+        for (const auto& entry : fs::directory_iterator(folder_))
             out.push_back(entry.path());
         return out;
     }
 
-    fs::path folder = fs::path(testing::TempDir()) / "mfar_synthetic_store";
-    int made = 0;
+    fs::path folder_ = fs::path(testing::TempDir()) / "mfar_synthetic_store";
+    int made_ = 0;
 };
 
 bool same(const cv::Mat4b& a, const cv::Mat4b& b) {
@@ -61,10 +61,10 @@ void write(const fs::path& file, const std::string& bytes) {
 TEST_F(SyntheticStore, TexelsAreComputedOncePerKey) {
     EXPECT_EQ(get(1, 10)(3, 5), cv::Vec4b::all(10));
     EXPECT_EQ(get(2, 20)(3, 5), cv::Vec4b::all(20));
-    EXPECT_EQ(made, 2);
+    EXPECT_EQ(made_, 2);
     EXPECT_EQ(get(1, 99)(3, 5), cv::Vec4b::all(10));
     EXPECT_EQ(get(2, 99)(3, 5), cv::Vec4b::all(20));
-    EXPECT_EQ(made, 2);
+    EXPECT_EQ(made_, 2);
 }
 
 TEST_F(SyntheticStore, BrokenFilesAreReplaced) {
@@ -78,9 +78,9 @@ TEST_F(SyntheticStore, BrokenFilesAreReplaced) {
     for (const std::string& broken :
          {std::string(), whole.substr(1), whole + "x", flipped, otherSum}) {
         write(file, broken);
-        made = 0;
+        made_ = 0;
         EXPECT_EQ(get(1, 10)(3, 5), cv::Vec4b::all(10));
-        EXPECT_EQ(made, 1);
+        EXPECT_EQ(made_, 1);
         EXPECT_EQ(contents(file), whole);
     }
 }
@@ -95,10 +95,10 @@ TEST_F(SyntheticStore, FileOfAnotherKeyIsNotUsed) {
 }
 
 TEST_F(SyntheticStore, FolderThatCannotBeWrittenOnlyCostsTime) {
-    write(folder, "a file, so that no folder can have this name");
+    write(folder_, "a file, so that no folder can have this name");
     EXPECT_EQ(get(1, 10)(3, 5), cv::Vec4b::all(10));
     EXPECT_EQ(get(1, 10)(3, 5), cv::Vec4b::all(10));
-    EXPECT_EQ(made, 2);
+    EXPECT_EQ(made_, 2);
 }
 
 TEST_F(SyntheticStore, FilesUsedLeastRecentlyAreRemoved) {
@@ -107,13 +107,13 @@ TEST_F(SyntheticStore, FilesUsedLeastRecentlyAreRemoved) {
     for (const fs::path& file : files())
         fs::last_write_time(file, fs::file_time_type::clock::now() - std::chrono::hours(1));
     (void)get(7, 10);
-    made = 0;
+    made_ = 0;
     for (int key = 0; key < 5; ++key)
         (void)get(100 + key, 10);
     EXPECT_EQ(files().size(), static_cast<std::size_t>(TexelStore::kMostFiles));
-    EXPECT_EQ(made, 5);
+    EXPECT_EQ(made_, 5);
     (void)get(7, 10);
-    EXPECT_EQ(made, 5);
+    EXPECT_EQ(made_, 5);
 }
 
 TEST_F(SyntheticStore, ManyThreadsStoreAndReadTheSameFiles) {
@@ -124,7 +124,7 @@ TEST_F(SyntheticStore, ManyThreadsStoreAndReadTheSameFiles) {
             for (int i = 0; i < 100; ++i) {
                 const auto colour = static_cast<unsigned char>(i % 10);
                 const auto make = [&] { return cv::Mat4b(kSide, kSide, cv::Vec4b::all(colour)); };
-                if (TexelStore(folder).get(colour, kSide, make)(7, 7) != cv::Vec4b::all(colour))
+                if (TexelStore(folder_).get(colour, kSide, make)(7, 7) != cv::Vec4b::all(colour))
                     ++wrong;
             }
         });
@@ -136,7 +136,7 @@ TEST_F(SyntheticStore, ManyThreadsStoreAndReadTheSameFiles) {
 TEST_F(SyntheticStore, StoredLightMapsAndTexturesAreTheComputedOnes) {
     const World world = makeWorld(Scene::Flat, 3);
     const cv::Mat4b light = bakeLight(world, TexelStore({})).texels;
-    const TexelStore store(folder);
+    const TexelStore store(folder_);
     EXPECT_TRUE(same(bakeLight(world, store).texels, light));
     EXPECT_TRUE(same(bakeLight(world, store).texels, light));
     const cv::Mat4b tags = makeLayer(Layer::Tags, 3);
