@@ -45,7 +45,8 @@ SurfacePoint surfacePoint(const Primitive& p, int axis, double sign, double s, d
 
 class Baker {
 public:
-    Baker(const World& world, LightMap& map) : world_(world), map_(map), solids_(still(world), 0) {
+    Baker(const World& world, cv::Mat4b& texels)
+        : world_(world), texels_(texels), solids_(still(world), 0) {
         const Eigen::Vector3d& l = world.light.towards;
         side_ = l.unitOrthogonal();
         up_ = l.cross(side_);
@@ -67,7 +68,7 @@ public:
         }
         // Removes the noise of ray sampling and hardly changes the shadows.
         if (n >= 12) cv::GaussianBlur(light, light, {0, 0}, 0.9, 0.9, cv::BORDER_REPLICATE);
-        cv::Mat4b out = map_.texels(area);
+        cv::Mat4b out = texels_(area);
         eachPixel(out, [&](cv::Vec4b& o, const int* q) {
             for (int k = 0; k < 3; ++k)
                 o[k] = cv::saturate_cast<unsigned char>(light(q)[k] * 255 / LightMap::kFullScale);
@@ -158,7 +159,7 @@ private:
     double reach() const { return 0.45 * (world_.target - world_.eye).norm(); }
 
     const World& world_;
-    LightMap& map_;
+    cv::Mat4b& texels_;
     Snapshot solids_;
     Eigen::Vector3d side_, up_;
 };
@@ -183,18 +184,9 @@ std::vector<cv::Rect> layOut(const World& world) {
     return out;
 }
 
-}  // namespace
-
-LightMap bakeLight(const World& world) {
-    const std::vector<cv::Rect> blocks = layOut(world);
-    LightMap map;
-    map.texels = cv::Mat4b(kAtlas, kAtlas, cv::Vec4b::all(255));
-    for (const cv::Rect& b : blocks)
-        map.faces.push_back(Eigen::Vector4f(static_cast<float>(b.x), static_cast<float>(b.y),
-                                            static_cast<float>(b.width) / 3,
-                                            static_cast<float>(b.height) / 2) /
-                            kAtlas);
-    const Baker baker(world, map);
+cv::Mat4b bakeTexels(const World& world, const std::vector<cv::Rect>& blocks) {
+    cv::Mat4b texels(kAtlas, kAtlas, cv::Vec4b::all(255));
+    const Baker baker(world, texels);
     const int count = static_cast<int>(blocks.size());
     const auto bakeEvery = [&](int first, int step) {
         for (int i = first; i < count; i += step) {
@@ -207,6 +199,20 @@ LightMap bakeLight(const World& world) {
     std::jthread other(bakeEvery, 1, 2);
     bakeEvery(0, 2);
     other.join();
+    return texels;
+}
+
+}  // namespace
+
+LightMap bakeLight(const World& world, const TexelStore& store) {
+    const std::vector<cv::Rect> blocks = layOut(world);
+    LightMap map;
+    for (const cv::Rect& b : blocks)
+        map.faces.push_back(Eigen::Vector4f(static_cast<float>(b.x), static_cast<float>(b.y),
+                                            static_cast<float>(b.width) / 3,
+                                            static_cast<float>(b.height) / 2) /
+                            kAtlas);
+    map.texels = store.get(lightKey(world), kAtlas, [&] { return bakeTexels(world, blocks); });
     return map;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "hal/virtual/synthetic_scene.h"
+#include "hal/virtual/synthetic_store.h"
 
 #include <Eigen/Core>
 #include <opencv2/core.hpp>
@@ -10,7 +11,7 @@
 namespace mfar::synthetic {
 
 /// The light that arrives at every surface: the key light with soft shadows, the ambient light with
-/// occlusion, and the light of one reflection. It is ray traced once, for the world at time 0.
+/// occlusion, and the light of one reflection. It is ray traced for the world at time 0.
 struct LightMap {
     /// Irradiance / kFullScale * 255, per channel. The 3 x 2 faces (axis, sign) of a primitive are
     /// side by side. Moving objects cast no shadow.
@@ -25,6 +26,6 @@ struct LightMap {
     [[nodiscard]] static double inset(int lightTexels) { return 0.5 / lightTexels; }
 };
 
-[[nodiscard]] LightMap bakeLight(const World& world);
+[[nodiscard]] LightMap bakeLight(const World& world, const TexelStore& store);
 
 }  // namespace mfar::synthetic

@@ -1,4 +1,5 @@
 #include "hal/virtual/synthetic_renderer.h"
+#include "hal/virtual/synthetic_store.h"
 #include "hal/virtual/synthetic_textures.h"
 
 #include <algorithm>
@@ -18,10 +19,12 @@ struct MaterialEntry {
 };
 
 std::vector<cv::Mat4b> paintLayers(const std::vector<Layer>& layers, std::uint64_t seed) {
+    const TexelStore store(TexelStore::userFolder());
     std::vector<cv::Mat4b> out(layers.size());
     const auto paintEvery = [&](std::size_t first, std::size_t step) {
         for (std::size_t i = first; i < layers.size(); i += step)
-            out[i] = makeLayer(layers[i], seed);
+            out[i] = store.get(layerKey(layers[i], seed), kLayerSize,
+                               [&] { return makeLayer(layers[i], seed); });
     };
     std::jthread other(paintEvery, 1, 2);
     paintEvery(0, 2);
@@ -32,7 +35,7 @@ std::vector<cv::Mat4b> paintLayers(const std::vector<Layer>& layers, std::uint64
 }  // namespace
 
 WorldGl::WorldGl(const World& world, std::uint64_t seed)
-    : world_(world), light_(bakeLight(world)),
+    : world_(world), light_(bakeLight(world, TexelStore(TexelStore::userFolder()))),
       lightMap_({light_.texels.cols, light_.texels.rows}, gpu::TexelFormat::Rgba8,
                 gpu::Filter::Linear),
       materials_(kMaxPrimitives * sizeof(MaterialEntry)), worldPass_("synthetic_world.frag"),
