@@ -6,6 +6,11 @@
 #   FILTER       filter of GoogleTest
 #   LABELS       labels of CTest
 #   ENVIRONMENT  variables, as NAME=VALUE
+# LABELS and ENVIRONMENT may be empty. Without this policy, CMake 3.31 warns.
+if(POLICY CMP0174)
+    cmake_policy(SET CMP0174 NEW)
+endif()
+
 function(mfar_add_sharded_tests target name)
     cmake_parse_arguments(PARSE_ARGV 2 arg "" "SHARDS;FILTER;LABELS" "ENVIRONMENT")
     if(NOT arg_SHARDS)

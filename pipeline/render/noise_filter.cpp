@@ -1,6 +1,7 @@
 #include "pipeline/render/noise_filter.h"
 
 #include "base/large_pages.h"
+#include "pipeline/render/rendered_picture.h"
 
 #include <algorithm>
 #include <array>
@@ -20,6 +21,11 @@ constexpr int kSpreadReach = 2, kSpreadStep = 4;
 constexpr float kSurely = 4;
 // A difference of more than this many standard errors is not noise.
 constexpr float kTolerance = 2.5F;
+// A sample of the shadow catcher shows either no change or a large one. So with fewer than kFew
+// samples, the lit and the shaded pixels of a penumbra would not be averaged, and it would have
+// spots. There the levels up to this distance, which is that of sparse samples, tolerate more.
+constexpr int kSparseStep = 4;
+constexpr float kFew = 4, kSparseTolerance = 5;
 constexpr float kLeastVariance = 1e-7F;  // (a tenth of a grey level)^2 at white
 // Upper limit of the relative change of depth per pixel on one surface.
 constexpr float kDepthSlope = 0.01F;
@@ -37,15 +43,15 @@ float bendWeight(const Eigen::Array3f& a, const Eigen::Array3f& b) {
 
 class LightMean {
 public:
-    LightMean(const Eigen::Array3f& centre, float variance, float count)
-        : centre_(centre), variance_(variance), isKnown_(count > 0) {}
+    LightMean(const Eigen::Array3f& centre, float variance, float count, float tolerance)
+        : centre_(centre), variance_(variance), tolerance_(tolerance), isKnown_(count > 0) {}
 
     void add(float weight, const Eigen::Array3f& light, float variance, float count) {
         if (!(count > 0)) return;
         if (isKnown_) {
             const float noise = variance_ + variance + kLeastVariance;
             const float off = luminanceOf(light - centre_);
-            const float likeness = 1 - off * off / (kTolerance * kTolerance * noise);
+            const float likeness = 1 - off * off / (tolerance_ * tolerance_ * noise);
             if (!(likeness > 0)) return;
             weight *= likeness * likeness;
         }
@@ -62,7 +68,7 @@ public:
 
 private:
     const Eigen::Array3f& centre_;
-    float variance_;
+    float variance_, tolerance_;
     bool isKnown_;
     Eigen::Array3f sum_{0, 0, 0};
     float variances_ = 0, weights_ = 0;
@@ -187,8 +193,10 @@ void NoiseFilter::filter(int step, std::span<const LightPixel> from, std::span<L
     }
     to[i] = centre;
     if (centre.kept) return;
-    LightMean first(centre.first, centre.firstVariance, centre.firstCount);
-    LightMean second(centre.second, centre.secondVariance, centre.secondCount);
+    const bool isSparse = centre.id == kCatcherId && centre.firstCount < kFew;
+    const float tolerance = isSparse && step <= kSparseStep ? kSparseTolerance : kTolerance;
+    LightMean first(centre.first, centre.firstVariance, centre.firstCount, tolerance);
+    LightMean second(centre.second, centre.secondVariance, centre.secondCount, tolerance);
     forNeighbours(from, x, y, kReach, step, [&](std::size_t j, int dx, int dy) {
         const LightPixel& p = from[j];
         const float weight = kSpline[std::abs(dx)] * kSpline[std::abs(dy)] *
