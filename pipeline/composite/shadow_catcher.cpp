@@ -1,5 +1,7 @@
 #include "pipeline/composite/shadow_catcher.h"
 
+#include "pipeline/scene/glow.h"
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -137,7 +139,7 @@ Eigen::AlignedBox3d boundsOf(const Scene& scene) {
 }
 
 std::vector<GroundPlane> groundPlanes(const Scene& scene) {
-    const double reach = glows(scene) ? kGlowReach * kShadowReach : kShadowReach;
+    const double reach = glowReach(scene) * kShadowReach;
     std::vector<GroundPlane> out{{{}, boundsOf(scene), reach}};
     for (const SceneObject& object : scene.objects) {
         const RigidTransform T_ground_world = object.T_world_ground.inverse();

@@ -15,7 +15,7 @@ namespace mfar {
 [[nodiscard]] Eigen::AlignedBox3d boundsOf(const Scene& scene);
 
 /// Shadows are expected up to this distance from the objects' bounding box, in units of half the
-/// box's diagonal. Around a scene that glows, light is expected kGlowReach times as far.
+/// box's diagonal. Light of glowing objects is expected glowReach() times as far.
 inline constexpr double kShadowReach = 1;
 
 /// Returns the part of the tag map's plane (z = 0 in the world) below and around the objects'

@@ -7,6 +7,7 @@
 #include "pipeline/render/scene_check.h"
 #include "pipeline/render/traced_scene.h"
 #include "pipeline/render/view_bounds.h"
+#include "pipeline/scene/glow.h"
 
 #include <algorithm>
 #include <array>
@@ -56,7 +57,7 @@ void validate(const PathTracerOptions& o) {
 struct PathTracer::Parts {
     Parts(std::shared_ptr<const Scene> sound, const PathTracerOptions& o)
         : options(o), scene(std::move(sound), o.buildThreads), integrator(scene, options),
-          reach(o.shadowReach * (glows(scene.scene()) ? static_cast<float>(kGlowReach) : 1)),
+          reach(o.shadowReach * static_cast<float>(glowReach(scene.scene()))),
           mirrors(std::make_shared<const MirrorLight>(integrator.mirrorLight())) {}
 
     [[nodiscard]] std::shared_ptr<const LensRays> lensOf(const CameraModel& camera) const {

@@ -48,7 +48,7 @@ public:
     /// Rectangle around the pixels that an object may cover. It may be too large, or empty.
     [[nodiscard]] PixelRect objectBounds(const RenderView& view) const;
     /// Rectangle around the pixels that may show an object, or the shadow catcher within
-    /// shadowReach of an object, or kGlowReach times as far if the scene glows. It may be empty.
+    /// shadowReach times glowReach() of an object. It may be empty.
     /// Light of objects on the catcher beyond this distance is ignored.
     [[nodiscard]] PixelRect bounds(const RenderView& view) const;
 

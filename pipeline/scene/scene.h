@@ -4,7 +4,6 @@
 
 #include <Eigen/Core>
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -112,17 +111,5 @@ struct Scene {
     Lighting lighting;
     ShadowCatcher catcher;
 };
-
-/// True if a material of an object emits light.
-[[nodiscard]] inline bool glows(const Scene& scene) {
-    return std::ranges::any_of(scene.objects, [](const SceneObject& object) {
-        return std::ranges::any_of(object.model->materials, [](const Material& material) {
-            return material.emission.maxCoeff() > 0;
-        });
-    });
-}
-
-/// Light of a glowing object is seen farther away than its shadow, by this factor.
-inline constexpr double kGlowReach = 4;
 
 }  // namespace mfar

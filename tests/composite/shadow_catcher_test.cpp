@@ -1,4 +1,5 @@
 #include "pipeline/composite/shadow_catcher.h"
+#include "pipeline/scene/glow.h"
 
 #include <gtest/gtest.h>
 
@@ -113,7 +114,8 @@ TEST(ShadowCatcher, UnknownDistantAndOutsideDepthGivesNoSurface) {
 SceneObject standingOn(const RigidTransform& T_world_ground, double x = 0) {
     auto model = std::make_shared<Model>();
     model->meshes.resize(1);
-    model->meshes[0].positions = {{-0.05F, -0.05F, 0}, {0.05F, 0.05F, 0.1F}};
+    model->meshes[0].positions = {{-0.05F, -0.05F, 0}, {0.05F, 0.05F, 0.1F}, {0.05F, -0.05F, 0}};
+    model->meshes[0].triangles = {{0, 1, 2}};
     return {model, T_world_ground * RigidTransform{{1, 0, 0, 0}, {x, 0, 0}}, 1, T_world_ground};
 }
 
@@ -155,7 +157,30 @@ TEST(ShadowCatcher, LightOfAGlowingObjectReachesFarther) {
     lamp.materials[0].emission = {0, 0, 1};
     scene.objects[0].model = std::make_shared<const Model>(lamp);
     const float lit = planeCatcher(groundPlanes(scene)).positions.back().x();
-    EXPECT_NEAR(lit - 0.05F, kGlowReach * (dark - 0.05F), 1e-5);
+    // Nothing else lights the surface.
+    EXPECT_NEAR(lit - 0.05F, kMostGlowReach * (dark - 0.05F), 1e-5);
+}
+
+TEST(ShadowCatcher, TheReachOfAGlowGrowsWithItsShareOfTheLight) {
+    Scene scene;
+    scene.objects = {standingOn({})};
+    scene.lighting.environment = std::make_shared<const Environment>(
+        Environment{{4, 2}, std::vector<Eigen::Vector3f>(8, {1, 1, 1})});
+    const auto reachAt = [&](float emission) {
+        Model lamp = *scene.objects[0].model;
+        lamp.materials.resize(1);
+        lamp.materials[0].emission.setConstant(emission);
+        scene.objects[0].model = std::make_shared<const Model>(lamp);
+        return glowReach(scene);
+    };
+    EXPECT_EQ(reachAt(0), 1);
+    EXPECT_EQ(reachAt(1e-4F), 1);
+    double brightest = 1e-4F;
+    while (reachAt(static_cast<float>(brightest)) < 2)
+        brightest *= 1.01;
+    // The light falls with the square of the distance.
+    EXPECT_NEAR(reachAt(static_cast<float>(2.25 * brightest)), 3, 0.05);
+    EXPECT_EQ(reachAt(static_cast<float>(1e3 * brightest)), kMostGlowReach);
 }
 
 TEST(ShadowCatcher, TagsOnTheSameSurfaceGiveOnePlane) {

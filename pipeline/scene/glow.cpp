@@ -1,0 +1,77 @@
+#include "pipeline/scene/glow.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace mfar {
+namespace {
+
+constexpr double kVisible = 0.005;
+
+double luminance(const Eigen::Vector3f& rgb) {
+    return rgb.cast<double>().dot(Eigen::Vector3d(0.2126, 0.7152, 0.0722));
+}
+
+/// Returns the sum of area times radiance of the model's triangles, without emission textures,
+/// which can only make it smaller [W/sr].
+double intensityOf(const SceneObject& object) {
+    double sum = 0;
+    for (const Mesh& mesh : object.model->meshes) {
+        const auto material = static_cast<std::size_t>(mesh.material);
+        if (material >= object.model->materials.size()) continue;
+        const double radiance = luminance(object.model->materials[material].emission);
+        if (!(radiance > 0)) continue;
+        double area = 0;
+        for (const auto& [a, b, c] : mesh.triangles) {
+            const Eigen::Vector3f& corner = mesh.positions[a];
+            area += 0.5 * (mesh.positions[b] - corner).cross(mesh.positions[c] - corner).norm();
+        }
+        sum += radiance * area;
+    }
+    return sum * object.scale * object.scale;
+}
+
+/// Returns half of the diagonal of the objects' bounding box [m].
+double radiusOf(const Scene& scene) {
+    Eigen::AlignedBox3d box;
+    for (const SceneObject& object : scene.objects)
+        for (const Mesh& mesh : object.model->meshes)
+            for (const Eigen::Vector3f& p : mesh.positions)
+                box.extend(object.T_world_object * (object.scale * p).cast<double>());
+    return box.isEmpty() ? 0 : 0.5 * box.diagonal().norm();
+}
+
+/// Returns the irradiance that the distant light gives a surface on average.
+double irradianceOf(const Lighting& lighting) {
+    double sum = lighting.sun ? luminance(lighting.sun->irradiance) : 0;
+    if (!lighting.environment) return sum;
+    const auto& [size, radiance] = *lighting.environment;
+    double light = 0, weights = 0;
+    for (int y = 0; y < size.height; ++y) {
+        const double weight = std::sin((y + 0.5) / size.height * std::numbers::pi);
+        const std::size_t row = static_cast<std::size_t>(y) * size.width;
+        for (int x = 0; x < size.width; ++x)
+            light += weight * luminance(radiance[row + x]);
+        weights += weight * size.width;
+    }
+    return weights > 0 ? sum + std::numbers::pi * light / weights : sum;
+}
+
+}  // namespace
+
+double glowReach(const Scene& scene) {
+    double intensity = 0;
+    for (const SceneObject& object : scene.objects)
+        intensity += intensityOf(object);
+    if (!(intensity > 0)) return 1;
+    const double seen = std::sqrt(intensity / (kVisible * irradianceOf(scene.lighting)));
+    // Shadows are expected up to one radius around the objects' box, which is two from its centre.
+    const double reach = seen / (2 * radiusOf(scene));
+    return reach >= 1 ? std::min(reach, kMostGlowReach) : 1;
+}
+
+}  // namespace mfar
