@@ -1,4 +1,5 @@
 #include "pipeline/render/noise_filter.h"
+#include "pipeline/render/rendered_picture.h"
 
 #include <gtest/gtest.h>
 
@@ -76,6 +77,29 @@ TEST(NoiseFilter, EstimatesUnknownVariances) {
         p.firstVariance = p.secondVariance = -1;
     pixels = filtered(kNoisySize, pixels);
     EXPECT_LT(errorOf(pixels, flat), kSigma / 2);
+}
+
+// A quarter of the pixels has one sample each: objects block all light or none.
+TEST(NoiseFilter, FewSamplesOfASoftShadowGiveFewSpots) {
+    const auto spots = [](std::uint8_t id) {
+        std::mt19937 random(1);
+        std::bernoulli_distribution isBlocked(0.25);
+        Pixels pixels = noisyPicture(flat);
+        for (std::size_t i = 0; i < pixels.size(); ++i) {
+            LightPixel& p = pixels[i];
+            const bool isSampled = i % kNoisySize.width % 2 == 0 && i / kNoisySize.width % 2 == 0;
+            p.first = p.second = Eigen::Array3f::Constant(isSampled && isBlocked(random) ? -1 : 0);
+            p.firstVariance = p.secondVariance = -1;
+            p.firstCount = p.secondCount = isSampled ? 1 : 0;
+            p.id = id;
+        }
+        pixels = filtered(kNoisySize, pixels);
+        float mean = 0;
+        for (const LightPixel& p : pixels)
+            mean += p.first[0] / static_cast<float>(pixels.size());
+        return errorOf(pixels, [&](int, int) { return mean; });
+    };
+    EXPECT_LT(spots(kCatcherId), 0.8 * spots(1));
 }
 
 TEST(NoiseFilter, KeepsDifferencesAboveNoise) {
