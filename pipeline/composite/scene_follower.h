@@ -11,12 +11,11 @@
 
 namespace mfar {
 
-/// Rule for measuring the shadow catcher. At first, it is the plane of the tag map, and those
-/// of other tags on which objects stand. After
-/// `settling` frames, a measured surface replaces the planes as soon as depth is known at a share
-/// of at least `leastKnown` of the pixels around the objects. The surface is measured again if at
-/// least `leastInterval` [s] have passed and the camera has moved around the objects by the angle
-/// `turn` [rad].
+/// Rule for measuring the shadow catcher. At first, it consists of the plane of the tag map and of
+/// the planes of other tags on which objects stand. After `settling` frames, a measured surface
+/// replaces the planes as soon as depth is known at a share of at least `leastKnown` of the pixels
+/// around the objects. The surface is measured again if at least `leastInterval` [s] have passed
+/// and the camera has moved around the objects by the angle `turn` [rad].
 struct CatcherRule {
     int settling = 12;
     double leastKnown = 0.7;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 namespace mfar {
@@ -75,20 +76,25 @@ public:
                    ? 1 / static_cast<double>(field_.inverseDepth[i])
                    : 0;
     }
+    /// Returns the measured point, moved onto the nearest plane from which it cannot be
+    /// distinguished.
     [[nodiscard]] Eigen::Vector3d point(int x, int y) const {
         const double z = depth(x, y);
         const Eigen::Vector2d ray = video_.unproject({x, y});
         const Eigen::Vector3d direction = eye_.rotation * ray.homogeneous();
         const Eigen::Vector3d& eye = eye_.translation;
-        Eigen::Vector3d p = eye + z * direction;
+        const Eigen::Vector3d measured = eye + z * direction;
+        Eigen::Vector3d p = measured;
         const double sigma = z * z * std::sqrt(static_cast<double>(field_.variance[pixel(x, y)]));
+        double off = std::numeric_limits<double>::infinity();
         for (const Plane& plane : planes_) {
             const double fall = -plane.normal().dot(direction);
             if (!(std::abs(fall) > 1e-6)) continue;
-            const double zOnPlane = plane.signedDistance(eye) / fall;
-            const bool isPlane =
-                std::abs(zOnPlane - z) < 3 * sigma || plane.absDistance(p) < kPlaneSlack;
-            if (isPlane && zOnPlane > 0) return eye + zOnPlane * direction;
+            const double zOnPlane = plane.signedDistance(eye) / fall, away = std::abs(zOnPlane - z);
+            if (!(zOnPlane > 0 && away < off)) continue;
+            if (away >= 3 * sigma && plane.absDistance(measured) >= kPlaneSlack) continue;
+            off = away;
+            p = eye + zOnPlane * direction;
         }
         return p;
     }
@@ -106,15 +112,6 @@ private:
     std::vector<Plane> planes_;
 };
 
-Eigen::AlignedBox3d boundsIn(const RigidTransform& T_frame_world, const SceneObject& object) {
-    const RigidTransform T = T_frame_world * object.T_world_object;
-    Eigen::AlignedBox3d box;
-    for (const Mesh& mesh : object.model->meshes)
-        for (const Eigen::Vector3f& p : mesh.positions)
-            box.extend(T * (object.scale * p).cast<double>());
-    return box;
-}
-
 /// True if the ground hardly differs from the plane below and around `objects`, which are bounds in
 /// the ground's frame.
 bool isSamePlane(const RigidTransform& T_plane_ground, const Eigen::AlignedBox3d& objects) {
@@ -130,13 +127,6 @@ bool isSamePlane(const RigidTransform& T_plane_ground, const Eigen::AlignedBox3d
 }
 
 }  // namespace
-
-Eigen::AlignedBox3d boundsOf(const Scene& scene) {
-    Eigen::AlignedBox3d box;
-    for (const SceneObject& object : scene.objects)
-        box.extend(boundsIn({}, object));
-    return box;
-}
 
 std::vector<GroundPlane> groundPlanes(const Scene& scene) {
     const double reach = glowReach(scene) * kShadowReach;

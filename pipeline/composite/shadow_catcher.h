@@ -1,7 +1,7 @@
 #pragma once
 
 #include "pipeline/depth/inverse_depth_field.h"
-#include "pipeline/scene/scene.h"
+#include "pipeline/scene/scene_bounds.h"
 
 #include <Eigen/Geometry>
 
@@ -9,10 +9,6 @@
 #include <vector>
 
 namespace mfar {
-
-/// Returns the bounds of all objects in world coordinates. They are empty if the scene has no
-/// vertex.
-[[nodiscard]] Eigen::AlignedBox3d boundsOf(const Scene& scene);
 
 /// Shadows are expected up to this distance from the objects' bounding box, in units of half the
 /// box's diagonal. Light of glowing objects is expected glowReach() times as far.

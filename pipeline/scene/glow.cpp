@@ -1,5 +1,7 @@
 #include "pipeline/scene/glow.h"
 
+#include "pipeline/scene/scene_bounds.h"
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -35,16 +37,6 @@ double intensityOf(const SceneObject& object) {
     return sum * object.scale * object.scale;
 }
 
-/// Returns half of the diagonal of the objects' bounding box [m].
-double radiusOf(const Scene& scene) {
-    Eigen::AlignedBox3d box;
-    for (const SceneObject& object : scene.objects)
-        for (const Mesh& mesh : object.model->meshes)
-            for (const Eigen::Vector3f& p : mesh.positions)
-                box.extend(object.T_world_object * (object.scale * p).cast<double>());
-    return box.isEmpty() ? 0 : 0.5 * box.diagonal().norm();
-}
-
 /// Returns the irradiance that the distant light gives a surface on average.
 double irradianceOf(const Lighting& lighting) {
     double sum = lighting.sun ? luminance(lighting.sun->irradiance) : 0;
@@ -69,8 +61,9 @@ double glowReach(const Scene& scene) {
         intensity += intensityOf(object);
     if (!(intensity > 0)) return 1;
     const double seen = std::sqrt(intensity / (kVisible * irradianceOf(scene.lighting)));
-    // Shadows are expected up to one radius around the objects' box, which is two from its centre.
-    const double reach = seen / (2 * radiusOf(scene));
+    // Shadows are expected up to half a diagonal around the objects' box: a diagonal from its
+    // centre.
+    const double reach = seen / boundsOf(scene).diagonal().norm();
     return reach >= 1 ? std::min(reach, kMostGlowReach) : 1;
 }
 

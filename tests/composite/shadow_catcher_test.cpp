@@ -218,5 +218,20 @@ TEST(ShadowCatcher, NoisyDepthOfAWallGivesAFlatShadowCatcher) {
     EXPECT_LT(off, static_cast<long>(c.positions.size()) / 50);
 }
 
+TEST(ShadowCatcher, PointsThatFitTwoPlanesLieOnTheNearest) {
+    const RigidTransform box{{1, 0, 0, 0}, {0, 0, 0.03}};
+    const std::vector<GroundPlane> planes = {{{}, kThing}, {box, kThing}};
+    const InverseDepthField field =
+        fieldOf([](int x, int y) { return depthOfPlane(x, y, x < 80 ? 0.002 : 0.028); }, 0.1);
+    const ShadowCatcher c = depthCatcher(field, kLens, eyeAbove(), kAll, planes);
+    const auto count = [&](float height) {
+        return std::ranges::count_if(
+            c.positions, [&](const auto& p) { return std::abs(p.z() - height) < 1e-5F; });
+    };
+    EXPECT_GT(count(0), 100);
+    EXPECT_GT(count(0.03F), 100);
+    EXPECT_EQ(count(0) + count(0.03F), static_cast<long>(c.positions.size()));
+}
+
 }  // namespace
 }  // namespace mfar
