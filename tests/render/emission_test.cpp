@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <utility>
 
 namespace mfar {
 namespace {
@@ -172,74 +173,87 @@ SurfaceTexture spotTexture() {
     return out;
 }
 
-std::vector<Case> lampCases() {
-    std::vector<Case> out;
-    const RenderView shown = closeUp({0, -2, 1}, {0, 0, 0});
-    const auto add = [&](const char* name, const RenderView& view,
-                         const std::function<void(Scene&)>& change) {
+class LampCases {
+public:
+    /// Adds a lamp over a ground, with the given change.
+    void add(const char* name, const RenderView& view, const std::function<void(Scene&)>& change) {
         auto scene = lampOverGround(0.4F, 0.8F, {3, 2, 1});
         scene->lighting.environment = unevenLight();
         change(*scene);
-        out.push_back({name, scene, view});
-    };
-    const auto withFloor = [](Scene& scene, const Material& material) {
-        // The approximate light of an environment has an error that depends on the number of
-        // samples.
-        scene.lighting.environment = nullptr;
-        scene.catcher = {};
-        scene.objects.push_back(objectOf(modelOf(square(3, 0), material)));
-    };
-    add("ground", ofGround({0.3, 0, 0}), [](Scene&) {});
-    for (const float roughness : {0.15F, 0.4F, 1.0F})
-        for (const float metallic : {0.0F, 0.9F})
-            add(roughness < 0.3F ? "shiny floor" : "rough floor", shown,
-                [&](Scene& s) { withFloor(s, grey(0.7F, metallic, roughness)); });
-    add("partly hidden lamp", ofGround({0.3, 0, 0}), [](Scene& s) {
-        s.objects.push_back(objectOf(modelOf(moved(square(0.2F, 0.4F), {0.1F, 0, 0}), grey(0.5F))));
-    });
-    add("textured lamp", ofGround({0.3, 0, 0}), [](Scene& s) {
-        Model model = *s.objects[0].model;
+        cases_.push_back({name, scene, view});
+    }
+    /// Adds a lamp whose model is changed.
+    void addLamp(const char* name, const std::function<void(Model&)>& change) {
+        add(name, ofGround({0.3, 0, 0}), [&](Scene& s) { changeLamp(s, change); });
+    }
+    static void changeLamp(Scene& scene, const std::function<void(Model&)>& change) {
+        Model model = *scene.objects[0].model;
+        change(model);
+        scene.objects[0] = objectOf(model);
+    }
+    [[nodiscard]] std::vector<Case> take() { return std::move(cases_); }
+
+private:
+    std::vector<Case> cases_;
+};
+
+void turnRound(Mesh& mesh) {
+    for (auto& t : mesh.triangles)
+        std::swap(t[1], t[2]);
+}
+
+void addLamps(LampCases& cases) {
+    cases.addLamp("textured lamp", [](Model& model) {
         model.textures = {spotTexture()};
         model.materials[0].emissionTexture = 0;
         model.materials[0].emission *= 10;
-        s.objects[0] = objectOf(model);
     });
-    add("lamp with holes", ofGround({0.3, 0, 0}), [](Scene& s) {
-        Model model = *s.objects[0].model;
+    cases.addLamp("lamp with holes", [](Model& model) {
         model.textures = {{{2, 1}, false, {{0, 0, 0, 255}, {0, 0, 0, 0}}}};
         model.materials[0].baseColourTexture = 0;
         model.materials[0].alphaCutoff = 0.5F;
-        s.objects[0] = objectOf(model);
     });
-    add("lamp of two layers", ofGround({0.3, 0, 0}), [](Scene& s) {
-        Model model = *s.objects[0].model;
+    cases.addLamp("lamp of two layers", [](Model& model) {
         model.meshes.push_back(model.meshes[0]);
-        for (auto& t : model.meshes.back().triangles)
-            std::swap(t[1], t[2]);
-        s.objects[0] = objectOf(model);
+        turnRound(model.meshes.back());
     });
-    add("double-sided lamp seen from its back", ofGround({0.3, 0, 0}), [](Scene& s) {
-        Model model = *s.objects[0].model;
+    cases.addLamp("double-sided lamp seen from its back", [](Model& model) {
         model.materials[0].doubleSided = true;
-        for (auto& t : model.meshes[0].triangles)
-            std::swap(t[1], t[2]);
-        s.objects[0] = objectOf(model);
+        turnRound(model.meshes[0]);
     });
-    add("two lamps", ofGround({0.3, 0, 0}), [](Scene& s) {
-        Model model = modelOf(sphere({1.5F, 0, 0.5F}, 0.3F, 16), lampOf({0, 1, 8}));
-        s.objects.push_back(objectOf(model));
+    cases.add("two lamps", ofGround({0.3, 0, 0}), [](Scene& s) {
+        const Mesh ball = sphere({1.5F, 0, 0.5F}, 0.3F, 16);
+        s.objects.push_back(objectOf(modelOf(ball, lampOf({0, 1, 8}))));
     });
-    add("ground hides half of a lamp", ofGround({0.4, 0, 0}), [](Scene& s) {
+    cases.add("ground hides half of a lamp", ofGround({0.4, 0, 0}), [](Scene& s) {
         s.objects[0] = objectOf(modelOf(sphere({0, 0, 0}, 0.3F, 24), lampOf({3, 2, 1})));
     });
-    add("lamp that reflects", shown, [&](Scene& s) {
-        withFloor(s, grey(0.8F));
-        Model model = *s.objects[0].model;
-        model.materials[0].baseColour = {0.9F, 0.9F, 0.9F, 1};
-        s.objects[0] = objectOf(model);
+}
+
+void addFloor(Scene& scene, const Material& material) {
+    // The approximate light of an environment has an error that depends on the number of samples.
+    scene.lighting.environment = nullptr;
+    scene.catcher = {};
+    scene.objects.push_back(objectOf(modelOf(square(3, 0), material)));
+}
+
+void addSurfaces(LampCases& cases) {
+    const RenderView shown = closeUp({0, -2, 1}, {0, 0, 0});
+    cases.add("ground", ofGround({0.3, 0, 0}), [](Scene&) {});
+    for (const float roughness : {0.15F, 0.4F, 1.0F})
+        for (const float metallic : {0.0F, 0.9F})
+            cases.add(roughness < 0.3F ? "shiny floor" : "rough floor", shown,
+                      [&](Scene& s) { addFloor(s, grey(0.7F, metallic, roughness)); });
+    cases.add("partly hidden lamp", ofGround({0.3, 0, 0}), [](Scene& s) {
+        s.objects.push_back(objectOf(modelOf(moved(square(0.2F, 0.4F), {0.1F, 0, 0}), grey(0.5F))));
     });
-    add("surface in a corner of the lamp", closeUp({0, -2, 1}, {0, 0.49, 0}), [&](Scene& s) {
-        withFloor(s, grey(0.8F));
+    cases.add("lamp that reflects", shown, [](Scene& s) {
+        addFloor(s, grey(0.8F));
+        LampCases::changeLamp(
+            s, [](Model& model) { model.materials[0].baseColour = {0.9F, 0.9F, 0.9F, 1}; });
+    });
+    cases.add("surface in a corner of the lamp", closeUp({0, -2, 1}, {0, 0.49, 0}), [](Scene& s) {
+        addFloor(s, grey(0.8F));
         Mesh wall = square(0.5F, 0);
         for (auto& p : wall.positions)
             p = {p.x(), 0.5F, p.y() + 0.5F};
@@ -247,7 +261,13 @@ std::vector<Case> lampCases() {
         lamp.doubleSided = true;
         s.objects[0] = objectOf(modelOf(wall, lamp));
     });
-    return out;
+}
+
+std::vector<Case> lampCases() {
+    LampCases cases;
+    addSurfaces(cases);
+    addLamps(cases);
+    return cases.take();
 }
 
 // Paths that find lamps by chance use none of the code that draws triangles.
