@@ -13,14 +13,6 @@ namespace {
 
 using namespace render_scenes;
 
-Material lampOf(const Eigen::Vector3f& emission) {
-    Material out;
-    out.baseColour = {0, 0, 0, 1};
-    out.metallic = 0;
-    out.emission = emission;
-    return out;
-}
-
 Material grey(float albedo, float metallic = 0, float roughness = 1) {
     Material out;
     out.baseColour << Eigen::Vector3f::Constant(albedo), 1;

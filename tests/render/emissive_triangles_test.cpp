@@ -14,14 +14,6 @@ using namespace render_scenes;
 
 constexpr float kPi = std::numbers::pi_v<float>;
 
-Material glowing(const Eigen::Vector3f& emission) {
-    Material out;
-    out.baseColour = {0, 0, 0, 1};
-    out.metallic = 0;
-    out.emission = emission;
-    return out;
-}
-
 std::shared_ptr<const Scene> sceneOf(Model model) {
     auto out = std::make_shared<Scene>();
     out->objects.push_back(objectOf(std::move(model)));
@@ -36,7 +28,7 @@ EmissiveTriangles::Sample sampleOf(const EmissiveTriangles& emitters, const Eige
 
 // The mean of 1 / density over the samples is the solid angle that they cover.
 TEST(EmissiveTriangles, DensityIsThatOfTheSampledDirections) {
-    const TracedScene scene(sceneOf(modelOf(square(1, 0), glowing({1, 1, 1}))), 1);
+    const TracedScene scene(sceneOf(modelOf(square(1, 0), lampOf({1, 1, 1}))), 1);
     const EmissiveTriangles emitters(scene);
     ASSERT_FALSE(emitters.dark());
     for (const float height : {0.5F, 3.0F}) {
@@ -56,7 +48,7 @@ TEST(EmissiveTriangles, DensityIsThatOfTheSampledDirections) {
 
 TEST(EmissiveTriangles, RaysFindTheDensityOfTheSample) {
     for (const bool doubleSided : {false, true}) {
-        Model model = modelOf(sphere({0, 0, 0}, 0.5F, 12), glowing({1, 2, 3}));
+        Model model = modelOf(sphere({0, 0, 0}, 0.5F, 12), lampOf({1, 2, 3}));
         model.materials[0].doubleSided = doubleSided;
         const TracedScene scene(sceneOf(std::move(model)), 1);
         const EmissiveTriangles emitters(scene);
@@ -80,7 +72,7 @@ TEST(EmissiveTriangles, RaysFindTheDensityOfTheSample) {
 TEST(EmissiveTriangles, ProbabilityIsProportionalToPower) {
     // Three squares emit: areas 4, 4 and 16, luminances 1, 3 and 0.2126.
     Model model;
-    model.materials = {glowing({1, 1, 1}), glowing({3, 3, 3}), glowing({1, 0, 0}), Material{}};
+    model.materials = {lampOf({1, 1, 1}), lampOf({3, 3, 3}), lampOf({1, 0, 0}), Material{}};
     for (int i = 0; i < 4; ++i) {
         model.meshes.push_back(square(i == 2 ? 2 : 1, static_cast<float>(i)));
         model.meshes.back().material = i;
@@ -98,7 +90,7 @@ TEST(EmissiveTriangles, ProbabilityIsProportionalToPower) {
 
 TEST(EmissiveTriangles, PowerOfATexturedTriangleIsThatOfItsMeanTexel) {
     // The left square shows the texture's white texel, the right one only the black one.
-    Material lamp = glowing({1, 1, 1});
+    Material lamp = lampOf({1, 1, 1});
     lamp.emissionTexture = 0;
     Model model;
     model.materials = {lamp};
@@ -127,20 +119,20 @@ TEST(EmissiveTriangles, TrianglesWithoutAreaOrEmissionAreNotDrawn) {
     mesh.positions.push_back({0, 0, 0});
     mesh.triangles.push_back({4, 4, 4});
     mesh.triangles.push_back({0, 4, 2});
-    Model model = modelOf(mesh, glowing({1, 1, 1}));
+    Model model = modelOf(mesh, lampOf({1, 1, 1}));
     const TracedScene scene(sceneOf(model), 1);
     const EmissiveTriangles emitters(scene);
     for (std::uint32_t i = 0; i < 1000; ++i)
         EXPECT_LT(sampleOf(emitters, {0, 0, 1}, i).point.triangle, 2U);
     mesh.triangles.erase(mesh.triangles.begin(), mesh.triangles.begin() + 2);
-    const TracedScene flat(sceneOf(modelOf(mesh, glowing({1, 1, 1}))), 1);
+    const TracedScene flat(sceneOf(modelOf(mesh, lampOf({1, 1, 1}))), 1);
     EXPECT_TRUE(EmissiveTriangles(flat).dark());
     const TracedScene black(sceneOf(modelOf(square(1, 0), {})), 1);
     EXPECT_TRUE(EmissiveTriangles(black).dark());
 }
 
 TEST(EmissiveTriangles, PointsOnTheTrianglesPlaneAreNotSampled) {
-    const TracedScene scene(sceneOf(modelOf(square(1, 0), glowing({1, 1, 1}))), 1);
+    const TracedScene scene(sceneOf(modelOf(square(1, 0), lampOf({1, 1, 1}))), 1);
     const EmissiveTriangles emitters(scene);
     for (const Eigen::Vector3f& from :
          {Eigen::Vector3f(3, 0, 0), Eigen::Vector3f(0.2F, 0.1F, 0), Eigen::Vector3f(1, 1, 0)})
@@ -152,7 +144,7 @@ TEST(EmissiveTriangles, BrightTinyAndFaintTrianglesHaveFiniteDensities) {
     for (const float side : {1e-18F, 1e-6F, 1e3F, 1e15F})
         for (const float emission : {1e-38F, 1e-6F, 1e38F}) {
             const TracedScene scene(
-                sceneOf(modelOf(square(side, 1), glowing(Eigen::Vector3f::Constant(emission)))), 1);
+                sceneOf(modelOf(square(side, 1), lampOf(Eigen::Vector3f::Constant(emission)))), 1);
             const EmissiveTriangles emitters(scene);
             if (emitters.dark()) continue;
             for (std::uint32_t i = 0; i < 50; ++i) {

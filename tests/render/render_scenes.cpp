@@ -31,6 +31,14 @@ Mesh sphere(const Eigen::Vector3f& centre, float radius, int rings) {
     return out;
 }
 
+Material lampOf(const Eigen::Vector3f& emission) {
+    Material out;
+    out.baseColour = {0, 0, 0, 1};
+    out.metallic = 0;
+    out.emission = emission;
+    return out;
+}
+
 Mesh square(float side, float z) {
     Mesh out;
     out.positions = {{-side, -side, z}, {side, -side, z}, {side, side, z}, {-side, side, z}};
