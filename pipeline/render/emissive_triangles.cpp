@@ -1,6 +1,6 @@
 #include "pipeline/render/emissive_triangles.h"
 
-#include "pipeline/render/luminance.h"
+#include "base/luminance.h"
 
 #include <algorithm>
 #include <cmath>

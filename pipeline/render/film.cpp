@@ -1,6 +1,6 @@
 #include "pipeline/render/film.h"
 
-#include "pipeline/render/luminance.h"
+#include "base/luminance.h"
 #include "pipeline/render/sampling_order.h"
 
 #include <algorithm>
@@ -346,8 +346,6 @@ void Film::remember(std::size_t pixel, const LightPixel& light) {
 }
 
 LightPixel Film::light(std::size_t pixel, const Exposure& exposure) const {
-    // The variance of fewer samples is reported as unknown.
-    constexpr float kFew = 4;
     // Noise up to this limit is invisible [grey levels].
     constexpr float kUnseen = 0.3F;
     const Pixel& p = at(pixel);
@@ -360,7 +358,7 @@ LightPixel Film::light(std::size_t pixel, const Exposure& exposure) const {
     const bool isCatcher = hit.id == kCatcherId;
     const KnownLight known = knownOf(isCatcher ? p.catcher : p.object, p.carried);
     const auto varianceOf = [](const Eigen::Vector3f& mean, float square, float count) {
-        return count < kFew ? -1 : squared(deviationOf(mean, square, count));
+        return count < LightPixel::kFew ? -1 : squared(deviationOf(mean, square, count));
     };
     out.first = known.first.array();
     out.second = known.second.array();

@@ -1,5 +1,5 @@
+#include "base/luminance.h"
 #include "pipeline/render/film.h"
-#include "pipeline/render/luminance.h"
 
 #include <algorithm>
 #include <cmath>

@@ -21,11 +21,11 @@ constexpr int kSpreadReach = 2, kSpreadStep = 4;
 constexpr float kSurely = 4;
 // A difference of more than this many standard errors is not noise.
 constexpr float kTolerance = 2.5F;
-// A sample of the shadow catcher shows either no change or a large one. So with fewer than kFew
-// samples, the lit and the shaded pixels of a penumbra would not be averaged, and it would have
-// spots. There the levels up to this distance, which is that of sparse samples, tolerate more.
+// A sample of the shadow catcher shows either no change or a large one. So with few samples, the
+// lit and the shaded pixels of a penumbra would not be averaged, and it would have spots. There the
+// levels up to this distance, which is that of sparse samples, tolerate more.
 constexpr int kSparseStep = 4;
-constexpr float kFew = 4, kSparseTolerance = 5;
+constexpr float kSparseTolerance = 5;
 constexpr float kLeastVariance = 1e-7F;  // (a tenth of a grey level)^2 at white
 // Upper limit of the relative change of depth per pixel on one surface.
 constexpr float kDepthSlope = 0.01F;
@@ -193,7 +193,7 @@ void NoiseFilter::filter(int step, std::span<const LightPixel> from, std::span<L
     }
     to[i] = centre;
     if (centre.kept) return;
-    const bool isSparse = centre.id == kCatcherId && centre.firstCount < kFew;
+    const bool isSparse = centre.id == kCatcherId && centre.firstCount < LightPixel::kFew;
     const float tolerance = isSparse && step <= kSparseStep ? kSparseTolerance : kTolerance;
     LightMean first(centre.first, centre.firstVariance, centre.firstCount, tolerance);
     LightMean second(centre.second, centre.secondVariance, centre.secondCount, tolerance);

@@ -14,6 +14,8 @@ namespace mfar {
 /// Variances are of the luminance; a negative variance is unknown. Counts are numbers of samples.
 struct LightPixel {
     Eigen::Array3f first{0, 0, 0}, second{0, 0, 0};
+    /// With fewer samples, the variance counts as unknown.
+    static constexpr float kFew = 4;
     float firstVariance = 0, secondVariance = 0;
     float firstCount = 0, secondCount = 0;
     Eigen::Array3f normal{0, 0, 0};  ///< surface normal, unit length

@@ -1,6 +1,6 @@
 #include "pipeline/render/path_integrator.h"
 
-#include "pipeline/render/luminance.h"
+#include "base/luminance.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,6 @@
 #include "pipeline/scene/glow.h"
 
+#include "base/luminance.h"
 #include "pipeline/scene/scene_bounds.h"
 
 #include <Eigen/Geometry>
@@ -14,10 +15,6 @@ namespace {
 
 constexpr double kVisible = 0.005;
 
-double luminance(const Eigen::Vector3f& rgb) {
-    return rgb.cast<double>().dot(Eigen::Vector3d(0.2126, 0.7152, 0.0722));
-}
-
 /// Returns the sum of area times radiance of the model's triangles, without emission textures,
 /// which can only make it smaller [W/sr].
 double intensityOf(const SceneObject& object) {
@@ -25,7 +22,7 @@ double intensityOf(const SceneObject& object) {
     for (const Mesh& mesh : object.model->meshes) {
         const auto material = static_cast<std::size_t>(mesh.material);
         if (material >= object.model->materials.size()) continue;
-        const double radiance = luminance(object.model->materials[material].emission);
+        const double radiance = luminanceOf<float>(object.model->materials[material].emission);
         if (!(radiance > 0)) continue;
         double area = 0;
         for (const auto& [a, b, c] : mesh.triangles) {
@@ -39,7 +36,7 @@ double intensityOf(const SceneObject& object) {
 
 /// Returns the irradiance that the distant light gives a surface on average.
 double irradianceOf(const Lighting& lighting) {
-    double sum = lighting.sun ? luminance(lighting.sun->irradiance) : 0;
+    double sum = lighting.sun ? luminanceOf<float>(lighting.sun->irradiance) : 0;
     if (!lighting.environment) return sum;
     const auto& [size, radiance] = *lighting.environment;
     double light = 0, weights = 0;
@@ -47,7 +44,7 @@ double irradianceOf(const Lighting& lighting) {
         const double weight = std::sin((y + 0.5) / size.height * std::numbers::pi);
         const std::size_t row = static_cast<std::size_t>(y) * size.width;
         for (int x = 0; x < size.width; ++x)
-            light += weight * luminance(radiance[row + x]);
+            light += weight * luminanceOf<float>(radiance[row + x]);
         weights += weight * size.width;
     }
     return weights > 0 ? sum + std::numbers::pi * light / weights : sum;
