@@ -143,10 +143,18 @@ Eigen::Vector3f EnvironmentLight::radiance(const Eigen::Vector3f& direction) con
 }
 
 float EnvironmentLight::density(const Eigen::Vector3f& direction) const {
-    if (!sampled_) return 0;
-    const Eigen::Vector2f at = place(direction);
+    return sampled_ ? densityAt(place(direction)) : 0;
+}
+
+float EnvironmentLight::densityAt(const Eigen::Vector2f& at) const {
     return density(std::clamp(static_cast<int>(at.x()), 0, size_.width - 1),
                    std::clamp(static_cast<int>(at.y()), 0, size_.height - 1));
+}
+
+EnvironmentLight::Seen EnvironmentLight::seen(const Eigen::Vector3f& direction) const {
+    if (dark_) return {};
+    const Eigen::Vector2f at = place(direction);
+    return {interpolated(at), sampled_ ? densityAt(at) : 0};
 }
 
 }  // namespace mfar

@@ -23,11 +23,18 @@ public:
     [[nodiscard]] LightSample sample(const Eigen::Vector2f& u) const;
     [[nodiscard]] Eigen::Vector3f radiance(const Eigen::Vector3f& direction) const;
     [[nodiscard]] float density(const Eigen::Vector3f& direction) const;
+    struct Seen {
+        Eigen::Vector3f radiance{0, 0, 0};
+        float density = 0;
+    };
+    /// Returns radiance() and density(). Takes less time than both.
+    [[nodiscard]] Seen seen(const Eigen::Vector3f& direction) const;
 
 private:
     /// Converts a direction to a position in the picture [texels]. (0, 0) is the picture's corner.
     [[nodiscard]] Eigen::Vector2f place(const Eigen::Vector3f& direction) const;
     [[nodiscard]] Eigen::Vector3f interpolated(const Eigen::Vector2f& at) const;
+    [[nodiscard]] float densityAt(const Eigen::Vector2f& at) const;
     [[nodiscard]] float density(int column, int row) const;
     [[nodiscard]] float meanBrightness(int column, int row) const;
     [[nodiscard]] float heightOf(int row) const { return tops_[static_cast<std::size_t>(row)]; }

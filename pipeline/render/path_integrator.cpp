@@ -82,13 +82,16 @@ struct PathIntegrator::World {
     }
 };
 
+/// A surface point of a path. `wo` is the direction to the point before it.
 struct PathIntegrator::Vertex {
-    const SurfacePoint& point;
+    SurfacePoint point;
+    Eigen::Vector3f wo;
     Eigen::Matrix3f frame;
     SurfaceScatter scatter;
 
-    Vertex(const SurfacePoint& p, const Eigen::Vector3f& wo)
-        : point(p), frame(frameAround(p.shading)), scatter(p.look, frame.transpose() * wo) {}
+    Vertex(const SurfacePoint& p, const Eigen::Vector3f& towards)
+        : point(p), wo(towards), frame(frameAround(p.shading)),
+          scatter(p.look, frame.transpose() * towards) {}
 
     /// True if the triangle faces `direction`. The shading normal may face another side.
     [[nodiscard]] bool faces(const Eigen::Vector3f& direction) const {
@@ -115,6 +118,10 @@ struct PathIntegrator::Carried {
     }
 };
 
+struct PathIntegrator::Lights {
+    SampledLight sun, environment;
+};
+
 PathIntegrator::PathIntegrator(const TracedScene& scene, const PathTracerOptions& options)
     : scene_(scene), options_(options), sun_(scene.scene().lighting.sun),
       sunIsKnown_(sun_.angularRadius() <= kWidestKnownSun),
@@ -123,42 +130,48 @@ PathIntegrator::PathIntegrator(const TracedScene& scene, const PathTracerOptions
       far_(environment_, scene.scene().lighting, scene.scene().catcher),
       leastFar_(std::max(kLeastFarShare * far_.brightness(), kLeastFar)) {}
 
+PathIntegrator::Lights PathIntegrator::sampledLights(const PixelSampler& sampler,
+                                                     std::uint32_t pair) const {
+    Lights out;
+    if (!sun_.dark()) {
+        const LightSample light = sun_.sample(sampler.pair(pair + kSunPair));
+        const Eigen::Vector3f far = sunIsKnown_ ? light.radiance : Eigen::Vector3f(0, 0, 0);
+        out.sun = {light, far, powerWeight, {}};
+    }
+    if (environment_.sampled()) {
+        const LightSample light = environment_.sample(sampler.pair(pair + kEnvironmentPair));
+        out.environment = {
+            light, far_.radiance(light.direction, light.radiance), balanceWeight, {}};
+    }
+    return out;
+}
+
 PathIntegrator::Arrived PathIntegrator::lit(const Vertex& vertex, Lobes lobes,
-                                            const LightSample& light, const Eigen::Vector3f& far,
-                                            Weight weight, World& world) {
+                                            SampledLight& sampled, World& world) {
+    const LightSample& light = sampled.light;
     if (!(light.density > 0)) return {};
     const ScatterValue f =
         vertex.scatter.evaluate(vertex.frame.transpose() * light.direction, lobes);
     if (!(f.density > 0)) return {};
-    const float share = weight(light.density, f.density) / light.density;
+    const float share = sampled.weight(light.density, f.density) / light.density;
     const auto sent = [&](const Eigen::Vector3f& radiance) {
         return Sent{f.value.cwiseProduct(radiance) * share, radiance * (f.white * share)};
     };
+    if (!sampled.reaches)
+        sampled.reaches =
+            vertex.faces(light.direction) && !world.blocked(vertex.point.leaving(light.direction));
     Arrived out;
-    out.unblocked = sent(far);
-    if (vertex.faces(light.direction) && !world.blocked(vertex.point.leaving(light.direction)))
-        out.light = sent(light.radiance);
+    out.unblocked = sent(sampled.far);
+    if (*sampled.reaches) out.light = sent(light.radiance);
     return out;
 }
 
-PathIntegrator::Arrived PathIntegrator::direct(const Vertex& vertex, Lobes lobes,
-                                               const PixelSampler& sampler, std::uint32_t pair,
-                                               World& world) const {
-    Arrived sum;
-    const auto add = [&](const Arrived& arrived) {
-        sum.light += arrived.light;
-        sum.unblocked += arrived.unblocked;
-    };
-    if (!sun_.dark()) {
-        const LightSample light = sun_.sample(sampler.pair(pair + kSunPair));
-        const Eigen::Vector3f far = sunIsKnown_ ? light.radiance : Eigen::Vector3f(0, 0, 0);
-        add(lit(vertex, lobes, light, far, powerWeight, world));
-    }
-    if (environment_.sampled()) {
-        const LightSample light = environment_.sample(sampler.pair(pair + kEnvironmentPair));
-        add(lit(vertex, lobes, light, far_.radiance(light.direction, light.radiance), balanceWeight,
-                world));
-    }
+PathIntegrator::Arrived PathIntegrator::direct(const Vertex& vertex, Lobes lobes, Lights& lights,
+                                               World& world) {
+    Arrived sum = lit(vertex, lobes, lights.sun, world);
+    const Arrived sky = lit(vertex, lobes, lights.environment, world);
+    sum.light += sky.light;
+    sum.unblocked += sky.unblocked;
     return sum;
 }
 
@@ -185,29 +198,27 @@ PathIntegrator::Escaped PathIntegrator::escaped(const Eigen::Vector3f& direction
     if (const float other = sun_.density(direction); other > 0)
         sum.light = sun_.radiance(direction) * powerWeight(density, other);
     if (sunIsKnown_) sum.far = sum.light;
-    const Eigen::Vector3f sky =
-        environment_.dark() ? Eigen::Vector3f(0, 0, 0) : environment_.radiance(direction);
-    const float weight = balanceWeight(density, environment_.density(direction));
-    sum.light += weight * sky;
-    sum.far += weight * far_.radiance(direction, sky);
+    const EnvironmentLight::Seen sky = environment_.seen(direction);
+    const float weight = balanceWeight(density, sky.density);
+    sum.light += weight * sky.radiance;
+    sum.far += weight * far_.radiance(direction, sky.radiance);
     return sum;
 }
 
-PathIntegrator::Sent PathIntegrator::known(const Vertex& vertex, const Eigen::Vector3f& wo,
-                                           Lobes lobes, bool withSun) const {
-    Sent sum = knownSky(vertex, wo, lobes);
-    if (withSun) sum += knownSun(vertex, wo, lobes);
+PathIntegrator::Sent PathIntegrator::known(const Vertex& vertex, Lobes lobes, bool withSun) const {
+    Sent sum = knownSky(vertex, lobes);
+    if (withSun) sum += knownSun(vertex, lobes);
     return sum;
 }
 
-PathIntegrator::Sent PathIntegrator::knownSky(const Vertex& vertex, const Eigen::Vector3f& wo,
-                                              Lobes lobes) const {
+PathIntegrator::Sent PathIntegrator::knownSky(const Vertex& vertex, Lobes lobes) const {
     if (far_.dark()) return {};
     Sent sum;
     const SurfacePoint& point = vertex.point;
     const Reflectance& share = vertex.scatter.reflectance();
     if (lobes == Lobes::Mirrored) {
-        const Eigen::Vector3f towards = 2 * point.shading.dot(wo) * point.shading - wo;
+        const Eigen::Vector3f towards =
+            2 * point.shading.dot(vertex.wo) * point.shading - vertex.wo;
         sum.radiance = share.mirrored.cwiseProduct(far_.mirrored(towards, point.look.roughness));
     } else {
         const Eigen::Vector3f even = far_.diffuse(point.shading);
@@ -218,8 +229,7 @@ PathIntegrator::Sent PathIntegrator::knownSky(const Vertex& vertex, const Eigen:
     return sum;
 }
 
-PathIntegrator::Sent PathIntegrator::knownSun(const Vertex& vertex, const Eigen::Vector3f& wo,
-                                              Lobes lobes) const {
+PathIntegrator::Sent PathIntegrator::knownSun(const Vertex& vertex, Lobes lobes) const {
     if (sun_.dark()) return {};
     const SurfacePoint& point = vertex.point;
     const Eigen::Vector3f towards = vertex.frame.transpose() * sun_.towards();
@@ -229,7 +239,7 @@ PathIntegrator::Sent PathIntegrator::knownSun(const Vertex& vertex, const Eigen:
     look.roughness = std::max(look.roughness, std::sqrt(sun_.angularRadius()));
     const ScatterValue f =
         lobes == Lobes::Mirrored && look.roughness > point.look.roughness
-            ? SurfaceScatter(look, vertex.frame.transpose() * wo).evaluate(towards, lobes)
+            ? SurfaceScatter(look, vertex.frame.transpose() * vertex.wo).evaluate(towards, lobes)
             : vertex.scatter.evaluate(towards, lobes);
     return {f.value.cwiseProduct(sun_.irradiance()), f.white * sun_.irradiance()};
 }
@@ -253,46 +263,52 @@ bool PathIntegrator::survives(Carried& carried, int depth, const PixelSampler& s
            carried.survives(sampler.pair(pair + kRoulettePair).x());
 }
 
-PathIntegrator::Parts PathIntegrator::walk(SurfacePoint point, Eigen::Vector3f wo, Lobes lobes,
+PathIntegrator::Parts PathIntegrator::walk(const Vertex& begin, Lobes lobes, Lights& lights,
                                            const PixelSampler& sampler, World& world) const {
     Parts out;
     std::uint32_t pair = kCameraPairs + (lobes == Lobes::Mirrored ? kPairsOfPath : 0);
     Carried carried;
+    const Vertex* vertex = &begin;
+    std::optional<Vertex> reached;
     for (int depth = 1;; ++depth, pair += kPairsOfVertex) {
         const bool first = depth == 1, last = depth == options_.maxDepth;
         const Lobes here = first ? lobes : Lobes::Both;
         // The walk with Lobes::Broad already adds the first surface's own emission. Emission of the
         // second surface counts as direct light (depth 1).
         if (!first || lobes != Lobes::Mirrored)
-            out.rest += sent(carried, point.emission, depth - 1);
-        const Vertex vertex(point, wo);
-        const Arrived lit = direct(vertex, here, sampler, pair, world);
-        if (first) out.direct = lit;
-        if (first && lobes != Lobes::Both) out.known = known(vertex, wo, lobes, sunIsKnown_);
-        if (!first) out.rest += sent(carried, lit.light.radiance, depth);
+            out.rest += sent(carried, vertex->point.emission, depth - 1);
+        if (first) {
+            out.direct = direct(*vertex, here, lights, world);
+        } else {
+            Lights own = sampledLights(sampler, pair);
+            out.rest += sent(carried, direct(*vertex, here, own, world).light.radiance, depth);
+        }
         if (!last && !emitters_.dark()) {
-            const Sent light = emitted(vertex, here, sampler, pair, world);
+            const Sent light = emitted(*vertex, here, sampler, pair, world);
             out.rest += first ? light : sent(carried, light.radiance, depth);
         }
         const ScatterSample scattered =
-            vertex.scatter.sample(sampler.pair(pair + kScatterPair), here);
+            vertex->scatter.sample(sampler.pair(pair + kScatterPair), here);
         if (!(scattered.density > 0)) return out;
-        const Eigen::Vector3f direction = vertex.frame * scattered.wi;
+        const Eigen::Vector3f direction = vertex->frame * scattered.wi;
         carried.scatter(scattered, first);
-        if (first)
-            out.direct.unblocked += sent(carried, escaped(direction, scattered.density).far, depth);
-        if (!vertex.faces(direction) || !survives(carried, depth, sampler, pair)) return out;
-        const Ray ray = point.leaving(direction);
+        std::optional<Escaped> sky;
+        if (first) {
+            sky = escaped(direction, scattered.density);
+            out.direct.unblocked += sent(carried, sky->far, depth);
+        }
+        if (!vertex->faces(direction) || !survives(carried, depth, sampler, pair)) return out;
+        const Ray ray = vertex->point.leaving(direction);
         std::optional<SurfacePoint> next;
         // At the last surface, the ray only tests if the lights in the sampled direction are
         // visible. That completes the multiple importance sampling.
         const bool free = last ? !world.blocked(ray) : !(next = world.next(ray, scattered.density));
-        if (free)
-            (first ? out.direct.light : out.rest) +=
-                sent(carried, escaped(direction, scattered.density).light, depth);
+        if (free) {
+            if (!sky) sky = escaped(direction, scattered.density);
+            (first ? out.direct.light : out.rest) += sent(carried, sky->light, depth);
+        }
         if (free || last) return out;
-        point = *next;
-        wo = -direction;
+        vertex = &reached.emplace(*next, -direction);
     }
 }
 
@@ -316,25 +332,39 @@ PathIntegrator::Sent PathIntegrator::sum(const Parts& parts, std::uint32_t numbe
 PathIntegrator::OfObject PathIntegrator::ofObject(const RayHit& hit,
                                                   const Eigen::Vector3f& direction,
                                                   const PixelSampler& sampler) const {
-    const SurfacePoint point = scene_.objectPoint(hit, direction);
-    const Eigen::Vector3f wo = -direction.normalized();
+    const Vertex vertex(scene_.objectPoint(hit, direction), -direction.normalized());
     World all{scene_, emitters_, true};
-    Sent sent = sum(walk(point, wo, Lobes::Broad, sampler, all), sampler.number());
-    if (!point.look.matt)
-        sent += sum(walk(point, wo, Lobes::Mirrored, sampler, all), sampler.number());
+    // Both walks share the lights' samples, so that each needs one ray.
+    Lights lights = sampledLights(sampler, kCameraPairs);
+    Sent sent, known;
+    const auto add = [&](Lobes lobes) {
+        Parts parts = walk(vertex, lobes, lights, sampler, all);
+        parts.known = knownSky(vertex, lobes);
+        const Sent sun = knownSun(vertex, lobes);
+        Sent whole = parts.known;
+        whole += sun;
+        known += whole;
+        if (sunIsKnown_) parts.known = whole;
+        sent += sum(parts, sampler.number());
+    };
+    add(Lobes::Broad);
+    if (!vertex.point.look.matt) add(Lobes::Mirrored);
     sent.radiance = sent.radiance.cwiseMax(0.0F);
     sent.white = sent.white.cwiseMax(0.0F);
-    const Paint paint = point.paint(direction);
-    return {sent.radiance, lightOf(sent.radiance, sent.white, paint), far(point, direction), paint};
+    const Paint paint = vertex.point.paint(direction);
+    return {sent.radiance, lightOf(sent.radiance, sent.white, paint), far(known, paint), paint};
 }
 
 SurfaceLight PathIntegrator::far(const SurfacePoint& point,
                                  const Eigen::Vector3f& direction) const {
-    const Eigen::Vector3f wo = -direction.normalized();
-    const Vertex vertex(point, wo);
-    Sent sent = known(vertex, wo, Lobes::Broad, true);
-    if (!point.look.matt) sent += known(vertex, wo, Lobes::Mirrored, true);
-    SurfaceLight out = lightOf(sent.radiance, sent.white, point.paint(direction));
+    const Vertex vertex(point, -direction.normalized());
+    Sent sent = known(vertex, Lobes::Broad, true);
+    if (!point.look.matt) sent += known(vertex, Lobes::Mirrored, true);
+    return far(sent, point.paint(direction));
+}
+
+SurfaceLight PathIntegrator::far(const Sent& known, const Paint& paint) const {
+    SurfaceLight out = lightOf(known.radiance, known.white, paint);
     out.diffuse = out.diffuse.cwiseMax(leastFar_);
     out.specular = out.specular.cwiseMax(leastFar_);
     return out;
@@ -355,11 +385,11 @@ MirrorLight PathIntegrator::mirrorLight() const {
 PathIntegrator::OfCatcher PathIntegrator::ofCatcher(const RayHit& hit,
                                                     const Eigen::Vector3f& direction,
                                                     const PixelSampler& sampler) const {
-    const SurfacePoint point = scene_.catcherPoint(hit, direction);
-    const Eigen::Vector3f wo = -direction.normalized();
+    const Vertex vertex(scene_.catcherPoint(hit, direction), -direction.normalized());
     World all{scene_, emitters_, true}, real{scene_, emitters_, false};
     const auto radiance = [&](World& world) {
-        const Parts parts = walk(point, wo, Lobes::Both, sampler, world);
+        Lights lights = sampledLights(sampler, kCameraPairs);
+        const Parts parts = walk(vertex, Lobes::Both, lights, sampler, world);
         return Eigen::Vector3f(parts.direct.light.radiance + parts.rest.radiance);
     };
     OfCatcher out;

@@ -9,6 +9,8 @@
 #include "pipeline/render/sun_light.h"
 #include "pipeline/render/traced_scene.h"
 
+#include <optional>
+
 namespace mfar {
 
 /// Number of random pairs that a sample uses before its path begins.
@@ -49,6 +51,7 @@ private:
     struct World;
     struct Vertex;
     struct Carried;
+    struct Lights;
     /// Radiance that leaves the first point of a path. `white` is its diffuse part divided by the
     /// point's paint.
     struct Sent {
@@ -70,17 +73,26 @@ private:
         Sent known;  ///< approximation of direct.unblocked without a ray
         Sent rest;
     };
-    [[nodiscard]] Parts walk(SurfacePoint point, Eigen::Vector3f wo, Lobes lobes,
+    /// `lights` are samples of the lights for `first`.
+    [[nodiscard]] Parts walk(const Vertex& first, Lobes lobes, Lights& lights,
                              const PixelSampler& sampler, World& world) const;
     /// `number` is the index of the sample in its pixel.
     [[nodiscard]] static Sent sum(const Parts& parts, std::uint32_t number);
-    [[nodiscard]] Arrived direct(const Vertex& vertex, Lobes lobes, const PixelSampler& sampler,
-                                 std::uint32_t pair, World& world) const;
     /// Weight in multiple importance sampling. `taken` is the density of the strategy that drew the
     /// sample, `other` the other strategy's density.
     using Weight = float (*)(float taken, float other);
-    [[nodiscard]] static Arrived lit(const Vertex& vertex, Lobes lobes, const LightSample& light,
-                                     const Eigen::Vector3f& far, Weight weight, World& world);
+    /// A sample of the sun or the environment. `far` is FarLight's approximation of its radiance.
+    struct SampledLight {
+        LightSample light;
+        Eigen::Vector3f far{0, 0, 0};
+        Weight weight = nullptr;
+        std::optional<bool> reaches;  ///< nothing blocks it; empty: not yet tested
+    };
+    [[nodiscard]] Lights sampledLights(const PixelSampler& sampler, std::uint32_t pair) const;
+    [[nodiscard]] static Arrived direct(const Vertex& vertex, Lobes lobes, Lights& lights,
+                                        World& world);
+    [[nodiscard]] static Arrived lit(const Vertex& vertex, Lobes lobes, SampledLight& sampled,
+                                     World& world);
     /// Light of a point on an emissive triangle.
     [[nodiscard]] Sent emitted(const Vertex& vertex, Lobes lobes, const PixelSampler& sampler,
                                std::uint32_t pair, World& world) const;
@@ -90,11 +102,11 @@ private:
         Eigen::Vector3f light{0, 0, 0}, far{0, 0, 0};
     };
     /// Approximates the direct light that would arrive if no object existed. Traces no ray.
-    [[nodiscard]] Sent known(const Vertex& vertex, const Eigen::Vector3f& wo, Lobes lobes,
-                             bool withSun) const;
-    [[nodiscard]] Sent knownSky(const Vertex& vertex, const Eigen::Vector3f& wo, Lobes lobes) const;
+    [[nodiscard]] Sent known(const Vertex& vertex, Lobes lobes, bool withSun) const;
+    [[nodiscard]] SurfaceLight far(const Sent& known, const Paint& paint) const;
+    [[nodiscard]] Sent knownSky(const Vertex& vertex, Lobes lobes) const;
     /// Assumes a narrow sun. The error grows with the sun's width.
-    [[nodiscard]] Sent knownSun(const Vertex& vertex, const Eigen::Vector3f& wo, Lobes lobes) const;
+    [[nodiscard]] Sent knownSun(const Vertex& vertex, Lobes lobes) const;
     [[nodiscard]] Escaped escaped(const Eigen::Vector3f& direction, float density) const;
     /// Returns the factor (at most 1) that limits `light` to the firefly clamp. It is 1 for light
     /// on the first surface (`depth` 1).
