@@ -10,10 +10,6 @@
 namespace mfar {
 namespace {
 
-constexpr std::array<float, 2> kSpline = {0.5F, 0.25F};
-// Radius of the kernel [steps]. The paper's radius of two takes twice the time and is not better
-// (measured at 1 to 64 samples).
-constexpr int kReach = 1;
 // An unknown variance is estimated from neighbours kSpreadStep pixels apart, up to kSpreadReach
 // steps away. Sparse sampling covers one pixel in 16, so samples are 4 pixels apart. With fewer
 // than kSurely neighbours, the estimate is raised.
@@ -26,6 +22,7 @@ constexpr float kTolerance = 2.5F;
 // levels up to this distance, which is that of sparse samples, tolerate more.
 constexpr int kSparseStep = 4;
 constexpr float kSparseTolerance = 5;
+constexpr int kBefore = 2;               // number of stages before the first level
 constexpr float kLeastVariance = 1e-7F;  // (a tenth of a grey level)^2 at white
 // Upper limit of the relative change of depth per pixel on one surface.
 constexpr float kDepthSlope = 0.01F;
@@ -33,46 +30,6 @@ constexpr float kDepthSlope = 0.01F;
 float luminanceOf(const Eigen::Array3f& rgb) {
     return 0.2126F * rgb.x() + 0.7152F * rgb.y() + 0.0722F * rgb.z();
 }
-
-/// Returns the eighth power of the cosine between two normals: 1/2 at 24 degrees.
-float bendWeight(const Eigen::Array3f& a, const Eigen::Array3f& b) {
-    const float cosine = std::max(0.0F, (a * b).sum());
-    const float second = cosine * cosine, fourth = second * second;
-    return fourth * fourth;
-}
-
-class LightMean {
-public:
-    LightMean(const Eigen::Array3f& centre, float variance, float count, float tolerance)
-        : centre_(centre), variance_(variance), tolerance_(tolerance), isKnown_(count > 0) {}
-
-    void add(float weight, const Eigen::Array3f& light, float variance, float count) {
-        if (!(count > 0)) return;
-        if (isKnown_) {
-            const float noise = variance_ + variance + kLeastVariance;
-            const float off = luminanceOf(light - centre_);
-            const float likeness = 1 - off * off / (tolerance_ * tolerance_ * noise);
-            if (!(likeness > 0)) return;
-            weight *= likeness * likeness;
-        }
-        sum_ += weight * light;
-        variances_ += weight * weight * variance;
-        weights_ += weight;
-    }
-    void store(Eigen::Array3f& light, float& variance, float& count) const {
-        if (!(weights_ > 0)) return;
-        light = sum_ / weights_;
-        variance = variances_ / (weights_ * weights_);
-        count = std::max(count, 1.0F);
-    }
-
-private:
-    const Eigen::Array3f& centre_;
-    float variance_, tolerance_;
-    bool isKnown_;
-    Eigen::Array3f sum_{0, 0, 0};
-    float variances_ = 0, weights_ = 0;
-};
 
 struct Spread {
     float sum = 0, squares = 0, count = 0;
@@ -102,36 +59,32 @@ void NoiseFilter::begin(Size size, const PixelRect& where) {
     where_ = common(where, {0, 0, size.width, size.height});
     const std::size_t count =
         static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
-    const auto resize = [count](auto& pixels) {
-        if (pixels.size() == count) return;
-        pixels.reserve(count);
-        preferLargePages(pixels.data(), count * sizeof(pixels[0]));
-        pixels.resize(count);
+    const auto resize = [](auto& values, std::size_t wanted) {
+        if (values.size() == wanted) return;
+        values.reserve(wanted);
+        preferLargePages(values.data(), wanted * sizeof(values[0]));
+        values.resize(wanted);
     };
-    resize(pixels_);
-    resize(other_);
-    resize(variances_);
+    resize(pixels_, count);
+    resize(variances_, count);
+    stride_ = count + 2 * simd::kNoiseMargin;
+    resize(values_, kArrays * stride_);
 }
 
 void NoiseFilter::run(int stage, int firstRow, int lastRow) {
-    const int level = stage - 2;
-    for (int y = std::max(firstRow, where_.y0); y < std::min(lastRow, where_.y1); ++y)
-        for (int x = where_.x0; x < where_.x1; ++x) {
-            if (stage == 0)
-                spreadVariance(x, y);
-            else if (stage == 1)
-                meanVariance(x, y);
-            else if (level % 2 == 0)
-                filter(1 << level, pixels_, other_, x, y);
-            else
-                filter(1 << level, other_, pixels_, x, y);
+    for (int y = std::max(firstRow, where_.y0); y < std::min(lastRow, where_.y1); ++y) {
+        if (stage >= kBefore) {
+            filterRow(stage - kBefore, y);
+            continue;
         }
+        for (int x = where_.x0; x < where_.x1; ++x)
+            stage == 0 ? spreadVariance(x, y) : meanVariance(x, y);
+    }
 }
 
 template <class Use>
-void NoiseFilter::forNeighbours(std::span<const LightPixel> pixels, int x, int y, int reach,
-                                int step, Use use) const {
-    const LightPixel& centre = pixels[static_cast<std::size_t>(y) * size_.width + x];
+void NoiseFilter::forNeighbours(int x, int y, int reach, int step, Use use) const {
+    const LightPixel& centre = pixels_[static_cast<std::size_t>(y) * size_.width + x];
     for (int dy = -reach; dy <= reach; ++dy) {
         const int v = y + dy * step;
         if (v < where_.y0 || v >= where_.y1) continue;
@@ -139,11 +92,10 @@ void NoiseFilter::forNeighbours(std::span<const LightPixel> pixels, int x, int y
             const int u = x + dx * step;
             if (u < where_.x0 || u >= where_.x1) continue;
             const std::size_t i = static_cast<std::size_t>(v) * size_.width + u;
-            const LightPixel& there = pixels[i];
+            const LightPixel& there = pixels_[i];
             if (there.id != centre.id) continue;
             const auto away = static_cast<float>(step * std::max(std::abs(dx), std::abs(dy)));
-            if (std::abs(there.depth - centre.depth) <= kDepthSlope * away * centre.depth)
-                use(i, dx, dy);
+            if (std::abs(there.depth - centre.depth) <= kDepthSlope * away * centre.depth) use(i);
         }
     }
 }
@@ -154,7 +106,7 @@ void NoiseFilter::spreadVariance(int x, int y) {
     variances_[i] = {pixel.firstVariance, pixel.secondVariance};
     if (pixel.id == 0 || (pixel.firstVariance >= 0 && pixel.secondVariance >= 0)) return;
     Spread first, second;
-    forNeighbours(pixels_, x, y, kSpreadReach, kSpreadStep, [&](std::size_t j, int, int) {
+    forNeighbours(x, y, kSpreadReach, kSpreadStep, [&](std::size_t j) {
         first.add(pixels_[j].first, pixels_[j].firstCount);
         second.add(pixels_[j].second, pixels_[j].secondCount);
     });
@@ -168,45 +120,86 @@ void NoiseFilter::spreadVariance(int x, int y) {
 
 // Estimates from few samples vary strongly, so neighbours are averaged.
 void NoiseFilter::meanVariance(int x, int y) {
-    LightPixel& pixel = pixels_[static_cast<std::size_t>(y) * size_.width + x];
-    if (pixel.id == 0) return;
-    Variances sum;
-    float firsts = 0, seconds = 0;
-    forNeighbours(pixels_, x, y, 1, 1, [&](std::size_t j, int, int) {
-        const bool first = pixels_[j].firstCount > 0, second = pixels_[j].secondCount > 0;
-        sum.first += first ? variances_[j].first : 0;
-        sum.second += second ? variances_[j].second : 0;
-        firsts += first ? 1 : 0;
-        seconds += second ? 1 : 0;
-    });
-    pixel.firstVariance = firsts > 0 ? sum.first / firsts : 0;
-    pixel.secondVariance = seconds > 0 ? sum.second / seconds : 0;
+    const std::size_t i = static_cast<std::size_t>(y) * size_.width + x;
+    LightPixel& pixel = pixels_[i];
+    if (pixel.id != 0) {
+        Variances sum;
+        float firsts = 0, seconds = 0;
+        forNeighbours(x, y, 1, 1, [&](std::size_t j) {
+            const bool first = pixels_[j].firstCount > 0, second = pixels_[j].secondCount > 0;
+            sum.first += first ? variances_[j].first : 0;
+            sum.second += second ? variances_[j].second : 0;
+            firsts += first ? 1 : 0;
+            seconds += second ? 1 : 0;
+        });
+        pixel.firstVariance = firsts > 0 ? sum.first / firsts : 0;
+        pixel.secondVariance = seconds > 0 ? sum.second / seconds : 0;
+    }
+    pack(i);
 }
 
-void NoiseFilter::filter(int step, std::span<const LightPixel> from, std::span<LightPixel> to,
-                         int x, int y) const {
-    const std::size_t i = static_cast<std::size_t>(y) * size_.width + x;
-    const LightPixel& centre = from[i];
-    if (centre.id == 0) {
-        to[i].id = 0;
-        return;
+void NoiseFilter::pack(std::size_t i) {
+    const LightPixel& pixel = pixels_[i];
+    const bool isEmpty = pixel.id == 0;
+    const auto set = [&](int number, float value) { array(number)[i] = isEmpty ? 0 : value; };
+    for (int c = 0; c < 3; ++c) {
+        set(kFirst + c, pixel.first[c]);
+        set(kSecond + c, pixel.second[c]);
+        set(kNormal + c, pixel.normal[c]);
     }
-    to[i] = centre;
-    if (centre.kept) return;
-    const bool isSparse = centre.id == kCatcherId && centre.firstCount < LightPixel::kFew;
-    const float tolerance = isSparse && step <= kSparseStep ? kSparseTolerance : kTolerance;
-    LightMean first(centre.first, centre.firstVariance, centre.firstCount, tolerance);
-    LightMean second(centre.second, centre.secondVariance, centre.secondCount, tolerance);
-    forNeighbours(from, x, y, kReach, step, [&](std::size_t j, int dx, int dy) {
-        const LightPixel& p = from[j];
-        const float weight = kSpline[std::abs(dx)] * kSpline[std::abs(dy)] *
-                             (j == i ? 1 : bendWeight(centre.normal, p.normal));
-        if (!(weight > 0)) return;
-        first.add(weight, p.first, p.firstVariance, p.firstCount);
-        second.add(weight, p.second, p.secondVariance, p.secondCount);
-    });
-    first.store(to[i].first, to[i].firstVariance, to[i].firstCount);
-    second.store(to[i].second, to[i].secondVariance, to[i].secondCount);
+    set(kFirstVariance, pixel.firstVariance);
+    set(kSecondVariance, pixel.secondVariance);
+    set(kFirstCount, pixel.firstCount);
+    set(kSecondCount, pixel.secondCount);
+    set(kDepth, pixel.depth);
+    set(kId, pixel.id);
+    set(kFixed, pixel.kept ? 1 : 0);
+}
+
+void NoiseFilter::unpack(std::size_t i, int set) {
+    LightPixel& pixel = pixels_[i];
+    if (pixel.id == 0) return;
+    const auto get = [&](int number) { return array(set * kOfSet + number)[i]; };
+    for (int c = 0; c < 3; ++c) {
+        pixel.first[c] = get(kFirst + c);
+        pixel.second[c] = get(kSecond + c);
+    }
+    pixel.firstVariance = get(kFirstVariance);
+    pixel.secondVariance = get(kSecondVariance);
+    pixel.firstCount = get(kFirstCount);
+    pixel.secondCount = get(kSecondCount);
+}
+
+template <class Float>
+std::array<simd::LightPart<Float>, 2> NoiseFilter::parts(int set) {
+    const auto of = [&](int number) -> Float* { return array(set * kOfSet + number); };
+    return {
+        {{{of(kFirst), of(kFirst + 1), of(kFirst + 2)}, of(kFirstVariance), of(kFirstCount)},
+         {{of(kSecond), of(kSecond + 1), of(kSecond + 2)}, of(kSecondVariance), of(kSecondCount)}}};
+}
+
+void NoiseFilter::filterRow(int level, int y) {
+    const int step = 1 << level, from = level % 2, to = 1 - from;
+    simd::filterNoiseRow({.surfaces = {{array(kNormal), array(kNormal + 1), array(kNormal + 2)},
+                                       array(kDepth),
+                                       array(kId),
+                                       array(kFixed)},
+                          .from = parts<const float>(from),
+                          .to = parts<float>(to),
+                          .where = where_,
+                          .width = size_.width,
+                          .y = y},
+                         {.step = step,
+                          .tolerance = kTolerance,
+                          .sparseTolerance = step <= kSparseStep ? kSparseTolerance : kTolerance,
+                          .few = LightPixel::kFew,
+                          .sparseId = kCatcherId,
+                          .leastVariance = kLeastVariance,
+                          .depthSlope = kDepthSlope});
+    if (level + 1 < kLevels) return;
+    const std::size_t row = static_cast<std::size_t>(y) * size_.width;
+    for (int x = where_.x0; x < where_.x1; ++x)
+        unpack(row + static_cast<std::size_t>(x), to);
 }
 
 }  // namespace mfar

@@ -1,9 +1,12 @@
 #pragma once
 
 #include "base/geometry.h"
+#include "pipeline/simd/noise_rows.h"
 
 #include <Eigen/Core>
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -46,9 +49,7 @@ public:
     [[nodiscard]] std::span<LightPixel> pixels() { return pixels_; }
     void run(int stage, int firstRow, int lastRow);
     /// Output, row-major; valid after the last stage.
-    [[nodiscard]] std::span<const LightPixel> filtered() const {
-        return kLevels % 2 == 0 ? pixels_ : other_;
-    }
+    [[nodiscard]] std::span<const LightPixel> filtered() const { return pixels_; }
 
 private:
     struct Variances {
@@ -56,19 +57,34 @@ private:
     };
     void spreadVariance(int x, int y);
     void meanVariance(int x, int y);
-    void filter(int step, std::span<const LightPixel> from, std::span<LightPixel> to, int x,
-                int y) const;
+    void pack(std::size_t pixel);
+    void unpack(std::size_t pixel, int set);
+    void filterRow(int level, int y);
 
-    /// Calls `use(index, dx, dy)` for each neighbour on the same surface, up to `reach` steps of
-    /// `step` pixels away.
+    // The levels work on arrays, one for each value. The arrays of light exist twice: a level reads
+    // one set and writes the other.
+    static constexpr int kFirst = 0, kSecond = 3, kFirstVariance = 6, kSecondVariance = 7,
+                         kFirstCount = 8, kSecondCount = 9, kOfSet = 10;
+    static constexpr int kNormal = 2 * kOfSet, kDepth = kNormal + 3, kId = kNormal + 4,
+                         kFixed = kNormal + 5, kArrays = kNormal + 6;
+    /// Address of the value of pixel 0.
+    [[nodiscard]] float* array(int number) {
+        return values_.data() + static_cast<std::size_t>(number) * stride_ + simd::kNoiseMargin;
+    }
+    template <class Float>
+    [[nodiscard]] std::array<simd::LightPart<Float>, 2> parts(int set);
+
+    /// Calls `use(index)` for each neighbour on the same surface, up to `reach` steps of `step`
+    /// pixels away.
     template <class Use>
-    void forNeighbours(std::span<const LightPixel> pixels, int x, int y, int reach, int step,
-                       Use use) const;
+    void forNeighbours(int x, int y, int reach, int step, Use use) const;
 
     Size size_;
     PixelRect where_;
-    std::vector<LightPixel> pixels_, other_;
+    std::vector<LightPixel> pixels_;
     std::vector<Variances> variances_;
+    std::vector<float> values_;  ///< the arrays
+    std::size_t stride_ = 0;     ///< distance of two arrays in values_
 };
 
 }  // namespace mfar

@@ -1,0 +1,48 @@
+#pragma once
+
+#include "base/geometry.h"
+
+#include <array>
+
+namespace mfar::simd {
+
+/// One part of the light of a picture's pixels, in row-major arrays (see LightPixel).
+template <class Float>
+struct LightPart {
+    std::array<Float*, 3> light;
+    Float *variance, *count;
+};
+
+/// Surfaces that a picture's pixels show, in row-major arrays. Id 0 means no surface. Pixels with
+/// `isFixed` above 0 are not changed.
+struct LightSurfaces {
+    std::array<const float*, 3> normal;
+    const float *depth, *id, *isFixed;
+};
+
+struct NoiseRule {
+    int step;  ///< distance of neighbours [px], at most kNoiseMargin
+    /// Largest difference that noise explains [standard errors]. `sparseTolerance` is the limit for
+    /// pixels of surface `sparseId` whose first part has fewer than `few` samples.
+    float tolerance, sparseTolerance, few, sparseId;
+    float leastVariance;  ///< added to the variance of each difference
+    float depthSlope;     ///< largest relative change of depth per pixel on one surface
+};
+
+/// Number of values before and after each array that may be read.
+inline constexpr int kNoiseMargin = 8;
+
+/// Row `y` of the pixels `where` of a picture that is `width` pixels wide. `from` and `to` must be
+/// different arrays. All values in the arrays must be finite.
+struct NoiseRow {
+    LightSurfaces surfaces;
+    std::array<LightPart<const float>, 2> from;
+    std::array<LightPart<float>, 2> to;
+    PixelRect where;
+    int width, y;
+};
+
+/// Runs one level of NoiseFilter on a row.
+void filterNoiseRow(const NoiseRow& row, const NoiseRule& rule);
+
+}  // namespace mfar::simd
