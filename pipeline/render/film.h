@@ -73,6 +73,14 @@ public:
     void begin();
     void clear(std::size_t pixel) { begun(pixel) = Pixel{}; }
 
+    /// Asks the processor to load a pixel that will soon be used, so that later code need not wait
+    /// for memory.
+    void prefetch(std::size_t pixel) const {
+        const auto* line = reinterpret_cast<const std::byte*>(&at(pixel));
+        for (std::size_t i = 0; i < sizeof(Pixel); i += kCacheLine)
+            __builtin_prefetch(line + i);
+    }
+
     /// Number of samples so far, including dropped ones; also the index of the next sample.
     [[nodiscard]] std::uint32_t samples(std::size_t pixel) const { return at(pixel).taken; }
     /// Number of samples of all pixels that were dropped because they were negative or not finite.
@@ -144,20 +152,22 @@ private:
         std::uint32_t hits = 0;
     };
     struct Pixel {
+        // What every reader needs comes first, so that it shares cache lines.
+        std::uint32_t taken = 0, lost = 0;
+        std::uint32_t objectHits = 0;  // number of samples that hit any object
+        bool isSeen = false;
+        SeenSurface seen;
+        FirstHit nearest, nearestCatcher;
+        KnownLight carried;
         /// `object` counts samples of the object at the pixel's centre. If no object is there, it
         /// counts samples of all objects.
-        LightSums object, catcher;
-        std::uint32_t objectHits = 0;  // number of samples that hit any object
+        LightSums catcher, object;
         Eigen::Vector3d radiance{0, 0, 0};
         double radianceSquares = 0;
         Eigen::Vector3f diffusePaint{0, 0, 0}, facingPaint{0, 0, 0};
         float albedoScale = 0, albedoOffset = 0;
-        std::uint32_t taken = 0, lost = 0;
-        SeenSurface seen;
-        bool isSeen = false;
-        FirstHit nearest, nearestCatcher;
-        KnownLight carried;
     };
+    static constexpr std::size_t kCacheLine = 64;
     struct Shown {
         Eigen::Vector3f colour{0, 0, 0};
         float coverage = 0;

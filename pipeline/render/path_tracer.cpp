@@ -258,7 +258,10 @@ void PathTracer::trace(const RenderView& view, std::span<const std::uint32_t> pi
     if (!std::ranges::all_of(pixels, [count](std::uint32_t p) { return p < count; }))
         throw std::invalid_argument("film: a pixel to trace is outside the film");
     Batch batch(*parts_, view, film, history);
-    for (const std::uint32_t pixel : pixels) {
+    constexpr std::size_t kAhead = 4;  // see Film::prefetch()
+    for (std::size_t p = 0; p < pixels.size(); ++p) {
+        if (p + kAhead < pixels.size()) film.prefetch(pixels[p + kAhead]);
+        const std::uint32_t pixel = pixels[p];
         const std::uint32_t taken = film.samples(pixel);
         if (!film.isSeen(pixel)) batch.add({pixel, 0, true});
         for (int i = 0; i < samples; ++i)

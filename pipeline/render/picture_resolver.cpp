@@ -4,6 +4,12 @@
 #include <numeric>
 
 namespace mfar {
+namespace {
+
+// The film's pixels are requested from memory this number of pixels before they are read.
+constexpr int kAhead = 4;
+
+}  // namespace
 
 void PictureResolver::begin(const Film& film, const RenderView& view, const PixelRect& traced,
                             const Exposure& exposure, bool filter, RenderedPicture& out,
@@ -85,6 +91,7 @@ void PictureResolver::prepare(int row) {
     const auto begin = static_cast<std::size_t>(row) * film_->size().width;
     for (int x = traced_.x0; x < traced_.x1; ++x) {
         const std::size_t i = begin + x;
+        if (x + kAhead < traced_.x1) film_->prefetch(i + kAhead);
         if (film_->isSeen(i) || film_->samples(i) > 0)
             filter_.pixels()[i] = film_->light(i, exposure_);
         else
@@ -104,6 +111,7 @@ void PictureResolver::write(int row) {
     if (row < traced_.y0 || row >= traced_.y1) return;
     for (int x = traced_.x0; x < traced_.x1; ++x) {
         const std::size_t i = begin + x;
+        if (x + kAhead < traced_.x1) film_->prefetch(i + kAhead);
         const auto [colour, hit, onObject] =
             filters_ ? filtered(x, row) : film_->resolved(i, exposure_);
         out_->colour[i] = colour;
