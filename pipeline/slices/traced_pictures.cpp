@@ -17,9 +17,8 @@ constexpr double kSoon = 0.75;
 constexpr double kBack = 0.5;
 // From this multiple of ViewLimits on, a noisy new picture is better than the shown picture.
 constexpr double kHopeless = 3;
-// The shown picture is converted again when its number of samples has grown by this factor. That
-// halves the error.
-constexpr int kSamplesRatio = 4;
+// The shown picture is converted again when its number of samples has grown by this factor.
+constexpr int kSamplesRatio = 2;
 // The camera rests if it moves by less than kRestPixels in kRestLooks calls of look(). At rest, the
 // picture should not be warped. If the shown picture is off by more than kElsewherePixels, a new
 // picture begins.
