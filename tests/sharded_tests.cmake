@@ -5,6 +5,7 @@
 #   SHARDS       number of processes (default: 4)
 #   FILTER       filter of GoogleTest
 #   LABELS       labels of CTest
+#   COST         duration of a process [s] (default: 10)
 #   ENVIRONMENT  variables, as NAME=VALUE
 # LABELS and ENVIRONMENT may be empty. Without this policy, CMake 3.31 warns.
 if(POLICY CMP0174)
@@ -12,9 +13,12 @@ if(POLICY CMP0174)
 endif()
 
 function(mfar_add_sharded_tests target name)
-    cmake_parse_arguments(PARSE_ARGV 2 arg "" "SHARDS;FILTER;LABELS" "ENVIRONMENT")
+    cmake_parse_arguments(PARSE_ARGV 2 arg "" "SHARDS;FILTER;LABELS;COST" "ENVIRONMENT")
     if(NOT arg_SHARDS)
         set(arg_SHARDS 4)
+    endif()
+    if(NOT arg_COST)
+        set(arg_COST 10)
     endif()
     if(NOT arg_FILTER)
         set(arg_FILTER *)
@@ -37,6 +41,6 @@ function(mfar_add_sharded_tests target name)
         add_test(NAME ${name}-${shard} COMMAND ${target} --gtest_filter=${arg_FILTER})
         set_tests_properties(${name}-${shard} PROPERTIES
             ENVIRONMENT "GTEST_TOTAL_SHARDS=${arg_SHARDS};GTEST_SHARD_INDEX=${shard};${arg_ENVIRONMENT}"
-            LABELS "${arg_LABELS}" FAIL_REGULAR_EXPRESSION "Running 0 tests from")
+            LABELS "${arg_LABELS}" COST ${arg_COST} FAIL_REGULAR_EXPRESSION "Running 0 tests from")
     endforeach()
 endfunction()

@@ -81,7 +81,7 @@ private:
     std::vector<Task*> tasks_, ready_;
     std::vector<Timer> timers_;
     std::mt19937_64 random_;
-    std::uint64_t turns_ = 0, order_ = 0, locks_ = 0;
+    std::uint64_t turns_ = 0, order_ = 0;
     int filesWaited_ = 0, idle_ = 0;
     pthread_key_t atEnd_{};
 };

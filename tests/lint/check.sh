@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# clang-tidy with the plugin must find exactly the faults in planted.h and planted.cpp. Usage:
-# check.sh PLUGIN. Prints the difference. Exit status 1: there is a difference.
+# clang-tidy must find exactly the faults in planted.h and planted.cpp. Usage: check.sh OPTION..., with
+# the options that `./run lint` gives to clang-tidy. Prints the difference. Exit status 1: there is a
+# difference.
 set -euo pipefail
-plugin=$(readlink -f "$1")
+options=("$@")
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../.."
 
 # Prints each fault as FILE:LINE CHECK. The check's name is at the end of the line.
@@ -11,7 +12,7 @@ planted() {
 }
 
 found() {
-    { clang-tidy-19 --load "$plugin" --quiet tests/lint/planted.cpp -- -std=c++20 -I"$PWD" -Wunused-variable 2>/dev/null || true; } |
+    { clang-tidy-19 "${options[@]}" tests/lint/planted.cpp -- -std=c++20 -DNDEBUG -I"$PWD" -Wunused-variable 2>/dev/null || true; } |
         sed -nE "s|^$PWD/([^:]+):([0-9]+):.*\[([a-z-]+).*\]\$|\1:\2 \3|p"
 }
 

@@ -2,10 +2,10 @@
 # A recording of a live run must replay with the same frames, the same still and the same pictures.
 . "$(dirname "$0")/lib.sh"
 
-record run 8 --source synthetic:office --display png:live --summary summary.json
+record run 8 --source synthetic:office --size 1152x864 --display png:live --summary summary.json
 summary_has recorder 0
 summary_has used 1
-run 0 --recording run --display png:again --summary summary.json
+run 0 --recording run --size 1152x864 --display png:again --summary summary.json
 summary_has frames 8
 [ "$(grep -vc '^#' run/cam0/data.csv)" = 8 ] || fail "the recording has not 8 frames"
 [ "$(grep -vc '^#' run/cam1/data.csv)" = 1 ] || fail "the recording has not exactly one still"

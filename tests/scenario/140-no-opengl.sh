@@ -4,7 +4,7 @@
 . "$(dirname "$0")/lib.sh"
 
 record take 3 --source synthetic:flat --display none
-run 0 --recording take --frames 2 --engine simd --display png:with
+run 0 --recording take --size 1152x864 --frames 2 --engine simd --display png:with
 
 # The dynamic linker loads the first file with a library's name. It fails because the file is empty.
 mkdir hidden
@@ -21,7 +21,7 @@ for library in libEGL.so.1 libGLESv2.so.2; do
     done
     [ ! -e refused ] || fail "mfard wrote pictures although it refused to run"
     for engine in auto simd; do
-        run 0 --recording take --frames 2 --engine $engine --display "png:shown-$engine"
+        run 0 --recording take --size 1152x864 --frames 2 --engine $engine --display "png:shown-$engine"
         says err "engine simd"
         cmp "shown-$engine/$(ls "shown-$engine" | head -n 1)" "with/$(ls with | head -n 1)" ||
             fail "the picture differs from that of a machine with OpenGL ES"

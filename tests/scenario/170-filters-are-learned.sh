@@ -6,7 +6,7 @@ ctl="$(dirname "$sim")/mfarctl"
 mkdir state
 export STATE_DIRECTORY="$work/state"
 printf '[engine]\nuse = "simd"\n[trigger]\nmode = "rate"\nrate_hz = 10.0\nmin_interval_s = 0.0\n' >mfard.toml
-learn() { run 0 --config mfard.toml --source synthetic:office --pace consumer --summary summary.json "$@"; }
+learn() { run 0 --config mfard.toml --source synthetic:office --pace consumer --size 1152x864 --summary summary.json "$@"; }
 stills() { sed -n 's/.*"stills_learned": \([0-9]*\),*/\1/p' summary.json; }
 
 learn --frames 6
@@ -36,7 +36,7 @@ sed -i '/superres/,$d' mfard.toml
 echo "filters are also learned while the GLES engine draws"
 sed -i 's/"simd"/"gles"/' mfard.toml
 mv "$file" kept
-learn --frames 10
+learn --frames 7
 [ "$(stills)" -ge 1 ] || fail "filters were not learned from any still"
 sed -i 's/"gles"/"simd"/' mfard.toml
 mv kept "$file"
