@@ -1,6 +1,7 @@
 #include "pipeline/composite/scene_boxes.h"
 
 #include "base/se3.h"
+#include "pipeline/scene/scene_parts.h"
 
 #include <algorithm>
 #include <array>
@@ -96,7 +97,7 @@ SurfaceExtent extentOf(const Eigen::AlignedBox3d& box, const LensProjection& len
 SceneBoxes::SceneBoxes(const Scene& scene) {
     for (const SceneObject& object : scene.objects) {
         std::vector<Surface> surfaces;
-        for (const Mesh& mesh : object.model->meshes)
+        for (const Mesh& mesh : meshesOf(object))
             surfaces.push_back(
                 {mesh.positions, mesh.triangles, object.T_world_object, object.scale});
         appendBoxes(surfaces, boxes_);

@@ -1,6 +1,7 @@
 #include "pipeline/render/traced_scene.h"
 
 #include "pipeline/render/texture_lookup.h"
+#include "pipeline/scene/scene_parts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -70,7 +71,7 @@ TracedScene::TracedScene(std::shared_ptr<const Scene> scene, int buildThreads)
 }
 
 void TracedScene::add(const SceneObject& object, std::uint8_t id) {
-    for (const Mesh& mesh : object.model->meshes) {
+    for (const Mesh& mesh : meshesOf(object)) {
         if (mesh.triangles.empty()) continue;
         auto traced = std::make_unique<TracedMesh>();
         traced->mesh = &mesh;

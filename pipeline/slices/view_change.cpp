@@ -2,6 +2,7 @@
 
 #include "base/se3.h"
 #include "pipeline/render/lens_rays.h"
+#include "pipeline/scene/scene_parts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -94,7 +95,7 @@ std::vector<ObjectBall> objectBalls(const Scene& scene) {
     for (const SceneObject& object : scene.objects) {
         if (!object.model) continue;
         Eigen::AlignedBox3f box;
-        for (const Mesh& mesh : object.model->meshes)
+        for (const Mesh& mesh : meshesOf(object))
             for (const Eigen::Vector3f& p : mesh.positions)
                 box.extend(p);
         if (box.isEmpty()) continue;

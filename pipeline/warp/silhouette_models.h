@@ -35,6 +35,7 @@ public:
         std::vector<Part> parts;
         Eigen::AlignedBox3d box;
         std::shared_ptr<const Model> model;  ///< owns the materials; null for the shadow catcher
+        int part = 0;                        ///< part of the model
     };
     struct Object {
         std::shared_ptr<const Shape> shape;
@@ -59,8 +60,7 @@ public:
                                      const RigidTransform& T_camera_world) const;
 
 private:
-    [[nodiscard]] std::shared_ptr<const Shape>
-    shapeOf(const std::shared_ptr<const Model>& model) const;
+    [[nodiscard]] std::shared_ptr<const Shape> shapeOf(const SceneObject& object) const;
     void setCatcher(const ShadowCatcher& catcher);
 
     LensProjection lens_;
