@@ -26,6 +26,25 @@ Eigen::AlignedBox3d sweptBounds(const RigidTransform& T_frame_world, const Scene
 
 }  // namespace
 
+std::optional<ObjectBall> ownBall(const SceneObject& object) {
+    if (!object.model) return {};
+    Eigen::AlignedBox3f box;
+    for (const Mesh& mesh : meshesOf(object))
+        for (const Eigen::Vector3f& p : mesh.positions)
+            box.extend(p);
+    if (box.isEmpty()) return {};
+    return ObjectBall{object.scale * box.center().cast<double>(),
+                      0.5 * object.scale * box.diagonal().norm()};
+}
+
+std::vector<ObjectBall> objectBalls(const Scene& scene) {
+    std::vector<ObjectBall> out;
+    for (const SceneObject& object : scene.objects)
+        if (const std::optional<ObjectBall> ball = ownBall(object))
+            out.push_back({object.T_world_object * ball->centre, ball->radius});
+    return out;
+}
+
 Eigen::AlignedBox3d boundsIn(const RigidTransform& T_frame_world, const SceneObject& object) {
     if (object.path) return sweptBounds(T_frame_world, object);
     const RigidTransform T = T_frame_world * object.T_world_object;

@@ -4,7 +4,21 @@
 
 #include <Eigen/Geometry>
 
+#include <optional>
+#include <vector>
+
 namespace mfar {
+
+/// Bounding ball of an object [m].
+struct ObjectBall {
+    Eigen::Vector3d centre{0, 0, 0};
+    double radius = 0;
+};
+
+/// Returns the ball in the object's own frame, but in metres of the world; empty without vertices.
+[[nodiscard]] std::optional<ObjectBall> ownBall(const SceneObject& object);
+/// Returns one ball in the world for each object that has vertices, at its present pose.
+[[nodiscard]] std::vector<ObjectBall> objectBalls(const Scene& scene);
 
 /// Returns the bounds of the object in the given frame; of a moving object, its bounds at any time.
 [[nodiscard]] Eigen::AlignedBox3d boundsIn(const RigidTransform& T_frame_world,

@@ -35,11 +35,15 @@ std::vector<RigidTransform> posesAt(const Scene& scene, Timestamp time) {
     return out;
 }
 
-Scene sceneAt(const Scene& scene, Timestamp time) {
+Scene withPoses(const Scene& scene, const std::vector<RigidTransform>& poses) {
     Scene out = scene;
-    for (SceneObject& object : out.objects)
-        if (object.path) object.T_world_object = object.path->at(time.seconds());
+    for (std::size_t i = 0; i < out.objects.size(); ++i)
+        out.objects[i].T_world_object = poses[i];
     return out;
+}
+
+Scene sceneAt(const Scene& scene, Timestamp time) {
+    return withPoses(scene, posesAt(scene, time));
 }
 
 }  // namespace mfar

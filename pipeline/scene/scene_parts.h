@@ -21,6 +21,7 @@ namespace mfar {
 
 /// Returns the objects' poses T_world_object at this time.
 [[nodiscard]] std::vector<RigidTransform> posesAt(const Scene& scene, Timestamp time);
+[[nodiscard]] Scene withPoses(const Scene& scene, const std::vector<RigidTransform>& poses);
 /// Returns the scene with its objects at their poses at this time.
 [[nodiscard]] Scene sceneAt(const Scene& scene, Timestamp time);
 

@@ -107,6 +107,11 @@ void SilhouetteModels::setScene(const Scene& scene) {
     setCatcher(scene.catcher);
 }
 
+void SilhouetteModels::setPoses(std::span<const RigidTransform> T_world_objects) {
+    for (std::size_t i = 0; i < objects_.size(); ++i)
+        objects_[i].T_world_object = T_world_objects[i];
+}
+
 std::shared_ptr<const SilhouetteModels::Shape>
 SilhouetteModels::shapeOf(const SceneObject& object) const {
     const std::shared_ptr<const Model>& model = object.model;

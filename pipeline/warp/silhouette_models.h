@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace mfar {
@@ -43,6 +44,8 @@ public:
         double scale;
     };
     [[nodiscard]] const std::vector<Object>& objects() const { return objects_; }
+    /// Moves the objects. `T_world_objects` has one pose for each object.
+    void setPoses(std::span<const RigidTransform> T_world_objects);
     /// The shadow catcher as an object to draw. Empty if there is none or it is planar.
     [[nodiscard]] const std::optional<Object>& catcher() const { return catcher_; }
     /// Plane (n, w) of a planar shadow catcher: n . point = w in the world frame [m]. Zero if the

@@ -49,10 +49,13 @@ public:
 
     /// Returns the layer at this pose. It is empty without a scene or a traced picture, or if the
     /// pose is not finite. The result is valid until the next call of any member.
-    LayerPicture& run(const RigidTransform& T_world_camera);
+    /// If objects of the scene move, `poses` must be their present poses T_world_object, one for
+    /// each object.
+    LayerPicture& run(const RigidTransform& T_world_camera,
+                      std::vector<RigidTransform> poses = {});
 
     /// Returns the pixels to render individually: missing pixels of a recent frame, or edge pixels
-    /// if the camera rests. At most mostRequested pixels are returned, evenly spread. Empty if no
+    /// if camera and objects rest. At most mostRequested pixels are returned, evenly spread. Empty if no
     /// pixels are known, or an earlier request for this scene is unanswered.
     /// Must be called once per frame, also if the frame is not drawn because the camera rests.
     /// Never waits.
@@ -83,6 +86,7 @@ private:
     bool asked_ = false;
     HoleRequest lastRequest_;
     RigidTransform listPose_;                 // pose of the frame whose missing pixels are listed
+    std::vector<RigidTransform> poses_, listPoses_;  // of the objects, now and in that frame
     std::optional<RigidTransform> warpedTo_;  // pose of the displayed frame; empty: not warped
     int restFrames_ = 0;
     WarpCounters counters_;
