@@ -61,7 +61,7 @@ void GltfMotion::readChannel(const tinygltf::Animation& animation, std::size_t c
     }
     const tinygltf::Node& node = document_.at(document_.gltf.nodes, from.target_node, place);
     if (!node.matrix.empty()) document_.refuse(place, "a node with a matrix cannot move");
-    Keyframes track =
+    MotionTrack track =
         keyframesOf(document_.at(animation.samplers, from.sampler, place), turns, place);
     length_ = std::max(length_, track.times.back());
     Tracks& tracks = tracks_[from.target_node];
@@ -77,10 +77,10 @@ std::vector<double> GltfMotion::timesOf(int accessor, const std::string& place) 
     return {times.begin(), times.end()};
 }
 
-Keyframes GltfMotion::keyframesOf(const tinygltf::AnimationSampler& sampler, bool turns,
+MotionTrack GltfMotion::keyframesOf(const tinygltf::AnimationSampler& sampler, bool turns,
                                   const std::string& place) const {
-    using enum Keyframes::Between;
-    Keyframes out;
+    using enum MotionTrack::Between;
+    MotionTrack out;
     out.between = sampler.interpolation == "STEP"          ? Step
                   : sampler.interpolation == "CUBICSPLINE" ? CubicSpline
                                                            : Linear;

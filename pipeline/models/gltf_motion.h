@@ -16,7 +16,7 @@ public:
     explicit GltfMotion(const GltfDocument& document);
 
     struct Tracks {
-        Keyframes translation, rotation;
+        MotionTrack translation, rotation;
     };
     /// Returns null if the node does not move by itself.
     [[nodiscard]] const Tracks* of(int node) const;
@@ -28,7 +28,7 @@ public:
 
 private:
     void readChannel(const tinygltf::Animation& animation, std::size_t channel);
-    Keyframes keyframesOf(const tinygltf::AnimationSampler& sampler, bool turns,
+    MotionTrack keyframesOf(const tinygltf::AnimationSampler& sampler, bool turns,
                           const std::string& place) const;
     [[nodiscard]] std::vector<double> timesOf(int accessor, const std::string& place) const;
 

@@ -39,7 +39,7 @@ std::size_t memoryOf(const Model& model) {
                bytesOf(mesh.tangents) + bytesOf(mesh.triangles);
     for (const RigidPath& path : model.paths)
         for (const RigidPath::Joint& joint : path.joints)
-            for (const Keyframes* track : {&joint.translation, &joint.rotation})
+            for (const MotionTrack* track : {&joint.translation, &joint.rotation})
                 out += bytesOf(track->times) + bytesOf(track->values);
     for (const SurfaceTexture& texture : model.textures)
         out += bytesOf(texture.texels);

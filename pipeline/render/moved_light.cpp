@@ -78,7 +78,8 @@ void MovedLight::follow(std::uint8_t id, Eigen::Vector3f& point, Eigen::Vector3f
 float MovedLight::blocked(const Sight& sight, const Eigen::Vector3f& normal) const {
     // A ball that the horizon cuts hides less; the sum below is an upper limit.
     const float facing = std::clamp(normal.dot(sight.towards) + sight.sine, 0.0F, 1.0F);
-    const float sky = luminanceOf<float>(far_.mirrored(sight.towards, std::sqrt(sight.sine)));
+    const float sky =
+        far_.dark() ? 0 : luminanceOf<float>(far_.mirrored(sight.towards, std::sqrt(sight.sine)));
     float out = sight.sine * sight.sine * facing * sky;
     const float sunFacing = normal.dot(sun_.towards());
     if (!sun_.dark() && sunFacing > 0 &&

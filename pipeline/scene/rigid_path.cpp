@@ -35,21 +35,21 @@ Eigen::Vector4d onSpline(const std::vector<Eigen::Vector4d>& values, const Span&
 
 }  // namespace
 
-Keyframes Keyframes::scaled(double scale) const {
-    Keyframes out = *this;
+MotionTrack MotionTrack::scaled(double scale) const {
+    MotionTrack out = *this;
     for (Eigen::Vector4d& value : out.values)
         value *= scale;
     return out;
 }
 
-Eigen::Vector3d Keyframes::translationAt(double seconds) const {
+Eigen::Vector3d MotionTrack::translationAt(double seconds) const {
     const Span span = spanAt(times, seconds);
     if (between == Between::CubicSpline) return onSpline(values, span).head<3>();
     const double share = between == Between::Linear ? span.share : 0;
     return ((1 - share) * values[span.from] + share * values[span.to]).head<3>();
 }
 
-Eigen::Quaterniond Keyframes::rotationAt(double seconds) const {
+Eigen::Quaterniond MotionTrack::rotationAt(double seconds) const {
     const Span span = spanAt(times, seconds);
     if (between == Between::CubicSpline) {
         const Eigen::Vector4d sum = onSpline(values, span);

@@ -10,7 +10,7 @@
 namespace mfar {
 
 /// A value that changes over time, as a sampler of a glTF 2.0 animation gives it (appendix C).
-struct Keyframes {
+struct MotionTrack {
     enum class Between : unsigned char { Step, Linear, CubicSpline };
 
     Between between = Between::Linear;
@@ -23,7 +23,7 @@ struct Keyframes {
     [[nodiscard]] Eigen::Vector3d translationAt(double seconds) const;
     /// Linear turns at a constant rate on the shorter way; CubicSpline is normalised.
     [[nodiscard]] Eigen::Quaterniond rotationAt(double seconds) const;
-    [[nodiscard]] Keyframes scaled(double scale) const;
+    [[nodiscard]] MotionTrack scaled(double scale) const;
 };
 
 /// The pose of a rigid part that moves on a closed loop in time: a chain of joints, from the
@@ -32,7 +32,7 @@ struct RigidPath {
     struct Joint {
         RigidTransform T_parent_joint;  ///< does not change; parent: the joint before
         RigidTransform rest;            ///< values of tracks without keyframes
-        Keyframes translation, rotation;
+        MotionTrack translation, rotation;
     };
     std::vector<Joint> joints;
     double length = 0;  ///< time after which the motion repeats [s]; 0: always the pose at time 0

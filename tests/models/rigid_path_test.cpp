@@ -10,39 +10,39 @@
 namespace mfar {
 namespace {
 
-using enum Keyframes::Between;
+using enum MotionTrack::Between;
 using test::expectNear;
 
 Eigen::Vector4d turned(double angle, const Eigen::Vector3d& axis) {
     return Eigen::Quaterniond(Eigen::AngleAxisd(angle, axis)).coeffs();
 }
 
-TEST(Keyframes, LinearTranslationsAreInterpolatedAndHeldAtTheEnds) {
-    const Keyframes track{Linear, {1, 3}, {{0, 0, 0, 0}, {2, 4, 6, 0}}};
+TEST(MotionTrack, LinearTranslationsAreInterpolatedAndHeldAtTheEnds) {
+    const MotionTrack track{Linear, {1, 3}, {{0, 0, 0, 0}, {2, 4, 6, 0}}};
     expectNear(track.translationAt(0), {0, 0, 0});
     expectNear(track.translationAt(1.5), {0.5, 1, 1.5});
     expectNear(track.translationAt(9), {2, 4, 6});
 }
 
-TEST(Keyframes, StepsHoldEachValueUntilTheNextTime) {
-    const Keyframes track{Step, {0, 1}, {{1, 0, 0, 0}, {2, 0, 0, 0}}};
+TEST(MotionTrack, StepsHoldEachValueUntilTheNextTime) {
+    const MotionTrack track{Step, {0, 1}, {{1, 0, 0, 0}, {2, 0, 0, 0}}};
     expectNear(track.translationAt(0.999), {1, 0, 0});
     expectNear(track.translationAt(1), {2, 0, 0});
 }
 
-TEST(Keyframes, LinearRotationsTurnAtAConstantRateOnTheShorterWay) {
+TEST(MotionTrack, LinearRotationsTurnAtAConstantRateOnTheShorterWay) {
     const Eigen::Vector3d z = Eigen::Vector3d::UnitZ();
     // A quaternion and its negative are the same rotation.
-    const Keyframes track{Linear, {0, 1}, {turned(0, z), -turned(1.2, z)}};
+    const MotionTrack track{Linear, {0, 1}, {turned(0, z), -turned(1.2, z)}};
     EXPECT_NEAR(track.rotationAt(0.25).angularDistance(Eigen::Quaterniond(turned(0.3, z))), 0,
                 1e-9);
 }
 
 // A cubic that the spline must reproduce: x(t) = t^3 - 2 t on [1, 3].
-TEST(Keyframes, SplinesReproduceACubic) {
+TEST(MotionTrack, SplinesReproduceACubic) {
     const auto x = [](double t) { return t * t * t - 2 * t; };
     const auto rate = [](double t) { return 3 * t * t - 2; };
-    Keyframes track{CubicSpline, {1, 3}, {}};
+    MotionTrack track{CubicSpline, {1, 3}, {}};
     for (const double t : track.times)
         for (const double value : {rate(t), x(t), rate(t)})
             track.values.emplace_back(value, 0, 0, 0);
@@ -50,10 +50,10 @@ TEST(Keyframes, SplinesReproduceACubic) {
         EXPECT_NEAR(track.translationAt(t).x(), x(t), 1e-9) << t;
 }
 
-TEST(Keyframes, SplinesOfRotationsStayRotations) {
+TEST(MotionTrack, SplinesOfRotationsStayRotations) {
     const Eigen::Vector3d x = Eigen::Vector3d::UnitX();
     const Eigen::Vector4d none = Eigen::Vector4d::Zero();
-    const Keyframes track{
+    const MotionTrack track{
         CubicSpline, {0, 2}, {none, turned(0, x), none, none, turned(2, x), none}};
     EXPECT_NEAR(track.rotationAt(1).norm(), 1, 1e-12);
     EXPECT_NEAR(track.rotationAt(1).angularDistance(Eigen::Quaterniond(turned(1, x))), 0, 1e-9);

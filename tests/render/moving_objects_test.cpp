@@ -16,9 +16,10 @@ using namespace traced_pictures;
 using render_scenes::viewFrom;
 
 constexpr double kFrame = 1.0 / 30;
+const Eigen::Quaterniond kUnturned = Eigen::Quaterniond::Identity();
 
 /// The still life. Its red ball moves along this track of translations.
-std::shared_ptr<const Scene> movingStillLife(Keyframes track) {
+std::shared_ptr<const Scene> movingStillLife(MotionTrack track) {
     auto scene = std::make_shared<Scene>(*render_scenes::stillLife());
     RigidPath path;
     path.length = track.times.back();
@@ -30,31 +31,38 @@ std::shared_ptr<const Scene> movingStillLife(Keyframes track) {
 
 /// The ball moves back and forth by 8 cm in 2 s.
 std::shared_ptr<const Scene> swinging() {
-    return movingStillLife({Keyframes::Between::Linear,
+    return movingStillLife({MotionTrack::Between::Linear,
                             {0, 1, 2},
                             {{0, -0.04, 0.1, 0}, {0, 0.04, 0.1, 0}, {0, -0.04, 0.1, 0}}});
 }
 
 /// The ball jumps by 30 cm after 1 s, and back after 60 s.
 std::shared_ptr<const Scene> jumping() {
-    return movingStillLife({Keyframes::Between::Step,
+    return movingStillLife({MotionTrack::Between::Step,
                             {0, 1, 60},
                             {{0, 0, 0.08, 0}, {0.15, -0.25, 0.08, 0}, {0, 0, 0.08, 0}}});
 }
 
 RenderedPicture truthAt(const Scene& scene, const std::vector<RigidTransform>& poses,
                         const RenderView& view) {
-    const PathTracer tracer(std::make_shared<const Scene>(withPoses(scene, poses)));
-    return render_scenes::resolved(render_scenes::traced(tracer, view, 256), view);
+    Scene still = withPoses(scene, poses);
+    for (SceneObject& object : still.objects)
+        object.path.reset();
+    const PathTracer tracer(std::make_shared<const Scene>(std::move(still)));
+    return render_scenes::resolved(render_scenes::traced(tracer, view, 64), view);
 }
 
-/// Root mean square difference of the coverage and colours of all pixels [grey levels].
-double differenceOf(const RenderedPicture& a, const RenderedPicture& b) {
+/// Root mean square difference of colours inside of objects [grey levels].
+double differenceOf(const RenderedPicture& a, const RenderedPicture& truth) {
     double squares = 0;
-    for (std::size_t i = 0; i < a.colour.size(); ++i)
-        for (std::size_t c = 0; c < 4; ++c)
-            squares += std::pow(double(a.colour[i][c]) - b.colour[i][c], 2);
-    return std::sqrt(squares / static_cast<double>(4 * a.colour.size()));
+    int values = 0;
+    for (std::size_t i = 0; i < truth.id.size(); ++i) {
+        if (a.id[i] == 0 || a.id[i] == kCatcherId || truth.colour[i][3] < 255) continue;
+        for (std::size_t c = 0; c < 3; ++c, ++values)
+            squares += std::pow(double(a.colour[i][c]) - truth.colour[i][c], 2);
+    }
+    EXPECT_GT(values, 300);
+    return std::sqrt(squares / values);
 }
 
 /// Runs frames with a camera at rest and some steps of the tracer in each.
@@ -68,7 +76,7 @@ struct MovingRun {
     void until(double end) {
         for (; time < end; time += kFrame) {
             driver.pictures.look(view, view, Timestamp::fromSeconds(time));
-            for (int step = 0; step < 8; ++step)
+            for (int step = 0; step < 40; ++step)
                 driver.step();
         }
     }
@@ -98,6 +106,11 @@ TEST(MovingObjects, PicturesShowTheirInstant) {
     const RenderedPicture& last = run.driver.shown.back();
     ASSERT_EQ(last.poses.size(), run.scene->objects.size());
     EXPECT_LT(differenceOf(last, truthAt(*run.scene, last.poses, run.view)), 6);
+    { const RenderedPicture tr=truthAt(*run.scene,last.poses,run.view); double sq[6]={},sum[6]={}; int n[6]={};
+      for(std::size_t i=0;i<tr.id.size();++i){ int id=last.id[i]==255?5:last.id[i]; if(tr.colour[i][3]<255&&id!=5) continue; double d=double(last.colour[i][id==5?3:1])-tr.colour[i][id==5?3:1]; sq[id]+=d*d; sum[id]+=d; ++n[id]; }
+      for(int id=0;id<6;++id) printf("id %d n %d rms %.2f mean %.2f\n",id,n[id],std::sqrt(sq[id]/std::max(n[id],1)),sum[id]/std::max(n[id],1));
+      printf("pictures %zu samples %.2f\n",run.driver.shown.size(),last.samples); 
+      Driver still(kThirtyTwo,kProduct); still.look(20); still.untilShown(6); printf("still error %.2f\n", differenceOf(still.shown.back(), truthAt(*render_scenes::stillLife(), posesAt(*render_scenes::stillLife(),{}), run.view))); }
     EXPECT_EQ(last.scene, run.scene);
     EXPECT_TRUE(last.layered);
     const double from = last.poses[0].translation.y(),
@@ -124,12 +137,12 @@ TEST(MovingObjects, NoShadowStaysWhereTheObjectWas) {
     int shadowed = 0;
     for (std::size_t i = 0; i < truth.id.size(); ++i) {
         // The old shadow, on places that are no longer in shadow.
-        if (before.id[i] != kCatcherId || before.colour[i][3] < 60 || truth.colour[i][3] > 25)
+        if (before.id[i] != kCatcherId || before.colour[i][3] < 25 || truth.colour[i][3] > 15)
             continue;
         ++shadowed;
         ghost += std::abs(double(after.colour[i][3]) - truth.colour[i][3]);
     }
-    ASSERT_GT(shadowed, 10);
+    ASSERT_GT(shadowed, 20);
     EXPECT_LT(ghost / shadowed, 8) << "mean coverage of the old shadow";
 }
 
@@ -163,7 +176,7 @@ TEST(MovingObjects, LightInTheShadowOfTheSunIsDoubted) {
     const FarLight far(none, dark.lighting, dark.catcher);
     const SunLight light(sun);
     const MovedLight::Object ball{
-        1, {{0, 0, 0}, 0.1}, {{}, {0, 0, 2}}, {{}, {0, 0.02, 2}}, 0};
+        1, {{0, 0, 0}, 0.1}, {kUnturned, {0, 0, 2}}, {kUnturned, {0, 0.02, 2}}, 0};
     const MovedLight moved({&ball, 1}, light, far);
     const Eigen::Vector3f up{0, 0, 1};
     EXPECT_GT(moved.diffuseChange({-2, 0, 0}, up), 0.1F);
@@ -176,7 +189,7 @@ TEST(MovingObjects, PointsAreFollowedToTheirEarlierPlaces) {
     const SunLight light({});
     const Eigen::Quaterniond turn(Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitZ()));
     const MovedLight::Object ball{
-        3, {{0, 0, 0}, 0.1}, {{}, {1, 0, 0}}, {turn, {1, 2, 0}}, 0};
+        3, {{0, 0, 0}, 0.1}, {kUnturned, {1, 0, 0}}, {turn, {1, 2, 0}}, 0};
     const MovedLight moved({&ball, 1}, light, far);
     const Eigen::Vector3f p{0.1F, 0, 0.05F}, x = Eigen::Vector3f::UnitX();
     Eigen::Vector3f point = turn.cast<float>() * p + Eigen::Vector3f(1, 2, 0),
