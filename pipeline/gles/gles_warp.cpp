@@ -89,8 +89,8 @@ private:
     void lookUp(const Frame& frame) {
         silhouette_.draw(frame.T_world_camera, frame.bounds);
         const ViewLookUp::Input input{
-            silhouette_.surface(), silhouette_.models(), textures_, *traced_, rerendered_,
-            rerenderedTextures_};
+            silhouette_.surface(), silhouette_.models(), textures_, *traced_,
+            rerendered_,           rerenderedTextures_};
         filler_.begin(frame.bounds, pushPulls(options_.filling));
         lookUp_.run(input, frame.T_world_camera, frame.bounds, filler_);
     }

@@ -41,10 +41,10 @@ ViewLookUp::ViewLookUp(const LensProjection& layer)
 void ViewLookUp::prepareMotion() {
     constexpr const char* kMoving = "#define MOVING\n";
     if (motion_) return;
-    motion_.emplace(Motion{{gpu::DrawPass<Params>("warp_look_up.frag", kMoving),
-                            gpu::ComputePass<Params>("warp_rest.comp", kMoving)},
-                           gpu::Texture({3, kViews * params::kSurfaceNumbers},
-                                        gpu::TexelFormat::Rgba32F)});
+    motion_.emplace(
+        Motion{{gpu::DrawPass<Params>("warp_look_up.frag", kMoving),
+                gpu::ComputePass<Params>("warp_rest.comp", kMoving)},
+               gpu::Texture({3, kViews * params::kSurfaceNumbers}, gpu::TexelFormat::Rgba32F)});
 }
 
 bool ViewLookUp::showsMotion(const Input& input) const {
@@ -60,11 +60,12 @@ void ViewLookUp::upload(const Input& input, const RigidTransform& T_world_camera
             viewsOfObjects(T_world_view, poses, input.models.objects(), T_world_camera);
         for (int id = 0; id < params::kSurfaceNumbers; ++id) {
             const auto at = static_cast<std::size_t>(id);
-            const params::Transform T = transformOf(
-                views.empty() ? T_world_view.inverse() * T_world_camera
-                              : views[at < views.size() ? at : 0]);
-            std::memcpy(&texels[12 * (static_cast<std::size_t>(view) * params::kSurfaceNumbers + at)],
-                        &T, sizeof T);
+            const params::Transform T =
+                transformOf(views.empty() ? T_world_view.inverse() * T_world_camera
+                                          : views[at < views.size() ? at : 0]);
+            std::memcpy(
+                &texels[12 * (static_cast<std::size_t>(view) * params::kSurfaceNumbers + at)], &T,
+                sizeof T);
         }
     };
     add(0, input.picture.T_world_camera, input.picture.poses);
@@ -137,14 +138,16 @@ void ViewLookUp::runRest(const Params& params, const Input& input, const PixelRe
                   {gpu::sampler(0, state_), gpu::storage(0, commands_), gpu::storage(1, list_)},
                   {gpu::groupsFor((where.x1 - where.x0 + 1) / 2, kListGroup),
                    gpu::groupsFor((where.y1 - where.y0 + 1) / 2, kListGroup), 1});
-    const gpu::Binding silhouette = gpu::sampler(0, input.silhouette), rays = gpu::sampler(1, rays_),
+    const gpu::Binding silhouette = gpu::sampler(0, input.silhouette),
+                       rays = gpu::sampler(1, rays_),
                        colours = gpu::sampler(2, input.traced.colour()),
                        surfaces = gpu::sampler(3, input.traced.surface()),
                        moreColours = gpu::sampler(4, input.rerenderedTextures.colour()),
                        moreSurfaces = gpu::sampler(5, input.rerenderedTextures.surface()),
                        colour = gpu::imageWrite(0, colour_), depth = gpu::imageWrite(1, depth_),
                        state = gpu::imageWrite(2, state_), commands = gpu::storage(0, commands_),
-                       list = gpu::storage(1, list_), holeCommands = gpu::storage(2, holes.commands()),
+                       list = gpu::storage(1, list_),
+                       holeCommands = gpu::storage(2, holes.commands()),
                        entries = gpu::storage(3, holes.entries());
     if (showsMotion(input))
         motion_->passes.rest.runIndirect(params,

@@ -78,7 +78,7 @@ std::vector<double> GltfMotion::timesOf(int accessor, const std::string& place) 
 }
 
 MotionTrack GltfMotion::keyframesOf(const tinygltf::AnimationSampler& sampler, bool turns,
-                                  const std::string& place) const {
+                                    const std::string& place) const {
     using enum MotionTrack::Between;
     MotionTrack out;
     out.between = sampler.interpolation == "STEP"          ? Step

@@ -29,7 +29,7 @@ public:
 private:
     void readChannel(const tinygltf::Animation& animation, std::size_t channel);
     MotionTrack keyframesOf(const tinygltf::AnimationSampler& sampler, bool turns,
-                          const std::string& place) const;
+                            const std::string& place) const;
     [[nodiscard]] std::vector<double> timesOf(int accessor, const std::string& place) const;
 
     const GltfDocument& document_;

@@ -55,8 +55,8 @@ MovedLight::MovedLight(std::span<const Object> objects, const SunLight& sun, con
         moved.id = o.id;
         moved.ball = {before.cast<float>(), now.cast<float>(), static_cast<float>(o.own.radius),
                       static_cast<float>(turn), o.glow};
-        moved.T_before_now = Eigen::Translation3f(T.translation.cast<float>()) *
-                             T.rotation.cast<float>();
+        moved.T_before_now =
+            Eigen::Translation3f(T.translation.cast<float>()) * T.rotation.cast<float>();
     }
 }
 
@@ -88,8 +88,7 @@ float MovedLight::blocked(const Sight& sight, const Eigen::Vector3f& normal) con
     return out;
 }
 
-float MovedLight::diffuseChange(const Eigen::Vector3f& point,
-                                const Eigen::Vector3f& normal) const {
+float MovedLight::diffuseChange(const Eigen::Vector3f& point, const Eigen::Vector3f& normal) const {
     float sum = 0;
     for (const Moved& moved : moved_) {
         const Ball& ball = moved.ball;
@@ -109,7 +108,8 @@ MovedLight::Change MovedLight::at(const SeenSurface& seen, const Eigen::Vector3f
                                   const Eigen::Vector3f& eye) const {
     if (const Moved* own = find(seen.hit.id)) {
         const float way = (own->ball.now - own->ball.before).norm();
-        const float change = kOwnChange * (own->ball.turn + way / std::max(own->ball.radius, 1e-6F));
+        const float change =
+            kOwnChange * (own->ball.turn + way / std::max(own->ball.radius, 1e-6F));
         return {change, change};
     }
     Change out{diffuseChange(point, seen.normal), 0};

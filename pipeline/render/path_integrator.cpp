@@ -121,8 +121,7 @@ PathIntegrator::PathIntegrator(const TracedScene& scene, const PathTracerOptions
     : scene_(scene), options_(options), light_(std::move(light)), sun_(light_->sun),
       sunIsKnown_(sun_.angularRadius() <= kWidestKnownSun), environment_(light_->environment),
       emitters_(options.emissionByChance ? EmissiveTriangles() : EmissiveTriangles(scene)),
-      far_(light_->far),
-      leastFar_(std::max(kLeastFarShare * far_.brightness(), kLeastFar)) {}
+      far_(light_->far), leastFar_(std::max(kLeastFarShare * far_.brightness(), kLeastFar)) {}
 
 PathIntegrator::Arrived PathIntegrator::lit(const Vertex& vertex, Lobes lobes,
                                             const LightSample& light, const Eigen::Vector3f& far,

@@ -316,8 +316,7 @@ void PathTracer::trace(const RenderView& view, std::span<const std::uint32_t> pi
     batch.flush();
 }
 
-LightHistory PathTracer::historyOf(const Film& film, const RenderView& view,
-                                   float mostSamples,
+LightHistory PathTracer::historyOf(const Film& film, const RenderView& view, float mostSamples,
                                    std::span<const RigidTransform> poses) const {
     std::optional<MovedLight> moved;
     if (!poses.empty()) moved.emplace(parts_->movedSince(poses));
@@ -328,8 +327,8 @@ const std::shared_ptr<const MirrorLight>& PathTracer::mirrorLight() const {
     return parts_->mirrors;
 }
 
-std::optional<PathTracer::CatcherPoint>
-PathTracer::catcherAt(const RenderView& view, const Eigen::Vector2f& pixel) const {
+std::optional<PathTracer::CatcherPoint> PathTracer::catcherAt(const RenderView& view,
+                                                              const Eigen::Vector2f& pixel) const {
     const RayScene& catcher = parts_->scene.catcher();
     if (catcher.empty()) return {};
     const Eigen::Quaternionf turn = view.T_world_camera.rotation.cast<float>();

@@ -25,8 +25,7 @@ public:
     explicit PathTracer(std::shared_ptr<const Scene> scene, const PathTracerOptions& options = {});
     /// Returns a tracer of the same scene with moving objects at other poses. It takes little time.
     /// `scene` must be withPoses() of this tracer's scene.
-    [[nodiscard]] std::unique_ptr<const PathTracer>
-    posed(std::shared_ptr<const Scene> scene) const;
+    [[nodiscard]] std::unique_ptr<const PathTracer> posed(std::shared_ptr<const Scene> scene) const;
     ~PathTracer();
     PathTracer(const PathTracer&) = delete;
     PathTracer& operator=(const PathTracer&) = delete;

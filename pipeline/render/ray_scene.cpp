@@ -196,8 +196,8 @@ std::uint32_t RayScene::place(const RayScene& part, const RigidTransform& T_scen
     attach(geometry, first);
     meshes_ += part.meshes_;
     for (int i = 0; i < 8 && !part.box_.isEmpty(); ++i)
-        box_.extend(T * part.box_.corner(static_cast<Eigen::AlignedBox3f::CornerType>(i))
-                            .homogeneous());
+        box_.extend(
+            T * part.box_.corner(static_cast<Eigen::AlignedBox3f::CornerType>(i)).homogeneous());
     return first;
 }
 

@@ -92,9 +92,10 @@ float coveredOf(const Quarters& quarters) {
 RestPixels::RestPixels(const ViewLookUp::Input& input, const TracedPicture& traced,
                        std::span<const LightWords> lights, const ViewLookUpInput& plain,
                        const LensProjection& layer, const RigidTransform& T_world_camera)
-    : plain_(plain), layerLens_(pointLensOf(layer)),
-      traced_{traced.surface, traced.colour, lights, traced.camera.size,
-              plain.toTraced, {}, &plain_.lens,  1} {
+    : plain_(plain), layerLens_(pointLensOf(layer)), traced_{traced.surface, traced.colour,
+                                                             lights,         traced.camera.size,
+                                                             plain.toTraced, {},
+                                                             &plain_.lens,   1} {
     if (plain.ofNumbers != nullptr) traced_.ofNumbers = {plain.ofNumbers, params::kSurfaceNumbers};
     // Sorts the re-rendered pictures by slot number. Their order matters: of pictures with equal
     // shares, known() uses the first.
@@ -106,9 +107,9 @@ RestPixels::RestPixels(const ViewLookUp::Input& input, const TracedPicture& trac
         const RerenderedStore::Picture& picture = input.store[rerendered->slot];
         if (picture.surfaces.empty()) continue;
         const auto place = static_cast<std::size_t>(rerenderedCount_++);
-        ofNumbers_[place] = transformsByNumber(
-            viewsOfObjects(rerendered->T_world_camera, rerendered->poses,
-                           input.raster.models().objects(), T_world_camera));
+        ofNumbers_[place] =
+            transformsByNumber(viewsOfObjects(rerendered->T_world_camera, rerendered->poses,
+                                              input.raster.models().objects(), T_world_camera));
         rerendered_[place] = {
             picture.surfaces,
             picture.colours,

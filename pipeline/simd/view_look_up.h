@@ -23,8 +23,7 @@ class RestPixels;
 class SurfaceRaster;
 
 /// Returns viewsOfObjects() as a table of params::kSurfaceNumbers transforms; empty if `views` is.
-[[nodiscard]] std::vector<PointTransform>
-transformsByNumber(std::span<const RigidTransform> views);
+[[nodiscard]] std::vector<PointTransform> transformsByNumber(std::span<const RigidTransform> views);
 
 /// A pixel of the layer whose colour is not completely known.
 struct Hole {

@@ -66,9 +66,9 @@ std::optional<double> TracedPictures::changeSince(const Picture& picture) const 
     return viewChange(picture.view, now_, picture.scene->balls, policy_.limits);
 }
 
-/// Returns the change of moving objects since a picture, as a multiple of the limits. The warp moves
-/// the objects, so they may turn as far as the camera may move around them. It does not move their
-/// shadows.
+/// Returns the change of moving objects since a picture, as a multiple of the limits. The warp
+/// moves the objects, so they may turn as far as the camera may move around them. It does not move
+/// their shadows.
 double TracedPictures::motionSince(const Picture& picture) const {
     double change = 0;
     for (const auto& [object, own] : scene_->moving) {
@@ -189,8 +189,8 @@ void TracedPictures::provide(RenderedPicture& out) {
 std::shared_ptr<const PictureScene> TracedPictures::sceneOfNext() const {
     if (!scene_->moves()) return scene_;
     const double ahead = std::min(1.5 * period_, kFarthestAhead);
-    return posed(*scene_, posesAt(*scene_->source, chosen_ + std::chrono::nanoseconds(
-                                                                 std::llround(1e9 * ahead))));
+    return posed(*scene_, posesAt(*scene_->source,
+                                  chosen_ + std::chrono::nanoseconds(std::llround(1e9 * ahead))));
 }
 
 void TracedPictures::begin() {
@@ -255,6 +255,8 @@ int TracedPictures::leastSamples(const Picture& picture) const {
     if (!shown.scene || shown.scene->objects != picture.scene->objects ||
         viewChange(shown.view, now_, scene_->balls, policy_.limits) >= kHopeless)
         return 1;
+    // Pictures of moving objects follow each other so fast that none of them must wait longer.
+    if (scene_->moves()) return 1;
     return nextRests_ ? std::max(policy_.samplesToReplace, shown.shownSamples)
                       : policy_.samplesToReplace;
 }
@@ -273,7 +275,10 @@ bool TracedPictures::toShow() const {
 bool TracedPictures::isSparse(const Picture& picture) const {
     if (picture.rests || !policy_.filter || picture.slices.samples() > 0) return false;
     const Picture& shown = pictures_[shown_];
-    return &picture == &shown || !shown.scene || (policy_.soon && picture.history);
+    if (!shown.scene) return true;
+    // If pictures of moving objects were shown with fewer samples, their light would flicker.
+    if (scene_->moves()) return false;
+    return &picture == &shown || (policy_.soon && picture.history);
 }
 
 void TracedPictures::beginShow(const Exposure& exposure, RenderedPicture& out) {
@@ -291,7 +296,8 @@ void TracedPictures::endShow(RenderedPicture& out) {
     picture.shownSamples = picture.slices.samples();
     picture.shownTurns = picture.slices.turns();
     if (!picture.wasShown)
-        period_ += kPeriodShare * (static_cast<double>((time_ - picture.chosen).count()) * 1e-9 - period_);
+        period_ +=
+            kPeriodShare * (static_cast<double>((time_ - picture.chosen).count()) * 1e-9 - period_);
     picture.wasShown = true;
     if (picture.slices.finished()) {
         picture.counted = true;
