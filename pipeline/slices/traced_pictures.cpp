@@ -34,6 +34,9 @@ constexpr int kLookTurn = 1;
 // While an object moves, a new picture begins when it and its shadow have moved by this distance
 // since the shown picture.
 constexpr double kShadowPixels = 1;
+// Number of turns of a picture before the next one begins while an object moves. By then, a quarter
+// of the pixels has a sample.
+constexpr int kMovingTurns = 3;
 // The light on a tile of the shadow catcher is traced again if motion may have changed it by more.
 constexpr float kVisible = 0.003F;
 constexpr double kFarthestAhead = 0.5;  // longest prediction of the motion of objects [s]
@@ -112,8 +115,9 @@ TracedStep TracedPictures::chosenStep() const {
                  policy_.soon ? kSoon : 1);
     // While the shown picture is still near enough to this view, it gets its first samples before a
     // new picture begins. Without samples, the new picture could not reuse its light.
-    if (step == TracedStep::Start && !hasBegun && serves && shown.slices.samples() == 0)
-        return TracedStep::Refine;
+    const bool lacksSamples =
+        scene_->moves() ? shown.slices.turns() < kMovingTurns : shown.slices.samples() == 0;
+    if (step == TracedStep::Start && !hasBegun && serves && lacksSamples) return TracedStep::Refine;
     // A moving object that is near its place in the shown picture will soon be elsewhere.
     if (step == TracedStep::Drop && scene_->moves()) return TracedStep::Continue;
     return step;
@@ -255,8 +259,6 @@ int TracedPictures::leastSamples(const Picture& picture) const {
     if (!shown.scene || shown.scene->objects != picture.scene->objects ||
         viewChange(shown.view, now_, scene_->balls, policy_.limits) >= kHopeless)
         return 1;
-    // Pictures of moving objects follow each other so fast that none of them must wait longer.
-    if (scene_->moves()) return 1;
     return nextRests_ ? std::max(policy_.samplesToReplace, shown.shownSamples)
                       : policy_.samplesToReplace;
 }
@@ -275,10 +277,7 @@ bool TracedPictures::toShow() const {
 bool TracedPictures::isSparse(const Picture& picture) const {
     if (picture.rests || !policy_.filter || picture.slices.samples() > 0) return false;
     const Picture& shown = pictures_[shown_];
-    if (!shown.scene) return true;
-    // If pictures of moving objects were shown with fewer samples, their light would flicker.
-    if (scene_->moves()) return false;
-    return &picture == &shown || (policy_.soon && picture.history);
+    return &picture == &shown || !shown.scene || (policy_.soon && picture.history);
 }
 
 void TracedPictures::beginShow(const Exposure& exposure, RenderedPicture& out) {

@@ -18,8 +18,6 @@ constexpr double kPredictedChange = 0.9;
 // Upper limit of the frame budgets that are granted at once, after a job that lasted many frames.
 constexpr std::uint64_t kMostMissed = 16;
 constexpr double kRateSeconds = 1;
-// Holes get this part of their share while objects move. The next picture will soon fill them.
-constexpr double kMovingHoles = 0.25;
 constexpr std::int64_t kFirstResolved = 2048;
 
 double secondsBetween(Timestamp a, Timestamp b) {
@@ -204,8 +202,7 @@ TracedWorkers::Job TracedWorkers::portion() {
     const bool picturesWait = !exclusive_ && !pictures_.settled();
     const bool rowsWait = resolves_ && pictures_.resolver().hasNext();
     if (!holesWait && !picturesWait && !rowsWait) return job;
-    const double share = scene_ && scene_->moves() ? kMovingHoles : 1;
-    const bool holesTurn = holeMs_ <= share * options_.holeShare * budget_.used();
+    const bool holesTurn = holeMs_ <= options_.holeShare * budget_.used();
     if (rowsWait && !(holesWait && holesTurn)) return resolving();
     job.grant = budget_.grant();
     if (job.grant.samples == 0) return job;

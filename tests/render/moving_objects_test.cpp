@@ -108,20 +108,20 @@ TEST(MovingObjects, PicturesShowTheirInstant) {
     const double error = differenceOf(last, truthAt(*run.scene, last.poses, run.view));
     // With as many pictures, the error of a scene that rests is 9.
     EXPECT_LT(error, 12);
-    const auto otherSurfaces = [&](const std::vector<RigidTransform>& poses) {
+    const auto misplaced = [&](const std::vector<RigidTransform>& poses) {
         const RenderedPicture truth = truthAt(*run.scene, poses, run.view);
         int count = 0;
         for (std::size_t i = 0; i < truth.id.size(); ++i)
-            count += truth.id[i] != last.id[i] ? 1 : 0;
+            count += (truth.id[i] == 1) != (last.id[i] == 1) ? 1 : 0;
         return count;
     };
     const auto elsewhere = posesAt(*run.scene, Timestamp::fromSeconds(1));
-    EXPECT_GT(otherSurfaces(elsewhere), otherSurfaces(last.poses) + 20);
+    EXPECT_GT(misplaced(elsewhere), misplaced(last.poses) + 10) << "pixels of the ball";
     EXPECT_EQ(last.scene, run.scene);
     EXPECT_TRUE(last.layered);
     const double from = last.poses[0].translation.y(),
                  now = posesAt(*run.scene, Timestamp::fromSeconds(run.time))[0].translation.y();
-    EXPECT_LT(std::abs(from - now), 0.02) << "the picture shows nearly the present";
+    EXPECT_LT(std::abs(from - now), 0.03) << "the picture shows nearly the present";
 }
 
 TEST(MovingObjects, PicturesFollowEachOtherAsLongAsAnObjectMoves) {
