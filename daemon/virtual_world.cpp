@@ -3,9 +3,11 @@
 #include "pipeline/composite/shadow_catcher.h"
 #include "pipeline/models/environment_map.h"
 #include "pipeline/models/shape_model.h"
+#include "pipeline/scene/scene_parts.h"
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 namespace mfar {
@@ -34,7 +36,8 @@ Scene sceneOf(const std::vector<PlacedObject>& objects, const LightOptions& ligh
         if (!anchor) continue;
         const RigidTransform place = *anchor * object.T_anchor_object;
         if (object.model)
-            scene.objects.push_back({object.model, place, object.scale, *anchor});
+            std::ranges::move(partsOf({object.model, place, object.scale, *anchor}),
+                              std::back_inserter(scene.objects));
         else
             scene.objects.push_back(
                 {std::make_shared<const Model>(shapeModel(object.shape)), place, 1, *anchor});

@@ -7,6 +7,7 @@
 // to warp_rest.comp, 0, number of the surface that fills the pixel).
 // Source: paper, eq. 5.
 // Range: depth 0..1e6
+// Variant: #define MOVING
 #include "warp_view_params.glsl"
 #include "warp_view.glsl"
 #include "warp_surface.glsl"
@@ -30,7 +31,7 @@ void main() {
     z = open ? planeDepth(ray) : z;
     id = open ? kCatcher : id;
     bool empty = open && z == 0.0;
-    vec3 at = inView(0, z * vec3(ray, 1.0));
+    vec3 at = inView(0, id, z * vec3(ray, 1.0));
     // The corner that the four texels share. Because the gather samples exactly there, rounding in
     // the texture unit cannot select other texels.
     vec2 corner = floor(at.xy) + 1.0;

@@ -12,6 +12,7 @@
 // holeCommands[0] = number of groups of 64 entries of holes[] (x), number of entries (w).
 // holeCommands[l] = dispatch command for pyramid level l, set with the first entry.
 // Range: depth 0..1e6
+// Variant: #define MOVING
 #include "warp_view_params.glsl"
 #include "warp_view.glsl"
 #include "warp_surface.glsl"
@@ -68,13 +69,13 @@ float lookUp(sampler2D from, sampler2D shown, ivec2 size, int firstRow, vec3 at,
 // Looks up the colour of surface `id` at `point` in all pictures and returns it in `found`. Returns
 // the share of the colour that is known, [0, 1].
 float known(vec3 point, float id, out vec4 found) {
-    if (lookUp(colours, surfaces, tracedSize(), 0, inView(0, point), id, found) > 0.0) return 1.0;
+    if (lookUp(colours, surfaces, tracedSize(), 0, inView(0, uint(id), point), id, found) > 0.0) return 1.0;
     // Re-rendered pictures fade in: their shares grow from 0 to 1. Of those that show the point,
     // the one with the largest share determines the colour.
     float share_ = 0.0;
     for (int i = 0; i < params.rerendered; ++i) {
         vec4 own;
-        vec3 at = inView(i + 1, point);
+        vec3 at = inView(i + 1, uint(id), point);
         if (params.views[i + 1].share <= share_ || lookUp(rerenderedColours, rerenderedSurfaces, layerSize(), i * params.height, at, id, own) == 0.0) continue;
         share_ = params.views[i + 1].share;
         found = own;
@@ -83,7 +84,7 @@ float known(vec3 point, float id, out vec4 found) {
     // Outside the traced picture, the shadow catcher's colour is unknown. It nevertheless counts as
     // known and transparent, so that it is not listed as missing.
     found = vec4(0.0);
-    return id == float(kCatcher) && !(inView(0, point).z > 0.0) ? 1.0 : 0.0;
+    return id == float(kCatcher) && !(inView(0, uint(id), point).z > 0.0) ? 1.0 : 0.0;
 }
 
 uvec4 groupsOf(DispatchGroups g) {

@@ -1,10 +1,12 @@
 #include "pipeline/traced_layer.h"
 
+#include "pipeline/scene/scene_parts.h"
 #include "pipeline/slices/traced_renderer.h"
 #include "pipeline/slices/view_change.h"
 #include "pipeline/warp/warp.h"
 
 #include <utility>
+#include <vector>
 
 namespace mfar {
 
@@ -36,8 +38,11 @@ struct TracedLayer::State {
     CameraModel camera;
     Warp warp;
     TracedRenderer renderer;
+    [[nodiscard]] bool isMoving() const { return scene && moves(*scene); }
+
     int fadeFrames;
     std::shared_ptr<const Scene> scene;
+    Timestamp time;
     // Only used to compare its address with the next picture's.
     const RenderedPicture* shown = nullptr;
     // Number of frames in which the layer still changes without motion of the camera.
@@ -58,6 +63,7 @@ void TracedLayer::setScene(std::shared_ptr<const Scene> scene) {
 
 void TracedLayer::update(const RigidTransform& T_world_video, Timestamp time) {
     State& s = *state_;
+    s.time = time;
     s.renderer.update({s.camera, T_world_video}, time);
     if (const RenderedPicture* newest = s.renderer.newest(); newest && newest != s.shown)
         s.take(*newest);
@@ -72,12 +78,14 @@ void TracedLayer::update(const RigidTransform& T_world_video, Timestamp time) {
 }
 
 bool TracedLayer::isStale() const {
-    return state_->changing > 0;
+    return state_->changing > 0 || state_->isMoving();
 }
 
 LayerPicture& TracedLayer::render(const RigidTransform& T_world_video) {
     if (state_->changing > 0) --state_->changing;
-    return state_->warp.run(T_world_video);
+    const State& s = *state_;
+    return state_->warp.run(T_world_video, s.isMoving() ? posesAt(*s.scene, s.time)
+                                                        : std::vector<RigidTransform>());
 }
 
 bool TracedLayer::rests() const {

@@ -54,10 +54,12 @@ public:
     /// allows them some more processor time. Without further calls, they pause.
     void update(const RigidTransform& T_world_video, Timestamp time);
     /// True if the next render() would give a different result even if the camera does not move.
+    /// Always true while a moving object is shown.
     [[nodiscard]] bool isStale() const;
 
-    /// Draws the layer at this pose. The layer is empty before the first traced picture is
-    /// finished. The result is valid until the next call of any member function.
+    /// Draws the layer at this pose, with moving objects at the time of the last update(). The
+    /// layer is empty before the first traced picture is finished. The result is valid until the
+    /// next call of any member function.
     LayerPicture& render(const RigidTransform& T_world_video);
 
     /// True if the threads have done all work that the last update() allowed; for measurements.

@@ -1,11 +1,13 @@
 #include "pipeline/composite/scene_boxes.h"
 
 #include "base/se3.h"
+#include "pipeline/scene/scene_parts.h"
 
 #include <algorithm>
 #include <array>
 #include <span>
 #include <unordered_map>
+#include <utility>
 
 namespace mfar {
 namespace {
@@ -73,13 +75,13 @@ Eigen::Vector3d cornerOf(const Eigen::AlignedBox3d& box, int i) {
 }
 
 SurfaceExtent extentOf(const Eigen::AlignedBox3d& box, const LensProjection& lens,
-                       const RigidTransform& T_video_world) {
+                       const RigidTransform& T_video_box) {
     SurfaceExtent extent;
     for (int axis = 0; axis < 3; ++axis) {
         for (int from = 0; from < 8; ++from) {
             if ((from >> axis) & 1) continue;
-            const Eigen::Vector3d a = T_video_world * cornerOf(box, from);
-            const Eigen::Vector3d b = T_video_world * cornerOf(box, from | (1 << axis));
+            const Eigen::Vector3d a = T_video_box * cornerOf(box, from);
+            const Eigen::Vector3d b = T_video_box * cornerOf(box, from | (1 << axis));
             Eigen::Vector3d last = lens(a);
             for (int i = 1; i <= kEdgePieces; ++i) {
                 const Eigen::Vector3d next = lens(a + (b - a) * i / kEdgePieces);
@@ -94,14 +96,24 @@ SurfaceExtent extentOf(const Eigen::AlignedBox3d& box, const LensProjection& len
 }  // namespace
 
 SceneBoxes::SceneBoxes(const Scene& scene) {
+    std::size_t count = 0;
     for (const SceneObject& object : scene.objects) {
+        const RigidTransform T = object.path ? RigidTransform{} : object.T_world_object;
         std::vector<Surface> surfaces;
-        for (const Mesh& mesh : object.model->meshes)
-            surfaces.push_back(
-                {mesh.positions, mesh.triangles, object.T_world_object, object.scale});
-        appendBoxes(surfaces, boxes_);
+        for (const Mesh& mesh : meshesOf(object))
+            surfaces.push_back({mesh.positions, mesh.triangles, T, object.scale});
+        std::vector<Eigen::AlignedBox3d> moving;
+        appendBoxes(surfaces, object.path ? moving : boxes_);
+        count += moving.size();
+        if (!moving.empty())
+            moving_.push_back({object.path, object.T_world_object, std::move(moving)});
     }
-    extents_.reserve(boxes_.size());
+    extents_.reserve(boxes_.size() + count);
+}
+
+void SceneBoxes::setTime(Timestamp time) {
+    for (Moving& object : moving_)
+        object.T_world_object = object.path->at(time.seconds());
 }
 
 SceneBoxes::SceneBoxes(const ShadowCatcher& catcher) {
@@ -109,15 +121,22 @@ SceneBoxes::SceneBoxes(const ShadowCatcher& catcher) {
     extents_.reserve(boxes_.size());
 }
 
+void SceneBoxes::addExtents(const std::vector<Eigen::AlignedBox3d>& boxes,
+                            const LensProjection& lens, const RigidTransform& T_video_boxes) {
+    for (const Eigen::AlignedBox3d& box : boxes) {
+        const SurfaceExtent extent = extentOf(box, lens, T_video_boxes);
+        if (!extent.pixels.isEmpty()) extents_.push_back(extent);
+    }
+}
+
 const std::vector<SurfaceExtent>& SceneBoxes::extents(const LensProjection& lens,
                                                       const RigidTransform& T_world_video) {
     extents_.clear();
     if (!isFinite(T_world_video)) return extents_;
     const RigidTransform T_video_world = T_world_video.inverse();
-    for (const Eigen::AlignedBox3d& box : boxes_) {
-        const SurfaceExtent extent = extentOf(box, lens, T_video_world);
-        if (!extent.pixels.isEmpty()) extents_.push_back(extent);
-    }
+    addExtents(boxes_, lens, T_video_world);
+    for (const Moving& object : moving_)
+        addExtents(object.boxes, lens, T_video_world * object.T_world_object);
     return extents_;
 }
 

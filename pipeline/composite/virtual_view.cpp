@@ -92,11 +92,12 @@ PixelRect VirtualView::place(const std::optional<RigidTransform>& T_world_video,
     placedPose_ = T_world_video;
     region_ = {};
     hidden_ = false;
-    if (!T_world_video || (objects_.empty() && boxes_.world().empty())) return {};
+    if (!T_world_video || (objects_.empty() && boxes_.empty())) return {};
     nearest_ = 0;
     hidden_ = skips_.hiddenObjects;
     PixelRect decides;
     if (traced_) {
+        boxes_.setTime(time);
         addTiles(silhouette_.run(boxes_, *T_world_video), known, true, decides);
         if (!region_.empty())
             addTiles(catcherSilhouette_.run(catcherBoxes_, *T_world_video), known, false, decides);

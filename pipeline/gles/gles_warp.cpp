@@ -4,6 +4,7 @@
 #include "pipeline/gles/rerendered_textures.h"
 #include "pipeline/gles/texture_layer.h"
 #include "pipeline/gles/view_look_up.h"
+#include "pipeline/scene/scene_parts.h"
 #include "pipeline/warp/warp_step.h"
 
 #include <optional>
@@ -26,7 +27,11 @@ public:
 
     void setScene(const Scene& scene) override {
         silhouette_.setScene(scene);
+        if (moves(scene)) lookUp_.prepareMotion();
         rerendered_.clear();
+    }
+    void setPoses(std::span<const RigidTransform> T_world_objects) override {
+        silhouette_.setPoses(T_world_objects);
     }
     PixelRect bounds(const RigidTransform& T_world_camera) const override {
         return silhouette_.bounds(T_world_camera);
@@ -83,9 +88,9 @@ private:
 
     void lookUp(const Frame& frame) {
         silhouette_.draw(frame.T_world_camera, frame.bounds);
-        const ViewLookUp::Input input{silhouette_.surface(),   textures_,
-                                      traced_->T_world_camera, rerendered_,
-                                      rerenderedTextures_,     silhouette_.models().plane()};
+        const ViewLookUp::Input input{
+            silhouette_.surface(), silhouette_.models(), textures_, *traced_,
+            rerendered_,           rerenderedTextures_};
         filler_.begin(frame.bounds, pushPulls(options_.filling));
         lookUp_.run(input, frame.T_world_camera, frame.bounds, filler_);
     }

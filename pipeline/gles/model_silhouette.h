@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace mfar {
@@ -25,6 +26,9 @@ public:
     /// Uploads the meshes of the scene, simplified if it has more than 20000 triangles. Surfaces
     /// with an alpha mask are not drawn where their alpha is too small.
     void setScene(const Scene& scene);
+    void setPoses(std::span<const RigidTransform> T_world_objects) {
+        models_.setPoses(T_world_objects);
+    }
 
     /// Bounds of all objects [layer px], or of the whole layer if an object crosses the near plane.
     [[nodiscard]] PixelRect bounds(const RigidTransform& T_world_camera) const {

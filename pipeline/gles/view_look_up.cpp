@@ -1,15 +1,19 @@
 #include "pipeline/gles/view_look_up.h"
 
 #include "base/gl/scoped_state.h"
+#include "pipeline/warp/object_views.h"
 #include "pipeline/warp/warp_params.h"
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <span>
+#include <vector>
 
 namespace mfar {
 namespace {
 
+constexpr int kViews = RerenderedPictures::kPictures + 1;
 constexpr int kListGroup = 8;  // width and height of a workgroup in warp_rest_list.comp
 
 Eigen::Vector4d planeIn(const Eigen::Vector4d& world, const RigidTransform& T_world_camera) {
@@ -28,8 +32,47 @@ ViewLookUp::ViewLookUp(const LensProjection& layer)
       target_(std::array<const gpu::Texture*, 3>{&colour_, &depth_, &state_}),
       commands_(sizeof(HoleFiller::Command)),
       list_(sizeof(std::uint32_t) * layer.camera.size.width * layer.camera.size.height),
-      plain_("warp_look_up.frag"), restList_("warp_rest_list.comp"), rest_("warp_rest.comp") {
+      still_{gpu::DrawPass<Params>("warp_look_up.frag"),
+             gpu::ComputePass<Params>("warp_rest.comp")},
+      restList_("warp_rest_list.comp") {
     clear({0, 0, layer.camera.size.width, layer.camera.size.height});
+}
+
+void ViewLookUp::prepareMotion() {
+    constexpr const char* kMoving = "#define MOVING\n";
+    if (motion_) return;
+    motion_.emplace(
+        Motion{{gpu::DrawPass<Params>("warp_look_up.frag", kMoving),
+                gpu::ComputePass<Params>("warp_rest.comp", kMoving)},
+               gpu::Texture({3, kViews * params::kSurfaceNumbers}, gpu::TexelFormat::Rgba32F)});
+}
+
+bool ViewLookUp::showsMotion(const Input& input) const {
+    return motion_ && input.picture.poses.size() == input.models.objects().size() &&
+           !input.picture.poses.empty();
+}
+
+void ViewLookUp::upload(const Input& input, const RigidTransform& T_world_camera) {
+    std::vector<float> texels(std::size_t{12} * kViews * params::kSurfaceNumbers);
+    const auto add = [&](int view, const RigidTransform& T_world_view,
+                         const std::vector<RigidTransform>& poses) {
+        const std::vector<RigidTransform> views =
+            viewsOfObjects(T_world_view, poses, input.models.objects(), T_world_camera);
+        for (int id = 0; id < params::kSurfaceNumbers; ++id) {
+            const auto at = static_cast<std::size_t>(id);
+            const params::Transform T =
+                transformOf(views.empty() ? T_world_view.inverse() * T_world_camera
+                                          : views[at < views.size() ? at : 0]);
+            std::memcpy(
+                &texels[12 * (static_cast<std::size_t>(view) * params::kSurfaceNumbers + at)], &T,
+                sizeof T);
+        }
+    };
+    add(0, input.picture.T_world_camera, input.picture.poses);
+    for (const RerenderedPictures::Picture& rerendered : input.rerendered.pictures())
+        if (rerendered.share > 0)
+            add(1 + rerendered.slot, rerendered.T_world_camera, rerendered.poses);
+    motion_->views.upload(texels);
 }
 
 void ViewLookUp::clear(const PixelRect& where) const {
@@ -45,7 +88,7 @@ params::LookUpViews ViewLookUp::paramsOf(const Input& input,
                                          const RigidTransform& T_world_camera) const {
     const Size from = input.traced.picture().size(), to = colour_.size();
     Params p{};
-    p.views[0].toView = transformOf(input.T_world_traced.inverse() * T_world_camera);
+    p.views[0].toView = transformOf(input.picture.T_world_camera.inverse() * T_world_camera);
     for (const RerenderedPictures::Picture& rerendered : input.rerendered.pictures()) {
         p.views[1 + rerendered.slot] = {
             transformOf(rerendered.T_world_camera.inverse() * T_world_camera),
@@ -54,7 +97,7 @@ params::LookUpViews ViewLookUp::paramsOf(const Input& input,
     }
     p.projections[0] = projectionOf(input.traced.lens());
     p.projections[1] = projectionOf(layer_);
-    const Eigen::Vector4f plane = planeIn(input.plane, T_world_camera).cast<float>();
+    const Eigen::Vector4f plane = planeIn(input.models.plane(), T_world_camera).cast<float>();
     p.plane = {plane.x(), plane.y(), plane.z(), plane.w()};
     p.tracedWidth = from.width;
     p.tracedHeight = from.height;
@@ -70,13 +113,19 @@ void ViewLookUp::run(const Input& input, const RigidTransform& T_world_camera,
     p.bounds = boundsOf(where);
     p.levels = holes.levels();
     std::ranges::copy(holes.wanted(), p.wanted);
+    const bool moving = showsMotion(input);
+    if (moving) upload(input, T_world_camera);
     {
         const gpu::Scissor scissor(where);
-        const gpu::Texture &colour = input.traced.colour(), &packed = input.traced.packed();
-        plain_.run(p,
-                   {gpu::sampler(0, input.silhouette), gpu::sampler(1, rays_),
-                    gpu::sampler(2, colour), gpu::sampler(3, packed)},
-                   target_);
+        const gpu::Binding silhouette = gpu::sampler(0, input.silhouette),
+                           rays = gpu::sampler(1, rays_),
+                           colour = gpu::sampler(2, input.traced.colour()),
+                           packed = gpu::sampler(3, input.traced.packed());
+        if (moving)
+            motion_->passes.plain.run(
+                p, {silhouette, rays, colour, packed, gpu::sampler(6, motion_->views)}, target_);
+        else
+            still_.plain.run(p, {silhouette, rays, colour, packed}, target_);
     }
     runRest(p, input, where, holes);
 }
@@ -89,16 +138,28 @@ void ViewLookUp::runRest(const Params& params, const Input& input, const PixelRe
                   {gpu::sampler(0, state_), gpu::storage(0, commands_), gpu::storage(1, list_)},
                   {gpu::groupsFor((where.x1 - where.x0 + 1) / 2, kListGroup),
                    gpu::groupsFor((where.y1 - where.y0 + 1) / 2, kListGroup), 1});
-    rest_.runIndirect(
-        params,
-        {gpu::sampler(0, input.silhouette), gpu::sampler(1, rays_),
-         gpu::sampler(2, input.traced.colour()), gpu::sampler(3, input.traced.surface()),
-         gpu::sampler(4, input.rerenderedTextures.colour()),
-         gpu::sampler(5, input.rerenderedTextures.surface()), gpu::imageWrite(0, colour_),
-         gpu::imageWrite(1, depth_), gpu::imageWrite(2, state_), gpu::storage(0, commands_),
-         gpu::storage(1, list_), gpu::storage(2, holes.commands()),
-         gpu::storage(3, holes.entries())},
-        commands_, 0);
+    const gpu::Binding silhouette = gpu::sampler(0, input.silhouette),
+                       rays = gpu::sampler(1, rays_),
+                       colours = gpu::sampler(2, input.traced.colour()),
+                       surfaces = gpu::sampler(3, input.traced.surface()),
+                       moreColours = gpu::sampler(4, input.rerenderedTextures.colour()),
+                       moreSurfaces = gpu::sampler(5, input.rerenderedTextures.surface()),
+                       colour = gpu::imageWrite(0, colour_), depth = gpu::imageWrite(1, depth_),
+                       state = gpu::imageWrite(2, state_), commands = gpu::storage(0, commands_),
+                       list = gpu::storage(1, list_),
+                       holeCommands = gpu::storage(2, holes.commands()),
+                       entries = gpu::storage(3, holes.entries());
+    if (showsMotion(input))
+        motion_->passes.rest.runIndirect(params,
+                                         {silhouette, rays, colours, surfaces, moreColours,
+                                          moreSurfaces, gpu::sampler(6, motion_->views), colour,
+                                          depth, state, commands, list, holeCommands, entries},
+                                         commands_, 0);
+    else
+        still_.rest.runIndirect(params,
+                                {silhouette, rays, colours, surfaces, moreColours, moreSurfaces,
+                                 colour, depth, state, commands, list, holeCommands, entries},
+                                commands_, 0);
 }
 
 }  // namespace mfar

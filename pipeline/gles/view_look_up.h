@@ -8,11 +8,10 @@
 #include "pipeline/warp/pass_params.h"
 #include "pipeline/warp/warp_options.h"
 
-#include <Eigen/Core>
-
 #include <array>
 #include <cstdint>
 #include <iterator>
+#include <optional>
 
 namespace mfar {
 
@@ -26,14 +25,14 @@ public:
 
     struct Input {
         const gpu::Texture& silhouette;
+        const SilhouetteModels& models;  ///< at the present poses
         const TracedTextures& traced;
-        const RigidTransform& T_world_traced;
+        const TracedPicture& picture;  ///< the picture in `traced`
         const RerenderedPictures& rerendered;
         const RerenderedTextures& rerenderedTextures;
-        /// Plane of the shadow catcher: n . point = w in the world [m]. Zero if there is no
-        /// catcher, or if it is not a plane and `silhouette` therefore shows it.
-        Eigen::Vector4d plane = Eigen::Vector4d::Zero();
     };
+    /// Must be called before run() if objects move. Compiles shaders at the first call.
+    void prepareMotion();
     /// Computes colour(), depth() and state() for the pixels in `where`, and no others. Adds pixels
     /// without a known colour to the list in `holes`.
     void run(const Input& input, const RigidTransform& T_world_camera, const PixelRect& where,
@@ -61,8 +60,23 @@ private:
     gpu::Texture rays_, colour_, depth_, state_;
     gpu::Framebuffer target_;
     gpu::Buffer commands_, list_;
-    gpu::DrawPass<Params> plain_;
-    gpu::ComputePass<Params> restList_, rest_;
+    /// The passes that look surfaces up.
+    struct Passes {
+        gpu::DrawPass<Params> plain;
+        gpu::ComputePass<Params> rest;
+    };
+    /// Passes for moving objects, and the motions: three rows of a transform for each view and
+    /// surface number.
+    struct Motion {
+        Passes passes;
+        gpu::Texture views;
+    };
+    void upload(const Input& input, const RigidTransform& T_world_camera);
+    [[nodiscard]] bool showsMotion(const Input& input) const;
+
+    Passes still_;
+    std::optional<Motion> motion_;
+    gpu::ComputePass<Params> restList_;
 };
 
 }  // namespace mfar

@@ -4,6 +4,7 @@
 #include "pipeline/models/gltf_document.h"
 #include "pipeline/models/gltf_material.h"
 #include "pipeline/models/gltf_mesh.h"
+#include "pipeline/models/gltf_motion.h"
 
 #include <fmt/format.h>
 
@@ -47,41 +48,42 @@ Eigen::Affine3d transformOf(const GltfDocument& document, const tinygltf::Node& 
     return T;
 }
 
-/// Returns a sentence for each kind of motion in the document, with the first place.
-std::vector<std::string> stillParts(const GltfDocument& document) {
-    std::vector<std::string> out;
-    const tinygltf::Model& gltf = document.gltf;
-    if (!gltf.animations.empty())
-        out.push_back(document.sentence("animations[0]",
-                                        "animations are not played; the model is shown at rest"));
-    if (!gltf.skins.empty())
-        out.push_back(document.sentence(
-            "skins[0]", "skins are not applied; the mesh is shown as if it had no skeleton"));
-    for (std::size_t mesh = 0; mesh < gltf.meshes.size(); ++mesh) {
-        const auto& parts = gltf.meshes[mesh].primitives;
-        const auto morphed =
-            std::ranges::find_if(parts, [](const auto& part) { return !part.targets.empty(); });
-        if (morphed == parts.end()) continue;
-        out.push_back(document.sentence(
-            fmt::format("meshes[{}].primitives[{}].targets", mesh, morphed - parts.begin()),
-            "morph targets are not applied; the mesh is shown without them"));
-        break;
-    }
-    return out;
+constexpr std::size_t kMostParts = 16;  // a note contains this number, too
+
+/// Position of a node: T_joint_node, and the joints above it. Coordinates in a joint are scaled by
+/// `scale`, so that the joints are rigid.
+struct NodePlace {
+    Eigen::Affine3d T = upright();
+    std::vector<RigidPath::Joint> joints;
+    double scale = 1;
+    int part = 0;
+};
+
+/// Returns the transform as a rigid one after a scaling by `scale`. Empty if it scales the axes
+/// unequally or mirrors.
+std::optional<RigidTransform> rigidPart(const Eigen::Affine3d& T, double& scale) {
+    constexpr double kUnequal = 1e-4;
+    const Eigen::Matrix3d& M = T.linear();
+    scale = std::cbrt(std::max(M.determinant(), 0.0));
+    const Eigen::Matrix3d squares = M.transpose() * M - scale * scale * Eigen::Matrix3d::Identity();
+    if (!(scale > 0) || !(squares.cwiseAbs().maxCoeff() < kUnequal * scale * scale)) return {};
+    const Eigen::Quaterniond turn(Eigen::Matrix3d(M / scale));
+    return RigidTransform{turn.normalized(), T.translation()};
 }
 
 class ModelBuilder {
 public:
     explicit ModelBuilder(const GltfDocument& document)
-        : document_(document), materials_(document), onPath_(document.gltf.nodes.size(), false) {}
+        : document_(document), materials_(document), motion_(document),
+          onPath_(document.gltf.nodes.size(), false) {}
 
     Model build() {
         for (const int root : roots())
-            addNode(root, upright(), 0);
+            addNode(root, {}, 0);
         if (model_.meshes.empty()) document_.refuse("scene", "the scene contains no triangles");
         model_.materials = materials_.takeMaterials();
         model_.textures = materials_.takeTextures();
-        model_.notes = stillParts(document_);
+        model_.notes = motion_.notes();
         return std::move(model_);
     }
 
@@ -102,7 +104,7 @@ private:
     }
 
     // The depth of the recursion is limited, so that the stack cannot overflow.
-    void addNode(int index, const Eigen::Affine3d& T_model_parent, int depth) {
+    void addNode(int index, const NodePlace& parent, int depth) {
         const std::string place = fmt::format("nodes[{}]", index);
         const tinygltf::Node& node = document_.at(document_.gltf.nodes, index, place);
         if (onPath_[index]) document_.refuse(place, "the node is its own ancestor");
@@ -113,14 +115,47 @@ private:
             document_.refuse(
                 place, fmt::format("the model has more than {} nodes", document_.limits.elements));
         onPath_[index] = true;
-        const Eigen::Affine3d T = T_model_parent * transformOf(document_, node, place);
-        if (node.mesh >= 0) addMesh(node.mesh, T, place);
+        const NodePlace own = placeOf(index, parent, place);
+        if (node.mesh >= 0) addMesh(node.mesh, own, place);
         for (const int child : node.children)
-            addNode(child, T, depth + 1);
+            addNode(child, own, depth + 1);
         onPath_[index] = false;
     }
 
-    void addMesh(int index, const Eigen::Affine3d& T, const std::string& place) {
+    NodePlace placeOf(int index, const NodePlace& parent, const std::string& place) {
+        const tinygltf::Node& node = document_.gltf.nodes[static_cast<std::size_t>(index)];
+        const Eigen::Affine3d local = transformOf(document_, node, place);
+        NodePlace out = parent;
+        out.T = parent.T * local;
+        const GltfMotion::Tracks* tracks = motion_.of(index);
+        if (tracks == nullptr) return out;
+        double scale = 1;
+        const std::optional<RigidTransform> above = rigidPart(parent.T, scale);
+        if (!above || model_.paths.size() == kMostParts) {
+            motion_.note(place, above ? "the node rests, because 16 other nodes move"
+                                      : "the node rests, because a parent scales it unequally or "
+                                        "mirrors it");
+            return out;
+        }
+        out.scale = parent.scale * scale;
+        RigidPath::Joint joint;
+        joint.T_parent_joint = {above->rotation, parent.scale * above->translation};
+        joint.rest.translation = out.scale * local.translation();
+        if (!node.rotation.empty())
+            joint.rest.rotation =
+                Eigen::Quaterniond(Eigen::Vector4d(node.rotation.data())).normalized();
+        joint.translation = tracks->translation.scaled(out.scale);
+        joint.rotation = tracks->rotation;
+        out.joints.push_back(std::move(joint));
+        out.T = Eigen::Affine3d::Identity();
+        if (!node.scale.empty()) out.T.scale(Eigen::Vector3d(node.scale.data()));
+        model_.paths.push_back({out.joints, motion_.length()});
+        out.part = static_cast<int>(model_.paths.size());
+        return out;
+    }
+
+    void addMesh(int index, const NodePlace& node, const std::string& place) {
+        const Eigen::Affine3d T = Eigen::Scaling(node.scale) * node.T;
         const tinygltf::Mesh& mesh = document_.at(document_.gltf.meshes, index, place + ".mesh");
         for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
             const std::optional<Mesh>& plain = primitive(index, i, mesh.primitives[i]);
@@ -129,6 +164,7 @@ private:
             count(triangles_, plain->triangles.size(), document_.limits.triangles, "triangles",
                   place);
             model_.meshes.push_back(transformed(*plain, T));
+            model_.meshes.back().part = node.part;
             requireNear(model_.meshes.back(), place);
         }
     }
@@ -166,6 +202,7 @@ private:
 
     const GltfDocument& document_;
     GltfMaterials materials_;
+    GltfMotion motion_;
     std::map<std::pair<int, std::size_t>, std::optional<Mesh>> read_;
     std::vector<bool> onPath_;
     std::size_t nodesShown_ = 0, vertices_ = 0, triangles_ = 0;

@@ -37,6 +37,10 @@ std::size_t memoryOf(const Model& model) {
     for (const Mesh& mesh : model.meshes)
         out += bytesOf(mesh.positions) + bytesOf(mesh.normals) + bytesOf(mesh.uvs) +
                bytesOf(mesh.tangents) + bytesOf(mesh.triangles);
+    for (const RigidPath& path : model.paths)
+        for (const RigidPath::Joint& joint : path.joints)
+            for (const MotionTrack* track : {&joint.translation, &joint.rotation})
+                out += bytesOf(track->times) + bytesOf(track->values);
     for (const SurfaceTexture& texture : model.textures)
         out += bytesOf(texture.texels);
     return out;

@@ -31,10 +31,12 @@ void addShare(KnownLight& sum, float share, const KnownLight& light) {
 }  // namespace
 
 LightHistory::LightHistory(const Film& film, const RenderView& view,
-                           std::shared_ptr<const LensRays> lens, float mostSamples)
+                           std::shared_ptr<const LensRays> lens, float mostSamples,
+                           std::optional<MovedLight> moved)
     : film_(film), camera_(view.camera), lens_(std::move(lens)),
       rotation_(view.T_world_camera.rotation.normalized().toRotationMatrix().cast<float>()),
-      eye_(view.T_world_camera.translation.cast<float>()), mostSamples_(mostSamples) {}
+      eye_(view.T_world_camera.translation.cast<float>()), mostSamples_(mostSamples),
+      moved_(std::move(moved)) {}
 
 bool LightHistory::isSame(std::size_t pixel, const Eigen::Vector2f& ray, const SeenSurface& seen,
                           const Eigen::Vector3f& point) const {
@@ -83,6 +85,21 @@ bool LightHistory::isSparseAt(const Eigen::Vector2d& pixel) const {
 
 KnownLight LightHistory::at(const SeenSurface& seen, const Eigen::Vector3f& point,
                             const Eigen::Vector3f& eye) const {
+    if (!moved_) return found(seen, point, eye);
+    SeenSurface before = seen;
+    Eigen::Vector3f pointBefore = point, eyeBefore = eye;
+    moved_->follow(seen.hit.id, pointBefore, before.normal, eyeBefore);
+    KnownLight out = found(before, pointBefore, eyeBefore);
+    if (!(out.firstCount > 0)) return out;
+    const MovedLight::Change change = moved_->at(seen, point, eye);
+    out.firstCount = stillWorth(out.firstCount, change.diffuse);
+    // The second light of the shadow catcher does not depend on objects.
+    if (seen.hit.id != kCatcherId) out.secondCount = stillWorth(out.secondCount, change.specular);
+    return out;
+}
+
+KnownLight LightHistory::found(const SeenSurface& seen, const Eigen::Vector3f& point,
+                               const Eigen::Vector3f& eye) const {
     if (seen.hit.id == 0) return {};
     const Eigen::Vector3f there = rotation_.transpose() * (point - eye_);
     if (!(there.z() > kNearest)) return {};

@@ -2,11 +2,13 @@
 
 #include "pipeline/render/film.h"
 #include "pipeline/render/lens_rays.h"
+#include "pipeline/render/moved_light.h"
 #include "pipeline/render/render_view.h"
 
 #include <Eigen/Geometry>
 
 #include <memory>
+#include <optional>
 
 namespace mfar {
 
@@ -15,18 +17,22 @@ namespace mfar {
 class LightHistory {
 public:
     /// `mostSamples` limits the weight of the light at a point [samples]. `lens` must belong to
-    /// `view`.
+    /// `view`. `moved` describes the motion of objects since the earlier picture.
     LightHistory(const Film& film, const RenderView& view, std::shared_ptr<const LensRays> lens,
-                 float mostSamples);
+                 float mostSamples, std::optional<MovedLight> moved = {});
 
     /// Returns the light of the surface at `point` (world frame), seen from `eye`. It interpolates
     /// between those pixels of the earlier picture that show this surface. The weight of specular
-    /// light falls with the angle between the two viewing directions. Empty if no pixel shows the
-    /// surface.
+    /// light falls with the angle between the two viewing directions; the weight of all light, with
+    /// the change that moved objects may have caused. Empty if no pixel shows the surface.
     [[nodiscard]] KnownLight at(const SeenSurface& seen, const Eigen::Vector3f& point,
                                 const Eigen::Vector3f& eye) const;
+    /// Null if no object has moved.
+    [[nodiscard]] const MovedLight* moved() const { return moved_ ? &*moved_ : nullptr; }
 
 private:
+    [[nodiscard]] KnownLight found(const SeenSurface& seen, const Eigen::Vector3f& point,
+                                   const Eigen::Vector3f& eye) const;
     [[nodiscard]] bool isSparseAt(const Eigen::Vector2d& pixel) const;
     [[nodiscard]] KnownLight between(const Eigen::Vector2d& pixel, int step,
                                      const SeenSurface& seen, const Eigen::Vector3f& point) const;
@@ -39,6 +45,7 @@ private:
     Eigen::Matrix3f rotation_;
     Eigen::Vector3f eye_;
     float mostSamples_;
+    std::optional<MovedLight> moved_;
 };
 
 }  // namespace mfar

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace mfar {
 namespace {
@@ -122,13 +123,12 @@ struct PathIntegrator::Lights {
     SampledLight sun, environment;
 };
 
-PathIntegrator::PathIntegrator(const TracedScene& scene, const PathTracerOptions& options)
-    : scene_(scene), options_(options), sun_(scene.scene().lighting.sun),
-      sunIsKnown_(sun_.angularRadius() <= kWidestKnownSun),
-      environment_(scene.scene().lighting.environment),
+PathIntegrator::PathIntegrator(const TracedScene& scene, const PathTracerOptions& options,
+                               std::shared_ptr<const DistantLight> light)
+    : scene_(scene), options_(options), light_(std::move(light)), sun_(light_->sun),
+      sunIsKnown_(sun_.angularRadius() <= kWidestKnownSun), environment_(light_->environment),
       emitters_(options.emissionByChance ? EmissiveTriangles() : EmissiveTriangles(scene)),
-      far_(environment_, scene.scene().lighting, scene.scene().catcher),
-      leastFar_(std::max(kLeastFarShare * far_.brightness(), kLeastFar)) {}
+      far_(light_->far), leastFar_(std::max(kLeastFarShare * far_.brightness(), kLeastFar)) {}
 
 PathIntegrator::Lights PathIntegrator::sampledLights(const PixelSampler& sampler,
                                                      std::uint32_t pair) const {

@@ -9,6 +9,7 @@
 #include "pipeline/render/sun_light.h"
 #include "pipeline/render/traced_scene.h"
 
+#include <memory>
 #include <optional>
 
 namespace mfar {
@@ -16,11 +17,25 @@ namespace mfar {
 /// Number of random pairs that a sample uses before its path begins.
 inline constexpr std::uint32_t kCameraPairs = 1;
 
+/// The distant light of a scene, which does not depend on the poses of objects.
+struct DistantLight {
+    explicit DistantLight(const Scene& scene)
+        : sun(scene.lighting.sun), environment(scene.lighting.environment),
+          far(environment, scene.lighting, scene.catcher) {}
+    DistantLight(const DistantLight&) = delete;
+    DistantLight& operator=(const DistantLight&) = delete;
+
+    SunLight sun;
+    EnvironmentLight environment;
+    FarLight far;
+};
+
 /// Computes the light that returns along a path from the first surface that the path hits.
 class PathIntegrator {
 public:
-    /// Both arguments must outlive the integrator.
-    PathIntegrator(const TracedScene& scene, const PathTracerOptions& options);
+    /// `scene` and `options` must outlive the integrator. `light` must belong to the scene.
+    PathIntegrator(const TracedScene& scene, const PathTracerOptions& options,
+                   std::shared_ptr<const DistantLight> light);
 
     /// Radiance from a point of an object towards the camera, the point's paint, and the light on
     /// the point.
@@ -118,11 +133,12 @@ private:
 
     const TracedScene& scene_;
     const PathTracerOptions& options_;
-    SunLight sun_;
+    const std::shared_ptr<const DistantLight> light_;
+    const SunLight& sun_;
     bool sunIsKnown_;
-    EnvironmentLight environment_;
+    const EnvironmentLight& environment_;
     EmissiveTriangles emitters_;
-    FarLight far_;
+    const FarLight& far_;
     float leastFar_;
 };
 

@@ -1,5 +1,6 @@
 #include "pipeline/render/path_tracer.h"
 
+#include "base/luminance.h"
 #include "base/se3.h"
 #include "pipeline/render/lens_rays.h"
 #include "pipeline/render/microfacet.h"
@@ -8,6 +9,7 @@
 #include "pipeline/render/traced_scene.h"
 #include "pipeline/render/view_bounds.h"
 #include "pipeline/scene/glow.h"
+#include "pipeline/scene/scene_parts.h"
 
 #include <algorithm>
 #include <array>
@@ -15,6 +17,7 @@
 #include <mutex>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace mfar {
 namespace {
@@ -39,6 +42,23 @@ Eigen::Vector2f filtered(PixelFilter filter, const Eigen::Vector2f& u) {
     return u - Eigen::Vector2f(0.5F, 0.5F);
 }
 
+std::vector<MovedLight::Object> movingObjects(const Scene& scene) {
+    std::vector<MovedLight::Object> out;
+    for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+        const SceneObject& object = scene.objects[i];
+        const std::optional<ObjectBall> ball = ownBall(object);
+        if (!object.path || !ball) continue;
+        MovedLight::Object& moving = out.emplace_back();
+        moving.id = static_cast<std::uint8_t>(i + 1);
+        moving.own = *ball;
+        for (const Mesh& mesh : meshesOf(object)) {
+            const auto& material = object.model->materials[static_cast<std::size_t>(mesh.material)];
+            moving.glow = std::max(moving.glow, luminanceOf<float>(material.emission));
+        }
+    }
+    return out;
+}
+
 }  // namespace
 
 void validate(const PathTracerOptions& o) {
@@ -56,9 +76,29 @@ void validate(const PathTracerOptions& o) {
 
 struct PathTracer::Parts {
     Parts(std::shared_ptr<const Scene> sound, const PathTracerOptions& o)
-        : options(o), scene(std::move(sound), o.buildThreads), integrator(scene, options),
+        : options(o), scene(std::move(sound), o.buildThreads),
+          light(std::make_shared<const DistantLight>(scene.scene())),
+          integrator(scene, options, light),
           reach(o.shadowReach * static_cast<float>(glowReach(scene.scene()))),
-          mirrors(std::make_shared<const MirrorLight>(integrator.mirrorLight())) {}
+          mirrors(std::make_shared<const MirrorLight>(integrator.mirrorLight())),
+          moving(movingObjects(scene.scene())) {}
+    Parts(const Parts& other, std::shared_ptr<const Scene> posed)
+        : options(other.options), scene(other.scene, std::move(posed)), light(other.light),
+          integrator(scene, options, light), reach(other.reach), mirrors(other.mirrors),
+          moving(other.moving) {
+        const std::scoped_lock lock(other.lensMutex);
+        lens = other.lens;
+    }
+
+    [[nodiscard]] MovedLight movedSince(std::span<const RigidTransform> poses) const {
+        std::vector<MovedLight::Object> objects = moving;
+        for (MovedLight::Object& object : objects) {
+            const std::size_t i = object.id - 1U;
+            object.T_world_before = poses[i];
+            object.T_world_now = scene.scene().objects[i].T_world_object;
+        }
+        return {objects, light->sun, light->far};
+    }
 
     [[nodiscard]] std::shared_ptr<const LensRays> lensOf(const CameraModel& camera) const {
         const std::scoped_lock lock(lensMutex);
@@ -69,9 +109,11 @@ struct PathTracer::Parts {
 
     PathTracerOptions options;
     TracedScene scene;
+    std::shared_ptr<const DistantLight> light;
     PathIntegrator integrator;
     float reach;  ///< of shadows and light on the shadow catcher [object radii]
     std::shared_ptr<const MirrorLight> mirrors;
+    std::vector<MovedLight::Object> moving;  ///< without poses
     mutable std::mutex lensMutex;
     mutable std::shared_ptr<const LensRays> lens;
 };
@@ -233,7 +275,14 @@ PathTracer::PathTracer(std::shared_ptr<const Scene> scene, const PathTracerOptio
     parts_ = std::make_unique<const Parts>(std::move(scene), options);
 }
 
+PathTracer::PathTracer(const PathTracer& other, std::shared_ptr<const Scene> posed)
+    : parts_(std::make_unique<const Parts>(*other.parts_, std::move(posed))) {}
+
 PathTracer::~PathTracer() = default;
+
+std::unique_ptr<const PathTracer> PathTracer::posed(std::shared_ptr<const Scene> scene) const {
+    return std::unique_ptr<const PathTracer>(new PathTracer(*this, std::move(scene)));
+}
 
 namespace {
 
@@ -270,17 +319,19 @@ void PathTracer::trace(const RenderView& view, std::span<const std::uint32_t> pi
     batch.flush();
 }
 
-LightHistory PathTracer::historyOf(const Film& film, const RenderView& view,
-                                   float mostSamples) const {
-    return {film, view, parts_->lensOf(view.camera), mostSamples};
+LightHistory PathTracer::historyOf(const Film& film, const RenderView& view, float mostSamples,
+                                   std::span<const RigidTransform> poses) const {
+    std::optional<MovedLight> moved;
+    if (!poses.empty()) moved.emplace(parts_->movedSince(poses));
+    return {film, view, parts_->lensOf(view.camera), mostSamples, std::move(moved)};
 }
 
 const std::shared_ptr<const MirrorLight>& PathTracer::mirrorLight() const {
     return parts_->mirrors;
 }
 
-std::optional<Eigen::Vector3f> PathTracer::catcherAt(const RenderView& view,
-                                                     const Eigen::Vector2f& pixel) const {
+std::optional<PathTracer::CatcherPoint> PathTracer::catcherAt(const RenderView& view,
+                                                              const Eigen::Vector2f& pixel) const {
     const RayScene& catcher = parts_->scene.catcher();
     if (catcher.empty()) return {};
     const Eigen::Quaternionf turn = view.T_world_camera.rotation.cast<float>();
@@ -288,7 +339,8 @@ std::optional<Eigen::Vector3f> PathTracer::catcherAt(const RenderView& view,
     const Ray look{view.T_world_camera.translation.cast<float>(), turn * ray.homogeneous().eval()};
     const RayHit hit = catcher.first(look);
     if (!hit.found()) return {};
-    return look.origin + hit.t * look.direction;
+    return CatcherPoint{look.origin + hit.t * look.direction,
+                        parts_->scene.catcherPoint(hit, look.direction).shading};
 }
 
 PixelRect PathTracer::objectBounds(const RenderView& view) const {

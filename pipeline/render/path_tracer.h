@@ -23,6 +23,9 @@ public:
     /// Throws std::invalid_argument if the scene or an option is invalid, and std::runtime_error if
     /// Embree fails.
     explicit PathTracer(std::shared_ptr<const Scene> scene, const PathTracerOptions& options = {});
+    /// Returns a tracer of the same scene with moving objects at other poses. It takes little time.
+    /// `scene` must be withPoses() of this tracer's scene.
+    [[nodiscard]] std::unique_ptr<const PathTracer> posed(std::shared_ptr<const Scene> scene) const;
     ~PathTracer();
     PathTracer(const PathTracer&) = delete;
     PathTracer& operator=(const PathTracer&) = delete;
@@ -36,14 +39,19 @@ public:
     void trace(const RenderView& view, std::span<const std::uint32_t> pixels, int samples,
                Film& film, const LightHistory* history = nullptr) const;
 
-    /// Gives trace() access to the light in the film of an earlier picture of the same objects.
+    /// Gives trace() access to the light in the film of an earlier picture of the same objects, at
+    /// these poses if any of them moves.
     [[nodiscard]] LightHistory historyOf(const Film& film, const RenderView& view,
-                                         float mostSamples) const;
+                                         float mostSamples,
+                                         std::span<const RigidTransform> poses = {}) const;
 
     [[nodiscard]] const std::shared_ptr<const MirrorLight>& mirrorLight() const;
 
-    [[nodiscard]] std::optional<Eigen::Vector3f> catcherAt(const RenderView& view,
-                                                           const Eigen::Vector2f& pixel) const;
+    struct CatcherPoint {
+        Eigen::Vector3f position, normal;
+    };
+    [[nodiscard]] std::optional<CatcherPoint> catcherAt(const RenderView& view,
+                                                        const Eigen::Vector2f& pixel) const;
 
     /// Rectangle around the pixels that an object may cover. It may be too large, or empty.
     [[nodiscard]] PixelRect objectBounds(const RenderView& view) const;
@@ -55,6 +63,8 @@ public:
 private:
     struct Parts;
     class Batch;
+    PathTracer(const PathTracer& other, std::shared_ptr<const Scene> posed);
+
     std::unique_ptr<const Parts> parts_;
 };
 

@@ -10,6 +10,7 @@
 #include <cstring>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace mfar {
 namespace {
@@ -96,34 +97,11 @@ void setLane(Packet& query, std::size_t i, const Ray& ray) {
     query.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
 }
 
-template <typename Packet>
-RayHit laneHit(const Packet& query, std::size_t i) {
-    if (query.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) return {};
-    return {query.ray.tfar[i], query.hit.geomID[i], query.hit.primID[i], query.hit.u[i],
-            query.hit.v[i]};
-}
-
 /// True if the hit is on a triangle's edge. The adjacent triangle may be hit at the same distance,
 /// and the triangle tested first wins. A packet and a single ray may test triangles in different
 /// order.
 bool onEdge(const RayHit& hit) {
     return hit.found() && !(std::min({hit.u, hit.v, 1 - hit.u - hit.v}) > kEdge);
-}
-
-template <std::size_t Width, typename Packet>
-void intersectInPackets(RTCScene scene, std::span<const Ray> rays, std::span<RayHit> hits) {
-    for (std::size_t first = 0; first < rays.size(); first += Width) {
-        const std::size_t count = std::min(Width, rays.size() - first);
-        Packet query;
-        alignas(Packet) std::array<int, Width> valid{};
-        for (std::size_t i = 0; i < Width; ++i) {
-            valid[i] = i < count ? -1 : 0;
-            setLane(query, i, rays[first + std::min(i, count - 1)]);
-        }
-        intersectPacket(valid.data(), scene, query);
-        for (std::size_t i = 0; i < count; ++i)
-            hits[first + i] = laneHit(query, i);
-    }
 }
 
 std::size_t packetWidthOf(RTCDevice device) {
@@ -149,21 +127,23 @@ void check(RTCDevice device, const char* what) {
                                  std::to_string(static_cast<int>(error)));
 }
 
-}  // namespace
-
-void RayScene::Release::operator()(RTCDeviceTy* device) const {
-    rtcReleaseDevice(device);
+std::shared_ptr<RTCDeviceTy> newDevice(int buildThreads) {
+    const std::string settings = "threads=" + std::to_string(buildThreads);
+    RTCDevice device = rtcNewDevice(settings.c_str());
+    if (device == nullptr) check(nullptr, "starting");
+    if (device == nullptr) throw std::runtime_error("Embree: a device cannot be created");
+    return {device, rtcReleaseDevice};
 }
+
+}  // namespace
 
 void RayScene::Release::operator()(RTCSceneTy* scene) const {
     rtcReleaseScene(scene);
 }
 
-RayScene::RayScene(int buildThreads) {
-    const std::string settings = "threads=" + std::to_string(buildThreads);
-    device_.reset(rtcNewDevice(settings.c_str()));
-    if (!device_) check(nullptr, "starting");
-    if (!device_) throw std::runtime_error("Embree: a device cannot be created");
+RayScene::RayScene(int buildThreads) : RayScene(newDevice(buildThreads)) {}
+
+RayScene::RayScene(std::shared_ptr<RTCDeviceTy> device) : device_(std::move(device)) {
     scene_.reset(rtcNewScene(device_.get()));
     check(device_.get(), "creating a scene");
     packetWidth_ = packetWidthOf(device_.get());
@@ -190,14 +170,39 @@ std::uint32_t RayScene::add(std::span<const Eigen::Vector3f> positions,
         rtcSetGeometryIntersectFilterFunction(geometry, rejectHoles);
         rtcSetGeometryOccludedFilterFunction(geometry, rejectHoles);
     }
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometryByID(scene_.get(), geometry, meshes_);
-    rtcReleaseGeometry(geometry);
-    check(device_.get(), "adding a mesh");
+    attach(geometry, meshes_);
     for (const auto& triangle : triangles)
         for (const std::uint32_t corner : triangle)
             box_.extend(positions[corner]);
     return meshes_++;
+}
+
+void RayScene::attach(RTCGeometryTy* geometry, std::uint32_t firstMesh) {
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(scene_.get(), geometry, static_cast<unsigned>(firstMeshes_.size()));
+    rtcReleaseGeometry(geometry);
+    check(device_.get(), "adding a mesh");
+    firstMeshes_.push_back(firstMesh);
+}
+
+std::uint32_t RayScene::place(const RayScene& part, const RigidTransform& T_scene_part) {
+    RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_INSTANCE);
+    rtcSetGeometryInstancedScene(geometry, part.scene_.get());
+    Eigen::Matrix<float, 3, 4, Eigen::RowMajor> T;
+    T << T_scene_part.rotation.toRotationMatrix().cast<float>(),
+        T_scene_part.translation.cast<float>();
+    rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_ROW_MAJOR, T.data());
+    const std::uint32_t first = meshes_;
+    attach(geometry, first);
+    meshes_ += part.meshes_;
+    for (int i = 0; i < 8 && !part.box_.isEmpty(); ++i)
+        box_.extend(
+            T * part.box_.corner(static_cast<Eigen::AlignedBox3f::CornerType>(i)).homogeneous());
+    return first;
+}
+
+std::uint32_t RayScene::meshOf(std::uint32_t instance, std::uint32_t geometry) const {
+    return instance == RTC_INVALID_GEOMETRY_ID ? geometry : firstMeshes_[instance] + geometry;
 }
 
 void RayScene::commit() {
@@ -212,7 +217,8 @@ RayHit RayScene::first(const Ray& ray) const {
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     intersectOne(scene_.get(), query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
-    return {query.ray.tfar, query.hit.geomID, query.hit.primID, query.hit.u, query.hit.v};
+    return {query.ray.tfar, meshOf(query.hit.instID[0], query.hit.geomID), query.hit.primID,
+            query.hit.u, query.hit.v};
 }
 
 bool RayScene::blocked(const Ray& ray) const {
@@ -221,13 +227,34 @@ bool RayScene::blocked(const Ray& ray) const {
     return query.tfar < 0;
 }
 
+template <std::size_t Width, typename Packet>
+void RayScene::intersectInPackets(std::span<const Ray> rays, std::span<RayHit> hits) const {
+    for (std::size_t first = 0; first < rays.size(); first += Width) {
+        const std::size_t count = std::min(Width, rays.size() - first);
+        Packet query;
+        alignas(Packet) std::array<int, Width> valid{};
+        for (std::size_t i = 0; i < Width; ++i) {
+            valid[i] = i < count ? -1 : 0;
+            setLane(query, i, rays[first + std::min(i, count - 1)]);
+        }
+        intersectPacket(valid.data(), scene_.get(), query);
+        for (std::size_t i = 0; i < count; ++i) {
+            RayHit& hit = hits[first + i];
+            hit = {};
+            if (query.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
+            hit = {query.ray.tfar[i], meshOf(query.hit.instID[0][i], query.hit.geomID[i]),
+                   query.hit.primID[i], query.hit.u[i], query.hit.v[i]};
+        }
+    }
+}
+
 void RayScene::firstOfEach(std::span<const Ray> rays, std::span<RayHit> hits) const {
     if (packetWidth_ == 16)
-        intersectInPackets<16, RTCRayHit16>(scene_.get(), rays, hits);
+        intersectInPackets<16, RTCRayHit16>(rays, hits);
     else if (packetWidth_ == 8)
-        intersectInPackets<8, RTCRayHit8>(scene_.get(), rays, hits);
+        intersectInPackets<8, RTCRayHit8>(rays, hits);
     else
-        intersectInPackets<4, RTCRayHit4>(scene_.get(), rays, hits);
+        intersectInPackets<4, RTCRayHit4>(rays, hits);
     for (std::size_t i = 0; i < rays.size(); ++i)
         if (onEdge(hits[i])) hits[i] = first(rays[i]);
 }

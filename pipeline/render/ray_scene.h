@@ -1,5 +1,7 @@
 #pragma once
 
+#include "base/geometry.h"
+
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
@@ -12,6 +14,7 @@
 
 struct RTCDeviceTy;
 struct RTCSceneTy;
+struct RTCGeometryTy;
 
 namespace mfar {
 
@@ -45,11 +48,17 @@ class RayScene {
 public:
     /// Throws std::runtime_error if Embree is unavailable. `buildThreads` must be at least 1.
     explicit RayScene(int buildThreads = 1);
+    /// Creates an empty scene that may place `other`.
+    [[nodiscard]] static RayScene beside(const RayScene& other) { return RayScene(other.device_); }
 
     /// Copies the mesh and returns its index. Coordinates must be finite and indices in range.
     std::uint32_t add(std::span<const Eigen::Vector3f> positions,
                       std::span<const std::array<std::uint32_t, 3>> triangles,
                       const HoleTest& holes = {});
+    /// Adds all meshes of a committed scene at a pose, and returns the index of the first. They
+    /// need no time for building. `part` must be created beside this scene and must have no placed
+    /// parts. Single meshes must be added before.
+    std::uint32_t place(const RayScene& part, const RigidTransform& T_scene_part);
     void commit();
 
     [[nodiscard]] bool empty() const { return meshes_ == 0; }
@@ -63,15 +72,22 @@ public:
 
 private:
     struct Release {
-        void operator()(RTCDeviceTy* device) const;
         void operator()(RTCSceneTy* scene) const;
     };
 
-    std::unique_ptr<RTCDeviceTy, Release> device_;
+    explicit RayScene(std::shared_ptr<RTCDeviceTy> device);
+    void attach(RTCGeometryTy* geometry, std::uint32_t firstMesh);
+    /// `instance` is Embree's number of the placed part, or kNone for a single mesh.
+    [[nodiscard]] std::uint32_t meshOf(std::uint32_t instance, std::uint32_t geometry) const;
+    template <std::size_t Width, typename Packet>
+    void intersectInPackets(std::span<const Ray> rays, std::span<RayHit> hits) const;
+
+    std::shared_ptr<RTCDeviceTy> device_;
     std::unique_ptr<RTCSceneTy, Release> scene_;
     std::vector<std::unique_ptr<HoleTest>> holes_;
     std::size_t packetWidth_ = 4;
     std::uint32_t meshes_ = 0;
+    std::vector<std::uint32_t> firstMeshes_;  // of each geometry in scene_
     Eigen::AlignedBox3f box_;
 };
 

@@ -37,6 +37,8 @@ struct RenderedPicture {
     /// must be warped before display.
     bool layered = false;
     std::shared_ptr<const Scene> scene;
+    /// T_world_object of the scene's objects in this picture. Empty if none of them moves.
+    std::vector<RigidTransform> poses;
     double samples = 0;  ///< mean number of samples per pixel with an id
 };
 

@@ -1,6 +1,7 @@
 #include "pipeline/render/traced_scene.h"
 
 #include "pipeline/render/texture_lookup.h"
+#include "pipeline/scene/scene_parts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -60,32 +61,91 @@ Ray SurfacePoint::leaving(const Eigen::Vector3f& direction) const {
 }
 
 TracedScene::TracedScene(std::shared_ptr<const Scene> scene, int buildThreads)
-    : scene_(std::move(scene)), objects_(buildThreads), catcher_(buildThreads) {
-    for (std::size_t i = 0; i < scene_->objects.size(); ++i)
-        add(scene_->objects[i], static_cast<std::uint8_t>(i + 1));
+    : scene_(std::move(scene)), objects_(buildThreads) {
+    if (moves(*scene_))
+        addParts();
+    else
+        for (std::size_t i = 0; i < scene_->objects.size(); ++i)
+            add(scene_->objects[i], scene_->objects[i].T_world_object,
+                static_cast<std::uint8_t>(i + 1), objects_, meshes_);
     objects_.commit();
+    auto catcher = std::make_shared<RayScene>(buildThreads);
     if (!scene_->catcher.triangles.empty())
-        catcher_.add(scene_->catcher.positions, scene_->catcher.triangles);
-    catcher_.commit();
+        catcher->add(scene_->catcher.positions, scene_->catcher.triangles);
+    catcher->commit();
+    catcher_ = std::move(catcher);
 }
 
-void TracedScene::add(const SceneObject& object, std::uint8_t id) {
-    for (const Mesh& mesh : object.model->meshes) {
+TracedScene::TracedScene(const TracedScene& other, std::shared_ptr<const Scene> posed)
+    : scene_(std::move(posed)), parts_(other.parts_), objects_(RayScene::beside(other.objects_)),
+      catcher_(other.catcher_) {
+    for (const std::shared_ptr<const Part>& part : parts_)
+        place(*part);
+    objects_.commit();
+}
+
+std::shared_ptr<const TracedScene::TracedMesh> TracedScene::meshOf(const SceneObject& object,
+                                                                   const Mesh& mesh,
+                                                                   const RigidTransform& T,
+                                                                   std::uint8_t id) {
+    auto traced = std::make_shared<TracedMesh>();
+    traced->mesh = &mesh;
+    traced->model = object.model.get();
+    traced->id = id;
+    traced->R_world_object = T.rotation.toRotationMatrix().cast<float>();
+    traced->positions.reserve(mesh.positions.size());
+    for (const Eigen::Vector3f& p : mesh.positions)
+        traced->positions.push_back((T * (object.scale * p.cast<double>())).cast<float>());
+    return traced;
+}
+
+void TracedScene::add(const SceneObject& object, const RigidTransform& T, std::uint8_t id,
+                      RayScene& rays, MeshList& meshes) {
+    for (const Mesh& mesh : meshesOf(object)) {
         if (mesh.triangles.empty()) continue;
-        auto traced = std::make_unique<TracedMesh>();
-        traced->mesh = &mesh;
-        traced->model = object.model.get();
-        traced->id = id;
-        traced->R_world_object = object.T_world_object.rotation.toRotationMatrix().cast<float>();
-        traced->positions.reserve(mesh.positions.size());
-        for (const Eigen::Vector3f& p : mesh.positions)
-            traced->positions.push_back(
-                (object.T_world_object * (object.scale * p.cast<double>())).cast<float>());
+        std::shared_ptr<const TracedMesh> traced = meshOf(object, mesh, T, id);
         HoleTest holes;
         if (traced->material().alphaCutoff > 0) holes = {isHole, traced.get()};
-        objects_.add(traced->positions, mesh.triangles, holes);
-        meshes_.push_back(std::move(traced));
+        rays.add(traced->positions, mesh.triangles, holes);
+        meshes.push_back(std::move(traced));
     }
+}
+
+void TracedScene::addParts() {
+    const auto newPart = [&] {
+        return std::make_shared<Part>(Part{{}, RayScene::beside(objects_), {}});
+    };
+    const std::shared_ptr<Part> still = newPart();
+    parts_.push_back(still);
+    for (std::size_t i = 0; i < scene_->objects.size(); ++i) {
+        const SceneObject& object = scene_->objects[i];
+        const auto id = static_cast<std::uint8_t>(i + 1);
+        if (!object.path) {
+            add(object, object.T_world_object, id, still->rays, still->meshes);
+            continue;
+        }
+        const std::shared_ptr<Part> part = newPart();
+        part->object = i;
+        add(object, {}, id, part->rays, part->meshes);
+        part->rays.commit();
+        parts_.push_back(part);
+    }
+    still->rays.commit();
+    for (const std::shared_ptr<const Part>& part : parts_)
+        place(*part);
+}
+
+void TracedScene::place(const Part& part) {
+    if (part.meshes.empty()) return;
+    if (!part.object) {
+        objects_.place(part.rays, {});
+        meshes_ = part.meshes;
+        return;
+    }
+    const SceneObject& object = scene_->objects[*part.object];
+    objects_.place(part.rays, object.T_world_object);
+    for (const std::shared_ptr<const TracedMesh>& mesh : part.meshes)
+        meshes_.push_back(meshOf(object, *mesh->mesh, object.T_world_object, mesh->id));
 }
 
 Eigen::Vector2f TracedScene::textureAt(const TracedMesh& mesh, const RayHit& hit) {

@@ -6,6 +6,7 @@
 #include "pipeline/scene/scene.h"
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace mfar {
@@ -31,12 +32,14 @@ class TracedScene {
 public:
     /// Throws std::runtime_error if the search structure cannot be built.
     TracedScene(std::shared_ptr<const Scene> scene, int buildThreads);
+    /// Creates the scene of `other` with other poses of its moving objects. It takes little time.
+    TracedScene(const TracedScene& other, std::shared_ptr<const Scene> posed);
     TracedScene(const TracedScene&) = delete;
     TracedScene& operator=(const TracedScene&) = delete;
 
     [[nodiscard]] const Scene& scene() const { return *scene_; }
     [[nodiscard]] const RayScene& objects() const { return objects_; }
-    [[nodiscard]] const RayScene& catcher() const { return catcher_; }
+    [[nodiscard]] const RayScene& catcher() const { return *catcher_; }
 
     /// Returns the ray's first hit, leaving out hits on the backs of single-sided surfaces. `hit`
     /// must be the ray's first hit on any surface, backs included.
@@ -96,7 +99,21 @@ private:
         }
     };
 
-    void add(const SceneObject& object, std::uint8_t id);
+    using MeshList = std::vector<std::shared_ptr<const TracedMesh>>;
+    /// Meshes that keep their places to each other, with a search structure that moving objects
+    /// need not build again. `object`: an index of Scene::objects if the part moves; its meshes are
+    /// then in coordinates of the object.
+    struct Part {
+        std::optional<std::size_t> object;
+        RayScene rays;
+        MeshList meshes;
+    };
+    static std::shared_ptr<const TracedMesh> meshOf(const SceneObject& object, const Mesh& mesh,
+                                                    const RigidTransform& T, std::uint8_t id);
+    static void add(const SceneObject& object, const RigidTransform& T, std::uint8_t id,
+                    RayScene& rays, MeshList& meshes);
+    void addParts();
+    void place(const Part& part);
     static bool isHole(const void* mesh, std::uint32_t triangle, float u, float v);
     /// True if the ray hits the back of a single-sided surface.
     static bool isOnBack(const TracedMesh& mesh, const RayHit& hit,
@@ -111,8 +128,10 @@ private:
 
     std::shared_ptr<const Scene> scene_;
     // The meshes' addresses must not change, because HoleTest::context points to them.
-    std::vector<std::unique_ptr<const TracedMesh>> meshes_;
-    RayScene objects_, catcher_;
+    MeshList meshes_;
+    std::vector<std::shared_ptr<const Part>> parts_;  // empty if nothing moves
+    RayScene objects_;
+    std::shared_ptr<const RayScene> catcher_;
 };
 
 }  // namespace mfar

@@ -2,6 +2,7 @@
 
 #include "base/luminance.h"
 #include "pipeline/scene/scene_bounds.h"
+#include "pipeline/scene/scene_parts.h"
 
 #include <Eigen/Geometry>
 
@@ -19,7 +20,7 @@ constexpr double kVisible = 0.005;
 /// which can only make it smaller [W/sr].
 double intensityOf(const SceneObject& object) {
     double sum = 0;
-    for (const Mesh& mesh : object.model->meshes) {
+    for (const Mesh& mesh : meshesOf(object)) {
         const auto material = static_cast<std::size_t>(mesh.material);
         if (material >= object.model->materials.size()) continue;
         const double radiance = luminanceOf<float>(object.model->materials[material].emission);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/geometry.h"
+#include "pipeline/scene/rigid_path.h"
 
 #include <Eigen/Core>
 
@@ -49,12 +50,16 @@ struct Mesh {
                                             ///< -1
     std::vector<std::array<std::uint32_t, 3>> triangles;
     int material = 0;
+    /// 0: rigid with the model. Otherwise the mesh moves as Model::paths[part - 1], and its
+    /// coordinates are those of the path's last joint.
+    int part = 0;
 };
 
-/// A rigid object in its own coordinates (z up, metres), with at least one material. It is valid:
-/// all numbers are finite and all indices are in range.
+/// An object in its own coordinates (z up, metres), with at least one material. It is valid: all
+/// numbers are finite and all indices are in range.
 struct Model {
     std::vector<Mesh> meshes;
+    std::vector<RigidPath> paths;  ///< of the moving parts
     std::vector<Material> materials;
     std::vector<SurfaceTexture> textures;
     /// Sentences about parts of the model's file that are not shown: "file: place: fact".
@@ -82,17 +87,19 @@ struct Lighting {
     std::optional<Sun> sun;
 };
 
-/// A model placed in the world. In rendered pictures, the object's number is its index in
-/// Scene::objects + 1.
+/// A rigid part of a model, placed in the world. In rendered pictures, the object's number is its
+/// index in Scene::objects + 1.
 struct SceneObject {
     std::shared_ptr<const Model> model;
     RigidTransform T_world_object;
     float scale = 1;
     /// The plane z = 0 of this frame is the real surface on which the object stands.
     RigidTransform T_world_ground{};
+    int part = 0;                             ///< only meshes of this part are shown
+    std::shared_ptr<const RigidPath> path{};  ///< T_world_object over time; null: it does not move
 
     friend bool operator==(const SceneObject& a, const SceneObject& b) {
-        return a.model == b.model && a.scale == b.scale &&
+        return a.model == b.model && a.part == b.part && a.path == b.path && a.scale == b.scale &&
                a.T_world_object.rotation == b.T_world_object.rotation &&
                a.T_world_object.translation == b.T_world_object.translation;
     }

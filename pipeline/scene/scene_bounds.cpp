@@ -1,11 +1,55 @@
 #include "pipeline/scene/scene_bounds.h"
 
+#include "pipeline/scene/scene_parts.h"
+
 namespace mfar {
+namespace {
+
+/// Number of poses of a path whose bounds are joined.
+constexpr int kPoses = 64;
+
+/// Returns the bounds of the object at all times, from the corners of its bounds at rest.
+Eigen::AlignedBox3d sweptBounds(const RigidTransform& T_frame_world, const SceneObject& object) {
+    SceneObject atRest = object;
+    atRest.path.reset();
+    atRest.T_world_object = {};
+    const Eigen::AlignedBox3d own = boundsIn({}, atRest);
+    Eigen::AlignedBox3d box;
+    for (int pose = 0; pose < kPoses && !own.isEmpty(); ++pose) {
+        const RigidTransform T =
+            T_frame_world * object.path->at(object.path->length * pose / kPoses);
+        for (int corner = 0; corner < 8; ++corner)
+            box.extend(T * own.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner)));
+    }
+    return box;
+}
+
+}  // namespace
+
+std::optional<ObjectBall> ownBall(const SceneObject& object) {
+    if (!object.model) return {};
+    Eigen::AlignedBox3f box;
+    for (const Mesh& mesh : meshesOf(object))
+        for (const Eigen::Vector3f& p : mesh.positions)
+            box.extend(p);
+    if (box.isEmpty()) return {};
+    return ObjectBall{object.scale * box.center().cast<double>(),
+                      0.5 * object.scale * box.diagonal().norm()};
+}
+
+std::vector<ObjectBall> objectBalls(const Scene& scene) {
+    std::vector<ObjectBall> out;
+    for (const SceneObject& object : scene.objects)
+        if (const std::optional<ObjectBall> ball = ownBall(object))
+            out.push_back({object.T_world_object * ball->centre, ball->radius});
+    return out;
+}
 
 Eigen::AlignedBox3d boundsIn(const RigidTransform& T_frame_world, const SceneObject& object) {
+    if (object.path) return sweptBounds(T_frame_world, object);
     const RigidTransform T = T_frame_world * object.T_world_object;
     Eigen::AlignedBox3d box;
-    for (const Mesh& mesh : object.model->meshes)
+    for (const Mesh& mesh : meshesOf(object))
         for (const Eigen::Vector3f& p : mesh.positions)
             box.extend(T * (object.scale * p).cast<double>());
     return box;

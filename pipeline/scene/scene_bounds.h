@@ -4,14 +4,28 @@
 
 #include <Eigen/Geometry>
 
+#include <optional>
+#include <vector>
+
 namespace mfar {
 
-/// Returns the bounds of the object in the given frame.
+/// Bounding ball of an object [m].
+struct ObjectBall {
+    Eigen::Vector3d centre{0, 0, 0};
+    double radius = 0;
+};
+
+/// Returns the ball in the object's own frame, but in metres of the world; empty without vertices.
+[[nodiscard]] std::optional<ObjectBall> ownBall(const SceneObject& object);
+/// Returns one ball in the world for each object that has vertices, at its present pose.
+[[nodiscard]] std::vector<ObjectBall> objectBalls(const Scene& scene);
+
+/// Returns the bounds of the object in the given frame; of a moving object, its bounds at any time.
 [[nodiscard]] Eigen::AlignedBox3d boundsIn(const RigidTransform& T_frame_world,
                                            const SceneObject& object);
 
-/// Returns the bounds of all objects in world coordinates. They are empty if the scene has no
-/// vertex.
+/// Returns the bounds of all objects in world coordinates, at any time. They are empty if the scene
+/// has no vertex.
 [[nodiscard]] Eigen::AlignedBox3d boundsOf(const Scene& scene);
 
 }  // namespace mfar

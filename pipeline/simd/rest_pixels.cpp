@@ -3,6 +3,7 @@
 #include "base/srgb.h"
 #include "pipeline/render/rendered_picture.h"
 #include "pipeline/simd/surface_raster.h"
+#include "pipeline/warp/object_views.h"
 #include "pipeline/warp/pass_params.h"
 
 #include <algorithm>
@@ -91,9 +92,11 @@ float coveredOf(const Quarters& quarters) {
 RestPixels::RestPixels(const ViewLookUp::Input& input, const TracedPicture& traced,
                        std::span<const LightWords> lights, const ViewLookUpInput& plain,
                        const LensProjection& layer, const RigidTransform& T_world_camera)
-    : plain_(plain), layerLens_(pointLensOf(layer)),
-      traced_{traced.surface, traced.colour, lights, traced.camera.size,
-              plain.toTraced, &plain_.lens,  1} {
+    : plain_(plain), layerLens_(pointLensOf(layer)), traced_{traced.surface, traced.colour,
+                                                             lights,         traced.camera.size,
+                                                             plain.toTraced, {},
+                                                             &plain_.lens,   1} {
+    if (plain.ofNumbers != nullptr) traced_.ofNumbers = {plain.ofNumbers, params::kSurfaceNumbers};
     // Sorts the re-rendered pictures by slot number. Their order matters: of pictures with equal
     // shares, known() uses the first.
     std::array<const RerenderedPictures::Picture*, RerenderedPictures::kPictures> bySlot{};
@@ -103,12 +106,17 @@ RestPixels::RestPixels(const ViewLookUp::Input& input, const TracedPicture& trac
         if (rerendered == nullptr || !(rerendered->share > 0)) continue;
         const RerenderedStore::Picture& picture = input.store[rerendered->slot];
         if (picture.surfaces.empty()) continue;
-        rerendered_[static_cast<std::size_t>(rerenderedCount_++)] = {
+        const auto place = static_cast<std::size_t>(rerenderedCount_++);
+        ofNumbers_[place] =
+            transformsByNumber(viewsOfObjects(rerendered->T_world_camera, rerendered->poses,
+                                              input.raster.models().objects(), T_world_camera));
+        rerendered_[place] = {
             picture.surfaces,
             picture.colours,
             picture.lights,
             layer.camera.size,
             pointTransformOf(rerendered->T_world_camera.inverse() * T_world_camera),
+            ofNumbers_[place],
             &layerLens_,
             static_cast<float>(rerendered->share)};
     }
@@ -116,8 +124,12 @@ RestPixels::RestPixels(const ViewLookUp::Input& input, const TracedPicture& trac
 
 /// Projects a point, given in the layer's camera, into a view: pixel and z. Returns false if the
 /// view does not show it.
-bool RestPixels::inView(const View& view, const Point3& point, Point3& at) {
-    const Point3 there = transformed(view.fromCamera, point);
+bool RestPixels::inView(const View& view, const Wanted& wanted, Point3& at) {
+    const Point3& point = wanted.point;
+    const PointTransform& T = view.ofNumbers.empty()
+                                  ? view.fromCamera
+                                  : view.ofNumbers[static_cast<std::size_t>(wanted.id)];
+    const Point3 there = transformed(T, point);
     if (!(there.z > view.lens->nearest && there.z < 1e6F && point.z > 0)) return false;
     const Point3 h = projected(*view.lens, there);
     at = {h.x / h.z, h.y / h.z, there.z};
@@ -163,13 +175,13 @@ bool RestPixels::lookUp(const View& view, const Point3& at, const Wanted& wanted
 /// the share of the colour that is known.
 float RestPixels::known(const Wanted& wanted, Colour& found) const {
     Point3 at;
-    const bool inTraced = inView(traced_, wanted.point, at);
+    const bool inTraced = inView(traced_, wanted, at);
     if (inTraced && lookUp(traced_, at, wanted, found)) return 1;
     float share = 0;
     for (int i = 0; i < rerenderedCount_; ++i) {
         const View& rerendered = rerendered_[static_cast<std::size_t>(i)];
         Colour own;
-        if (rerendered.share <= share || !inView(rerendered, wanted.point, at) ||
+        if (rerendered.share <= share || !inView(rerendered, wanted, at) ||
             !lookUp(rerendered, at, wanted, own))
             continue;
         share = rerendered.share;
@@ -179,7 +191,7 @@ float RestPixels::known(const Wanted& wanted, Colour& found) const {
     // Outside the traced picture, the shadow catcher's colour is not needed. It counts as known,
     // without shadow.
     found = {};
-    return wanted.id == kCatcherId && !inView(traced_, wanted.point, at) ? 1.0F : 0.0F;
+    return wanted.id == kCatcherId && !inView(traced_, wanted, at) ? 1.0F : 0.0F;
 }
 
 bool RestPixels::needsPaint() const {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace mfar::simd {
 
@@ -46,16 +47,17 @@ private:
         std::span<const LightWords> lights;  ///< empty if only colours are known
         Size size;
         PointTransform fromCamera;
+        std::span<const PointTransform> ofNumbers;  ///< see ViewLookUpInput; empty if nothing moves
         const PointLens* lens;
         float share;
     };
 
-    static bool inView(const View& view, const Point3& point, Point3& at);
     struct Wanted {
         Point3 point;
         float id;
         PaintWords paint;
     };
+    static bool inView(const View& view, const Wanted& wanted, Point3& at);
     static bool lookUp(const View& view, const Point3& at, const Wanted& wanted, Colour& found);
     float known(const Wanted& wanted, Colour& found) const;
 
@@ -63,6 +65,7 @@ private:
     PointLens layerLens_;
     View traced_;
     std::array<View, RerenderedPictures::kPictures> rerendered_;
+    std::array<std::vector<PointTransform>, RerenderedPictures::kPictures> ofNumbers_;
     int rerenderedCount_ = 0;
 };
 

@@ -39,6 +39,9 @@ public:
         raster_.setScene(scene);
         rerendered_.clear();
     }
+    void setPoses(std::span<const RigidTransform> T_world_objects) override {
+        raster_.setPoses(T_world_objects);
+    }
     PixelRect bounds(const RigidTransform& T_world_camera) const override {
         return raster_.models().bounds(T_world_camera);
     }

@@ -12,6 +12,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace mfar::simd {
@@ -27,6 +28,9 @@ public:
     SurfaceRaster(const CameraModel& layer, std::shared_ptr<Workers> workers);
 
     void setScene(const Scene& scene);
+    void setPoses(std::span<const RigidTransform> T_world_objects) {
+        models_.setPoses(T_world_objects);
+    }
     [[nodiscard]] const SilhouetteModels& models() const { return models_; }
 
     /// Draws within `where` [layer px]. Pixels elsewhere become invalid.

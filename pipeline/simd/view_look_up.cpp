@@ -3,6 +3,8 @@
 #include "pipeline/engine/steps.h"
 #include "pipeline/simd/rest_pixels.h"
 #include "pipeline/simd/surface_raster.h"
+#include "pipeline/warp/object_views.h"
+#include "pipeline/warp/pass_params.h"
 
 #include <algorithm>
 #include <utility>
@@ -24,6 +26,14 @@ CatcherPlane planeIn(const Eigen::Vector4d& world, const RigidTransform& T_world
 }
 
 }  // namespace
+
+std::vector<PointTransform> transformsByNumber(std::span<const RigidTransform> views) {
+    if (views.empty()) return {};
+    std::vector<PointTransform> out(params::kSurfaceNumbers, pointTransformOf(views.front()));
+    for (std::size_t i = 1; i < views.size(); ++i)
+        out[i] = pointTransformOf(views[i]);
+    return out;
+}
 
 void RerenderedStore::store(const RerenderedPictures::StoredRows& rows) {
     Picture& picture = pictures_[static_cast<std::size_t>(rows.slot)];
@@ -77,6 +87,8 @@ void ViewLookUp::clear(const PixelRect& where) {
 void ViewLookUp::run(const Input& input, const RigidTransform& T_world_camera,
                      const PixelRect& where) {
     const std::span<const LightWords> lights = mirrors_.lightFor(T_world_camera.translation);
+    const std::vector<PointTransform> moved = transformsByNumber(viewsOfObjects(
+        traced_->T_world_camera, traced_->poses, input.raster.models().objects(), T_world_camera));
     const ViewLookUpInput plain{
         pointTransformOf(traced_->T_world_camera.inverse() * T_world_camera),
         tracedLens_,
@@ -85,7 +97,8 @@ void ViewLookUp::run(const Input& input, const RigidTransform& T_world_camera,
         reinterpret_cast<const std::uint32_t*>(traced_->colour.data()),
         lights.empty() ? nullptr : &lights.front().diffuse,
         planeIn(input.plane, T_world_camera),
-        1 - kShadowLift};
+        1 - kShadowLift,
+        moved.empty() ? nullptr : moved.data()};
     const RestPixels rest(input, *traced_, lights, plain, layer_, T_world_camera);
     const auto rows = [&](int y, int end) {
         scratch_.with([&](Scratch& scratch) {

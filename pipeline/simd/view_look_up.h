@@ -14,12 +14,16 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace mfar::simd {
 
 class RestPixels;
 class SurfaceRaster;
+
+/// Returns viewsOfObjects() as a table of params::kSurfaceNumbers transforms; empty if `views` is.
+[[nodiscard]] std::vector<PointTransform> transformsByNumber(std::span<const RigidTransform> views);
 
 /// A pixel of the layer whose colour is not completely known.
 struct Hole {

@@ -189,6 +189,22 @@ struct Asked {
     V pixelX, pixelY, lowX, lowY;  ///< position in the traced picture, exact and rounded down [px]
 };
 
+/// Returns each point, transformed by the entry of its surface's number.
+HWY_INLINE Triples<V> TransformedByNumber(const PointTransform* transforms, VU number,
+                                          const Triples<V>& p) {
+    const D d;
+    const VI first =
+        hn::BitCast(DI(), hn::Mul(number, hn::Set(DU(), sizeof(PointTransform) / sizeof(float))));
+    const auto row = [&](int i) HWY_ATTR {
+        const float* from = &transforms->rows[i][0];
+        const V xy = hn::MulAdd(hn::GatherIndex(d, from, first), p.x,
+                                hn::Mul(hn::GatherIndex(d, from + 1, first), p.y));
+        return hn::Add(xy, hn::MulAdd(hn::GatherIndex(d, from + 2, first), p.z,
+                                      hn::GatherIndex(d, from + 3, first)));
+    };
+    return {row(0), row(1), row(2)};
+}
+
 HWY_INLINE Asked AskFor(const ViewLookUpInput& in, const Four& s, V rayX, V rayY) {
     const D d;
     const DU du;
@@ -206,7 +222,8 @@ HWY_INLINE Asked AskFor(const ViewLookUpInput& in, const Four& s, V rayX, V rayY
     const M empty = hn::And(open, hn::Eq(z, zero));
 
     const Triples<V> point{hn::Mul(z, rayX), hn::Mul(z, rayY), z};
-    Triples<V> there = Transformed(d, in.toTraced, point);
+    Triples<V> there = in.ofNumbers == nullptr ? Transformed(d, in.toTraced, point)
+                                               : TransformedByNumber(in.ofNumbers, id, point);
     const M before = hn::And(hn::Gt(there.z, hn::Set(d, in.lens.nearest)),
                              hn::And(hn::Lt(there.z, hn::Set(d, 1e6F)), hn::Gt(z, zero)));
     there = {hn::IfThenElseZero(before, there.x), hn::IfThenElseZero(before, there.y),

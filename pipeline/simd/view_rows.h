@@ -37,6 +37,9 @@ struct ViewLookUpInput {
     const std::uint32_t* lights;   ///< LightWords, two words each; null if only colours are known
     CatcherPlane plane;
     float shownDepth;  ///< factor of the shadow catcher's z in the result: 1 - kShadowLift
+    /// `toTraced` for each of the params::kSurfaceNumbers numbers of surfaces; null if no object
+    /// moves.
+    const PointTransform* ofNumbers = nullptr;
 };
 
 struct ViewRow {

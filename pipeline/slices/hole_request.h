@@ -21,6 +21,7 @@ struct HoleRequest {
     /// Scene of the picture that lacks the pixels. If pictures of another scene have replaced it,
     /// the request is dropped. Null: the scene of the newest pictures.
     std::shared_ptr<const Scene> source{};
+    std::vector<RigidTransform> poses{};  ///< T_world_object; empty if no object moves
 };
 
 /// Answer to a HoleRequest. Each vector has one value per entry of `pixels`, as defined in
@@ -35,6 +36,7 @@ struct HoleAnswer {
     int samples = 0;
     std::uint64_t scene = 0;
     bool edges = false;
+    std::vector<RigidTransform> poses{};  ///< of the request
 };
 
 }  // namespace mfar

@@ -48,6 +48,7 @@ void HoleTracer::answer(const Exposure& exposure, HoleAnswer& out) {
     out.samples = request_.samples;
     out.scene = request_.scene;
     out.edges = request_.edges;
+    out.poses = request_.poses;
     out.pixels = request_.pixels;
     out.colour.clear();
     out.depth.clear();

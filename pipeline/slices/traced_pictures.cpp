@@ -1,8 +1,10 @@
 #include "pipeline/slices/traced_pictures.h"
 
 #include "pipeline/render/sampling_order.h"
+#include "pipeline/scene/scene_parts.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -28,6 +30,16 @@ constexpr int kRestLooks = 10;
 // after a change of lighting. It is low, so that new samples soon outweigh the old light.
 constexpr float kMostCarried = 64, kMostCarriedElsewhere = 4;
 constexpr int kLookTurn = 1;
+// While an object moves, a new picture begins when it and its shadow have moved by this distance
+// since the shown picture.
+constexpr double kShadowPixels = 1;
+// Number of turns of a picture before the next one begins while an object moves. By then, a quarter
+// of the pixels has a sample.
+constexpr int kMovingTurns = 3;
+// The light on a tile of the shadow catcher is traced again if motion may have changed it by more.
+constexpr float kVisible = 0.003F;
+constexpr double kFarthestAhead = 0.5;  // longest prediction of the motion of objects [s]
+constexpr double kPeriodShare = 0.3;
 
 }  // namespace
 
@@ -53,11 +65,30 @@ std::optional<double> TracedPictures::changeSince(const Picture& picture) const 
     if (!picture.scene || picture.scene->objects != scene_->objects ||
         (isShown && picture.scene->light != scene_->light))
         return {};
-    return viewChange(picture.view, now_, scene_->balls, policy_.limits);
+    return viewChange(picture.view, now_, picture.scene->balls, policy_.limits);
+}
+
+/// Returns the change of moving objects since a picture, as a multiple of the limits. The warp
+/// moves the objects, so they may turn as far as the camera may move around them. It does not move
+/// their shadows.
+double TracedPictures::motionSince(const Picture& picture) const {
+    double change = 0;
+    for (const auto& [object, own] : scene_->moving) {
+        const RigidTransform& T_world_then = picture.scene->poses[object];
+        const ObjectBall ball{T_world_then * own.centre, own.radius};
+        // The present view of the object, as if the camera had moved instead.
+        const RenderView view{now_.camera,
+                              T_world_then * posesNow_[object].inverse() * now_.T_world_camera};
+        change = std::max({change, viewChange(picture.view, view, {&ball, 1}, policy_.limits),
+                           pixelChange(now_, view, {&ball, 1}) / kShadowPixels});
+    }
+    return change;
 }
 
 void TracedPictures::watchRest() {
-    if (pixelChange(restsAt_, now_, scene_->balls) < kRestPixels) {
+    if (scene_->moves())
+        restLooks_ = 0;
+    else if (pixelChange(restsAt_, now_, scene_->balls) < kRestPixels) {
         restLooks_ = std::min(restLooks_ + 1, kRestLooks);
     } else {
         restsAt_ = now_;
@@ -66,7 +97,10 @@ void TracedPictures::watchRest() {
 }
 
 TracedStep TracedPictures::chosenStep() const {
-    const std::optional<double> sinceShown = changeSince(pictures_[shown_]);
+    std::optional<double> sinceShown = changeSince(pictures_[shown_]);
+    const bool serves = sinceShown && *sinceShown < 1;
+    if (sinceShown && scene_->moves())
+        sinceShown = std::max(*sinceShown, motionSince(pictures_[shown_]));
     const bool rests = restLooks_ == kRestLooks;
     const bool hasBegun = hasNext_ && !toBegin_;
     if (hasBegun && nextRests_ && rests) return TracedStep::Continue;
@@ -80,15 +114,19 @@ TracedStep TracedPictures::chosenStep() const {
                  policy_.soon ? kSoon : 1);
     // While the shown picture is still near enough to this view, it gets its first samples before a
     // new picture begins. Without samples, the new picture could not reuse its light.
-    const bool serves = sinceShown && *sinceShown < 1;
-    if (step == TracedStep::Start && !hasBegun && serves && shown.slices.samples() == 0)
-        return TracedStep::Refine;
+    const bool lacksSamples =
+        scene_->moves() ? shown.slices.turns() < kMovingTurns : shown.slices.samples() == 0;
+    if (step == TracedStep::Start && !hasBegun && serves && lacksSamples) return TracedStep::Refine;
+    // A moving object that is near its place in the shown picture will soon be elsewhere.
+    if (step == TracedStep::Drop && scene_->moves()) return TracedStep::Continue;
     return step;
 }
 
 void TracedPictures::look(const RenderView& now, const RenderView& predicted, Timestamp time) {
     now_ = now;
+    time_ = time;
     if (!scene_) return;
+    if (scene_->moves()) posesNow_ = posesAt(*scene_->source, time);
     watchRest();
     const bool rests = restLooks_ == kRestLooks;
     switch (chosenStep()) {
@@ -110,18 +148,21 @@ Slices::Density TracedPictures::densityOf(const PixelRect& tile, const Picture& 
                                           const PixelRect& objects) const {
     if (!common(tile, objects).empty()) return Slices::Density::Full;
     if (picture.history && pictures_[shown_].scene->light == picture.scene->light &&
-        showsNothing(tile, picture.view))
+        showsNothing(tile, picture))
         return Slices::Density::None;
     return picture.rests || !policy_.filter ? Slices::Density::Full : Slices::Density::Quarter;
 }
 
-bool TracedPictures::showsNothing(const PixelRect& tile, const RenderView& view) const {
+bool TracedPictures::showsNothing(const PixelRect& tile, const Picture& picture) const {
     const Eigen::Vector2f middle(0.5F * static_cast<float>(tile.x0 + tile.x1 - 1),
                                  0.5F * static_cast<float>(tile.y0 + tile.y1 - 1));
-    const auto point = scene_->tracer->catcherAt(view, middle);
+    const auto point = picture.scene->tracer->catcherAt(picture.view, middle);
     if (!point) return false;
+    const MovedLight* moved = picture.history->moved();
+    if (moved != nullptr && moved->diffuseChange(point->position, point->normal) > kVisible)
+        return false;
     const RenderView& before = pictures_[shown_].view;
-    const Eigen::Vector3d there = before.T_world_camera.inverse() * point->cast<double>();
+    const Eigen::Vector3d there = before.T_world_camera.inverse() * point->position.cast<double>();
     return there.z() > 0 &&
            pictures_[shown_].touched.isFarFrom(before.camera.project(there.hnormalized()));
 }
@@ -146,9 +187,18 @@ void TracedPictures::provide(RenderedPicture& out) {
     providedFor_ = scene_;
 }
 
+/// A picture is shown from one to two periods after its begin. Its objects are where they will be
+/// in the middle of this time.
+std::shared_ptr<const PictureScene> TracedPictures::sceneOfNext() const {
+    if (!scene_->moves()) return scene_;
+    const double ahead = std::min(1.5 * period_, kFarthestAhead);
+    return posed(*scene_, posesAt(*scene_->source,
+                                  chosen_ + std::chrono::nanoseconds(std::llround(1e9 * ahead))));
+}
+
 void TracedPictures::begin() {
     Picture& picture = pictures_[1 - shown_];
-    picture.scene = scene_;
+    picture.scene = sceneOfNext();
     picture.view = wanted_;
     picture.chosen = chosen_;
     picture.rests = nextRests_;
@@ -157,14 +207,15 @@ void TracedPictures::begin() {
     picture.history.reset();
     const Picture& shown = pictures_[shown_];
     if (policy_.history && shown.scene && shown.scene->objects == scene_->objects)
-        picture.history.emplace(scene_->tracer->historyOf(
+        picture.history.emplace(picture.scene->tracer->historyOf(
             *shown.film, shown.view,
-            shown.scene->light == scene_->light ? kMostCarried : kMostCarriedElsewhere));
+            shown.scene->light == scene_->light ? kMostCarried : kMostCarriedElsewhere,
+            shown.scene->poses));
     if (!picture.film || !(picture.film->size() == wanted_.camera.size))
         picture.film = std::make_unique<Film>(wanted_.camera.size, memory_);
-    picture.traced = scene_->tracer->bounds(wanted_);
+    picture.traced = picture.scene->tracer->bounds(wanted_);
     picture.film->begin();
-    const PixelRect objects = scene_->tracer->objectBounds(wanted_);
+    const PixelRect objects = picture.scene->tracer->objectBounds(wanted_);
     picture.slices.begin(picture.traced, wanted_.camera.size,
                          [&](const PixelRect& tile) { return densityOf(tile, picture, objects); });
     picture.touched.clear();
@@ -237,10 +288,14 @@ void TracedPictures::beginShow(const Exposure& exposure, RenderedPicture& out) {
 void TracedPictures::endShow(RenderedPicture& out) {
     Picture& picture = pictures_[working()];
     out.scene = picture.scene->source;
+    out.poses = picture.scene->poses;
     out.mirrors = picture.scene->tracer->mirrorLight();
     picture.touched.set(out);
     picture.shownSamples = picture.slices.samples();
     picture.shownTurns = picture.slices.turns();
+    if (!picture.wasShown)
+        period_ +=
+            kPeriodShare * (static_cast<double>((time_ - picture.chosen).count()) * 1e-9 - period_);
     picture.wasShown = true;
     if (picture.slices.finished()) {
         picture.counted = true;

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "pipeline/render/path_tracer.h"
 #include "pipeline/render/picture_resolver.h"
+#include "pipeline/slices/picture_scene.h"
 #include "pipeline/slices/slices.h"
 #include "pipeline/slices/touched_tiles.h"
 #include "pipeline/slices/view_change.h"
@@ -44,13 +44,6 @@ struct TracedPolicy {
     bool operator==(const TracedPolicy&) const = default;
 };
 
-struct PictureScene {
-    std::shared_ptr<const PathTracer> tracer;
-    std::shared_ptr<const Scene> source;
-    std::vector<ObjectBall> balls;
-    std::uint64_t objects = 0, light = 0;
-};
-
 /// The two traced pictures: the shown picture, and the next picture, which will replace it. The
 /// shown picture gets more samples as long as the view is within ViewLimits.
 /// Only one thread at a time may call this class, with two exceptions. Any number of threads may
@@ -69,7 +62,8 @@ public:
     }
 
     /// Reports the camera's view `now`. A new picture gets the view `predicted`, or the view `now`
-    /// if the camera rests.
+    /// if the camera rests. While objects move, it shows them as they will be when it is shown, and
+    /// new pictures follow each other without end.
     void look(const RenderView& now, const RenderView& predicted, Timestamp time);
 
     /// True if begin() must be called. Until then next() returns no pixels.
@@ -132,11 +126,13 @@ private:
 
     [[nodiscard]] std::size_t working() const { return hasNext_ ? 1 - shown_ : shown_; }
     [[nodiscard]] std::optional<double> changeSince(const Picture& picture) const;
+    [[nodiscard]] double motionSince(const Picture& picture) const;
     [[nodiscard]] TracedStep chosenStep() const;
     void watchRest();
+    [[nodiscard]] std::shared_ptr<const PictureScene> sceneOfNext() const;
     [[nodiscard]] Slices::Density densityOf(const PixelRect& tile, const Picture& picture,
                                             const PixelRect& objects) const;
-    [[nodiscard]] bool showsNothing(const PixelRect& tile, const RenderView& view) const;
+    [[nodiscard]] bool showsNothing(const PixelRect& tile, const Picture& picture) const;
     [[nodiscard]] int leastSamples(const Picture& picture) const;
     [[nodiscard]] bool isSparse(const Picture& picture) const;
 
@@ -152,7 +148,9 @@ private:
     bool nextRests_ = false;
     RenderView now_, wanted_, restsAt_;
     int restLooks_ = 0;
-    Timestamp chosen_;
+    Timestamp chosen_, time_;
+    std::vector<RigidTransform> posesNow_;  // empty if no object moves
+    double period_ = 0;  // time from the begin of a picture until it is shown [s], smoothed
     std::uint64_t finished_ = 0;
 };
 

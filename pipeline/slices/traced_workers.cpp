@@ -231,7 +231,11 @@ void TracedWorkers::perform(Job& job) {
     case Job::Kind::Provide: pictures_.provide(mail_.pictures.back()); break;
     case Job::Kind::Begin: pictures_.begin(); break;
     case Job::Kind::Resolve: pictures_.resolver().run(job.rows); break;
-    case Job::Kind::PrepareHoles: holes_.prepare(); break;
+    case Job::Kind::PrepareHoles:
+        holes_.prepare();
+        if (holeScene_->moves() && holes_.request().poses.size() == holeScene_->poses.size())
+            holeScene_ = posed(*holeScene_, holes_.request().poses);
+        break;
     case Job::Kind::AnswerHoles: holes_.answer(options_.exposure, mail_.holeAnswers.back()); break;
     case Job::Kind::Trace: pictures_.trace(job.portion); break;
     case Job::Kind::TraceHoles:
@@ -247,10 +251,7 @@ void TracedWorkers::build(Job& job) const {
         if (same &&
             lightChange(job.source->lighting, job.previousSource->lighting) < options_.lightChange)
             return;
-        auto built = std::make_shared<PictureScene>();
-        built->tracer = std::make_shared<PathTracer>(job.source, options_.tracer);
-        built->source = job.source;
-        built->balls = objectBalls(*job.source);
+        auto built = std::make_shared<PictureScene>(pictureScene(job.source, options_.tracer));
         built->objects = (previous ? previous->objects : 0) + (same ? 0 : 1);
         built->light = (previous ? previous->light : 0) + 1;
         job.scene = std::move(built);

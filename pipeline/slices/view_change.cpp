@@ -89,21 +89,6 @@ LightMoments momentsOf(const Lighting& light) {
 
 }  // namespace
 
-std::vector<ObjectBall> objectBalls(const Scene& scene) {
-    std::vector<ObjectBall> out;
-    for (const SceneObject& object : scene.objects) {
-        if (!object.model) continue;
-        Eigen::AlignedBox3f box;
-        for (const Mesh& mesh : object.model->meshes)
-            for (const Eigen::Vector3f& p : mesh.positions)
-                box.extend(p);
-        if (box.isEmpty()) continue;
-        const Eigen::Vector3d centre = object.scale * box.center().cast<double>();
-        out.push_back({object.T_world_object * centre, 0.5 * object.scale * box.diagonal().norm()});
-    }
-    return out;
-}
-
 double viewChange(const RenderView& from, const RenderView& to, std::span<const ObjectBall> objects,
                   const ViewLimits& limits) {
     if (!sameLens(from.camera, to.camera)) return kInfinity;

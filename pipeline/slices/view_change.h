@@ -1,23 +1,11 @@
 #pragma once
 
 #include "pipeline/render/render_view.h"
-#include "pipeline/scene/scene.h"
-
-#include <Eigen/Core>
+#include "pipeline/scene/scene_bounds.h"
 
 #include <span>
-#include <vector>
 
 namespace mfar {
-
-/// Bounding ball of an object; world frame [m].
-struct ObjectBall {
-    Eigen::Vector3d centre;
-    double radius;
-};
-
-/// Returns one ball for each object that has vertices.
-[[nodiscard]] std::vector<ObjectBall> objectBalls(const Scene& scene);
 
 /// Up to these changes of the view, a warped picture serves as well as a new one.
 struct ViewLimits {

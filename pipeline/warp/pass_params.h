@@ -12,6 +12,7 @@ namespace mfar::params {
 /// catcher, and any object.
 inline constexpr std::uint32_t kCatcherNumber = 255U;
 inline constexpr std::uint32_t kAnyObjectNumber = 254U;
+inline constexpr int kSurfaceNumbers = 256;
 /// Two depths belong to the same surface if they differ by less than this factor times z.
 inline constexpr float kSameDepth = 0.003F;
 /// A surface's colour is interpolated only between texels that show this surface. It is unreliable

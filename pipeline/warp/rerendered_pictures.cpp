@@ -55,7 +55,7 @@ void RerenderedPictures::add(const HoleAnswer& answer,
         if (!lights_.empty()) lights_[i] = {};
     }
     picture = {picture.slot, answer.view.T_world_camera, bounds,
-               fadeFrames_ > 0 ? 1.0 / fadeFrames_ : 1};
+               fadeFrames_ > 0 ? 1.0 / fadeFrames_ : 1, answer.poses};
 }
 
 RerenderedPictures::StoredRows RerenderedPictures::rowsOf(int slot, int firstRow,

@@ -44,6 +44,7 @@ public:
         RigidTransform T_world_camera;
         PixelRect bounds;  ///< bounds of the stored pixels, also if `share` is 0
         double share = 0;
+        std::vector<RigidTransform> poses{};  ///< T_world_object; empty if no object moves
     };
     [[nodiscard]] const std::array<Picture, kPictures>& pictures() const { return pictures_; }
 

@@ -1,6 +1,7 @@
 #include "pipeline/warp/silhouette_models.h"
 
 #include "base/se3.h"
+#include "pipeline/scene/scene_parts.h"
 #include "pipeline/warp/warp_params.h"
 
 #include <algorithm>
@@ -74,7 +75,7 @@ Eigen::Vector4d planeOf(const ShadowCatcher& catcher) {
 double trianglesOf(const Scene& scene) {
     double sum = 1;
     for (const SceneObject& o : scene.objects)
-        for (const Mesh& mesh : o.model->meshes)
+        for (const Mesh& mesh : meshesOf(o))
             sum += static_cast<double>(mesh.triangles.size());
     return sum;
 }
@@ -85,17 +86,19 @@ SilhouetteModels::SilhouetteModels(const CameraModel& layer) : lens_(layer) {}
 
 void SilhouetteModels::setScene(const Scene& scene) {
     const double share = std::min(1.0, kMostTriangles / trianglesOf(scene));
-    std::map<const Model*, std::shared_ptr<const Shape>> before, known;
+    using Key = std::pair<const Model*, int>;
+    std::map<Key, std::shared_ptr<const Shape>> before, known;
     if (std::exchange(share_, share) == share)
         for (const Object& object : objects_)
-            before.emplace(object.shape->model.get(), object.shape);
+            before.emplace(Key(object.shape->model.get(), object.shape->part), object.shape);
     objects_.clear();
     triangles_ = 0;
     for (const SceneObject& o : scene.objects) {
-        std::shared_ptr<const Shape>& shape = known[o.model.get()];
+        const Key key(o.model.get(), o.part);
+        std::shared_ptr<const Shape>& shape = known[key];
         if (!shape) {
-            const auto kept = before.find(o.model.get());
-            shape = kept != before.end() ? kept->second : shapeOf(o.model);
+            const auto kept = before.find(key);
+            shape = kept != before.end() ? kept->second : shapeOf(o);
             for (const Part& part : shape->parts)
                 triangles_ += part.mesh.triangles.size();
         }
@@ -104,15 +107,22 @@ void SilhouetteModels::setScene(const Scene& scene) {
     setCatcher(scene.catcher);
 }
 
+void SilhouetteModels::setPoses(std::span<const RigidTransform> T_world_objects) {
+    for (std::size_t i = 0; i < objects_.size(); ++i)
+        objects_[i].T_world_object = T_world_objects[i];
+}
+
 std::shared_ptr<const SilhouetteModels::Shape>
-SilhouetteModels::shapeOf(const std::shared_ptr<const Model>& model) const {
+SilhouetteModels::shapeOf(const SceneObject& object) const {
+    const std::shared_ptr<const Model>& model = object.model;
     auto shape = std::make_shared<Shape>();
     shape->model = model;
+    shape->part = object.part;
     const bool bent = isDistorted(lens_.camera);
     float diagonal = 0;
-    for (const Mesh& mesh : model->meshes)
+    for (const Mesh& mesh : meshesOf(object))
         diagonal = std::max(diagonal, diagonalOf(mesh.positions));
-    for (const Mesh& mesh : model->meshes) {
+    for (const Mesh& mesh : meshesOf(object)) {
         const Material& material = model->materials.at(static_cast<std::size_t>(mesh.material));
         const float cutoff = material.alphaCutoff / std::max(material.baseColour.w(), 1e-6F);
         const auto texture = [&](int index) {

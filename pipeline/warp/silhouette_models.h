@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace mfar {
@@ -35,6 +36,7 @@ public:
         std::vector<Part> parts;
         Eigen::AlignedBox3d box;
         std::shared_ptr<const Model> model;  ///< owns the materials; null for the shadow catcher
+        int part = 0;                        ///< part of the model
     };
     struct Object {
         std::shared_ptr<const Shape> shape;
@@ -42,6 +44,8 @@ public:
         double scale;
     };
     [[nodiscard]] const std::vector<Object>& objects() const { return objects_; }
+    /// Moves the objects. `T_world_objects` has one pose for each object.
+    void setPoses(std::span<const RigidTransform> T_world_objects);
     /// The shadow catcher as an object to draw. Empty if there is none or it is planar.
     [[nodiscard]] const std::optional<Object>& catcher() const { return catcher_; }
     /// Plane (n, w) of a planar shadow catcher: n . point = w in the world frame [m]. Zero if the
@@ -59,8 +63,7 @@ public:
                                      const RigidTransform& T_camera_world) const;
 
 private:
-    [[nodiscard]] std::shared_ptr<const Shape>
-    shapeOf(const std::shared_ptr<const Model>& model) const;
+    [[nodiscard]] std::shared_ptr<const Shape> shapeOf(const SceneObject& object) const;
     void setCatcher(const ShadowCatcher& catcher);
 
     LensProjection lens_;

@@ -188,6 +188,16 @@ void requireAllPixels(const RenderedPicture& picture, std::size_t count) {
                                     "pixel or for none");
 }
 
+/// What a moving object mirrors is shown as traced, because gloss has normals in the world.
+void forgetGlossOfMoving(const RenderedPicture& picture, std::vector<GlossWords>& gloss) {
+    if (gloss.empty() || picture.poses.empty() || !picture.scene) return;
+    const std::vector<SceneObject>& objects = picture.scene->objects;
+    for (std::size_t i = 0; i < gloss.size(); ++i) {
+        const std::size_t id = picture.id[i];
+        if (id > 0 && id <= objects.size() && objects[id - 1].path) gloss[i] = {};
+    }
+}
+
 TracedPicture withSurfaces(const RenderedPicture& picture) {
     const std::size_t count = picture.id.size();
     TracedPicture r{picture.camera,
@@ -200,10 +210,12 @@ TracedPicture withSurfaces(const RenderedPicture& picture) {
                     picture.mirrors,
                     picture.exposure,
                     picture.layered,
+                    picture.poses,
                     {},
                     {},
                     {},
                     {}};
+    forgetGlossOfMoving(picture, r.gloss);
     r.depth.resize(count);
     r.surface.resize(count);
     for (std::size_t i = 0; i < count; ++i) {

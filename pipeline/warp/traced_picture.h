@@ -38,12 +38,14 @@ struct TracedPicture {
     std::vector<std::array<std::uint8_t, 4>> colour;
     /// Light on each pixel's object, for look-ups. Empty if only colours are known.
     std::vector<LightWords> light;
-    /// Reflection of distant light by each pixel's object. The distant light is `mirrors` times
-    /// `exposure`. Empty if unknown.
+    /// Reflection of distant light by each pixel's object; unknown for moving objects. The distant
+    /// light is `mirrors` times `exposure`. Empty if unknown.
     std::vector<GlossWords> gloss;
     std::shared_ptr<const MirrorLight> mirrors;
     float exposure = 1;
     bool layered = false;
+    /// T_world_object of the scene's objects in this picture. Empty if none of them moves.
+    std::vector<RigidTransform> poses;
     std::vector<WarpSurface> surface;
     /// z and object number in one word, in the format of warp_surface.glsl.
     std::vector<std::uint32_t> packed;

@@ -69,10 +69,12 @@ void Warp::dropTracedPicture() {
     rested({});
 }
 
-LayerPicture& Warp::run(const RigidTransform& T_world_camera) {
+LayerPicture& Warp::run(const RigidTransform& T_world_camera, std::vector<RigidTransform> poses) {
     PixelRect bounds;
     WarpMotion motion;
+    poses_ = std::move(poses);
     if (traced_ && isFinite(T_world_camera)) {
+        if (!poses_.empty()) step_->setPoses(poses_);
         motion = motionOf(*traced_, lens_, T_world_camera);
         bounds = around(step_->bounds(T_world_camera), motion.bounds);
     }
@@ -81,7 +83,8 @@ LayerPicture& Warp::run(const RigidTransform& T_world_camera) {
         rested({});
         return nothing_;
     }
-    if (!traced_->tiles.empty() && !traced_->layered && motion.greatest < options_.leastMotion) {
+    if (!traced_->tiles.empty() && !traced_->layered && poses_.empty() &&
+        motion.greatest < options_.leastMotion) {
         ++counters_.unmoved;
         rested({});
         return step_->traced();
@@ -89,12 +92,16 @@ LayerPicture& Warp::run(const RigidTransform& T_world_camera) {
     ++counters_.warped;
     rested(T_world_camera);
     const bool lists = !asked_ && !step_->holesPending();
-    if (lists) listPose_ = T_world_camera;
+    if (lists) {
+        listPose_ = T_world_camera;
+        listPoses_ = poses_;
+    }
     return step_->run({T_world_camera, bounds, lists});
 }
 
 void Warp::rested(const std::optional<RigidTransform>& T_world_camera) {
-    if (T_world_camera && warpedTo_ && isUnmoved(*warpedTo_, *T_world_camera)) return;
+    if (T_world_camera && warpedTo_ && poses_.empty() && isUnmoved(*warpedTo_, *T_world_camera))
+        return;
     warpedTo_ = T_world_camera;
     restFrames_ = 0;
     step_->dropEdges();
@@ -118,6 +125,7 @@ std::optional<HoleRequest> Warp::takeHoles() {
 
 std::optional<HoleRequest> Warp::takeEdges() {
     if (!warpedTo_) return {};
+    if (!poses_.empty()) return {};
     if (restFrames_ <= kRestFrames && ++restFrames_ > kRestFrames) step_->listEdges();
     auto edges = step_->takeEdges();
     return edges ? request(std::move(*edges), true, *warpedTo_) : std::nullopt;
@@ -133,7 +141,10 @@ std::optional<HoleRequest> Warp::request(std::vector<std::uint32_t> pixels, bool
     counters_.rays += pixels.size() * static_cast<unsigned>(samples);
     asked_ = true;
     HoleRequest out{{lens_.camera, T_world_camera}, std::move(pixels), samples, scene_, edges};
-    if (!edges) lastRequest_ = out;
+    if (!edges) {
+        out.poses = listPoses_;
+        lastRequest_ = out;
+    }
     return out;
 }
 
@@ -151,7 +162,7 @@ bool Warp::isUnmoved(const RigidTransform& from, const RigidTransform& to) const
 // Removes the pixels of the last request if it was for the same view. They are holes again although
 // they were rendered, so rendering them once more would not help.
 void Warp::dropRefused(std::vector<std::uint32_t>& pixels) const {
-    if (!isUnmoved(lastRequest_.view.T_world_camera, listPose_)) return;
+    if (!listPoses_.empty() || !isUnmoved(lastRequest_.view.T_world_camera, listPose_)) return;
     std::erase_if(pixels, [&](std::uint32_t p) {
         return std::ranges::binary_search(lastRequest_.pixels, p);
     });

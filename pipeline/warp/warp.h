@@ -49,13 +49,14 @@ public:
 
     /// Returns the layer at this pose. It is empty without a scene or a traced picture, or if the
     /// pose is not finite. The result is valid until the next call of any member.
-    LayerPicture& run(const RigidTransform& T_world_camera);
+    /// If objects of the scene move, `poses` must be their present poses T_world_object, one for
+    /// each object.
+    LayerPicture& run(const RigidTransform& T_world_camera, std::vector<RigidTransform> poses = {});
 
     /// Returns the pixels to render individually: missing pixels of a recent frame, or edge pixels
-    /// if the camera rests. At most mostRequested pixels are returned, evenly spread. Empty if no
-    /// pixels are known, or an earlier request for this scene is unanswered.
-    /// Must be called once per frame, also if the frame is not drawn because the camera rests.
-    /// Never waits.
+    /// if camera and objects rest. At most mostRequested pixels are returned, evenly spread. Empty
+    /// if no pixels are known, or an earlier request for this scene is unanswered. Must be called
+    /// once per frame, also if the frame is not drawn because the camera rests. Never waits.
     [[nodiscard]] std::optional<HoleRequest> takeRequest();
     /// Adds the requested pixels; they are shown from the next run() on. Answers for another scene
     /// are ignored. Throws std::invalid_argument if the answer's vectors have different lengths, a
@@ -82,7 +83,8 @@ private:
     std::uint64_t scene_ = 0;
     bool asked_ = false;
     HoleRequest lastRequest_;
-    RigidTransform listPose_;                 // pose of the frame whose missing pixels are listed
+    RigidTransform listPose_;  // pose of the frame whose missing pixels are listed
+    std::vector<RigidTransform> poses_, listPoses_;  // of the objects, now and in that frame
     std::optional<RigidTransform> warpedTo_;  // pose of the displayed frame; empty: not warped
     int restFrames_ = 0;
     WarpCounters counters_;

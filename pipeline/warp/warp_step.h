@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace mfar {
@@ -24,6 +25,8 @@ public:
     virtual ~WarpStep() = default;
 
     virtual void setScene(const Scene& scene) = 0;
+    /// Moves the scene's objects for later calls. `T_world_objects` has one pose for each object.
+    virtual void setPoses(std::span<const RigidTransform> T_world_objects) = 0;
     /// Bounds of all models [layer px]. They are the whole layer if a model crosses the near plane.
     [[nodiscard]] virtual PixelRect bounds(const RigidTransform& T_world_camera) const = 0;
 

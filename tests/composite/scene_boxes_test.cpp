@@ -80,6 +80,26 @@ TEST(SceneBoxes, AFewTightBoxesCoverAModel) {
     EXPECT_LE(coveredTiles(silhouette.run(boxes, kEye)), 16);
 }
 
+TEST(SceneBoxes, BoxesOfAMovingObjectMoveWithIt) {
+    Scene scene = sceneAt({0, 0, 3});
+    RigidPath path;
+    path.length = 2;
+    path.joints.resize(1);
+    path.joints[0].T_parent_joint = scene.objects[0].T_world_object;
+    path.joints[0].translation = {
+        MotionTrack::Between::Linear, {0, 2}, {{0, 0, 0, 0}, {0, 0, -1, 0}}};
+    scene.objects[0].path = std::make_shared<const RigidPath>(path);
+    SceneBoxes moving(scene);
+    EXPECT_TRUE(moving.world().empty());
+    EXPECT_FALSE(moving.empty());
+    moving.setTime(Timestamp::fromSeconds(1));
+    scene.objects[0].T_world_object = path.at(1);
+    scene.objects[0].path.reset();
+    SceneBoxes still(scene);
+    Silhouette a(kWide, 0), b(kWide, 0);
+    EXPECT_NEAR(coveredTiles(a.run(moving, kEye)), coveredTiles(b.run(still, kEye)), 2);
+}
+
 TEST(SceneBoxes, TheShadowCatcherHasItsOwnBoxes) {
     Scene scene;
     EXPECT_TRUE(SceneBoxes(scene.catcher).world().empty());

@@ -1,5 +1,7 @@
 #include "tests/models/gltf_maker.h"
 
+#include "pipeline/models/gltf_model.h"
+
 #include <cstring>
 #include <png.h>
 
@@ -65,6 +67,16 @@ json& GltfMaker::mesh(int positions, int indices) {
     return root["meshes"].back()["primitives"][0];
 }
 
+json& GltfMaker::animate(int node, const std::string& path, const std::vector<float>& times,
+                         const std::vector<float>& values) {
+    json& animation = root["animations"][0];
+    animation["samplers"].push_back(
+        {{"input", floats(times, 1)}, {"output", floats(values, path == "rotation" ? 4 : 3)}});
+    animation["channels"].push_back({{"sampler", animation["samplers"].size() - 1},
+                                     {"target", {{"node", node}, {"path", path}}}});
+    return animation["samplers"].back();
+}
+
 std::vector<std::uint8_t> GltfMaker::glb() const {
     std::string text = root.dump();
     text.resize((text.size() + 3) / 4 * 4, ' ');
@@ -85,6 +97,10 @@ std::string GltfMaker::gltf() const {
     json copy = root;
     copy["buffers"][0]["uri"] = "data.bin";
     return copy.dump();
+}
+
+Model modelOf(const GltfMaker& maker) {
+    return parseGltf(maker.glb(), "test.glb");
 }
 
 GltfMaker oneTriangle() {

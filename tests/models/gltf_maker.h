@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/image_view.h"
+#include "pipeline/scene/scene.h"
 
 #include <nlohmann/json.hpp>
 
@@ -24,6 +25,10 @@ public:
     /// Adds a mesh of one primitive, and a node of the scene with this mesh. Returns the primitive.
     nlohmann::json& mesh(int positions, int indices = -1);
     int view(const void* bytes, std::size_t count);
+    /// Adds a channel to the first animation. `path`: translation, rotation or scale. Returns the
+    /// channel's sampler.
+    nlohmann::json& animate(int node, const std::string& path, const std::vector<float>& times,
+                            const std::vector<float>& values);
 
     [[nodiscard]] std::vector<std::uint8_t> glb() const;
     /// The JSON text alone. Its buffer is the file "data.bin" with the bytes bin().
@@ -36,6 +41,7 @@ private:
     std::vector<std::uint8_t> bin_;
 };
 
+[[nodiscard]] Model modelOf(const GltfMaker& maker);  ///< read from a file "test.glb"
 [[nodiscard]] GltfMaker oneTriangle();
 /// A textured quad with normals and all material fields, in a small hierarchy.
 [[nodiscard]] GltfMaker richModel();

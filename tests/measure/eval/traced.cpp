@@ -172,6 +172,10 @@ TracedLayerOptions optionsOf(const TracedRequest& request, const std::string& me
     return out;
 }
 
+Timestamp timeOf(int frame) {
+    return Timestamp{} + std::chrono::nanoseconds(std::llround(1e9 * frame / kRate));
+}
+
 class ShownFrames {
 public:
     ShownFrames(const Course& course, const TracedLayerOptions& options)
@@ -183,8 +187,7 @@ public:
     /// as on a board with free processors.
     Picture next() {
         const RenderView view = course_.at(frame_);
-        const Timestamp time =
-            Timestamp{} + std::chrono::nanoseconds(std::llround(1e9 * frame_ / kRate));
+        const Timestamp time = timeOf(frame_);
         ++frame_;
         layer_.update(view.T_world_camera, time);
         LayerPicture* shown = nullptr;
@@ -263,7 +266,7 @@ private:
             if (!request_.video.empty()) all.push_back(shown);
             const bool follows = i > 0 && isCompared(i - 1);
             if (!isCompared(i) && !follows) continue;
-            const RenderedPicture& truth = truth_.at(i, course_.at(i));
+            const RenderedPicture& truth = truth_.at(i, course_.at(i), timeOf(i));
             const Picture exact = overPaper(truth);
             Picture error = differenceOf(shown, exact);
             if (isCompared(i) && i >= kFirstFrames) {

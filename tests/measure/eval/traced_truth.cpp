@@ -1,6 +1,7 @@
 #include "tests/measure/eval/traced_truth.h"
 
 #include "pipeline/composite/shadow_catcher.h"
+#include "pipeline/scene/scene_parts.h"
 #include "tests/measure/eval/report.h"
 #include "tests/measure/eval/warp_scenes.h"
 
@@ -44,7 +45,8 @@ void transferAll(Stream& stream, RenderedPicture& picture) {
 
 TracedTruth::TracedTruth(const std::shared_ptr<const Scene>& scene, int samples,
                          std::filesystem::path folder, const std::string& name)
-    : tracer_(scene, truthOptions()), samples_(samples), folder_(std::move(folder)), stem_(name) {
+    : scene_(scene), tracer_(scene, truthOptions()), samples_(samples), folder_(std::move(folder)),
+      stem_(name) {
     std::ranges::replace(stem_, '/', '-');
     if (!folder_.empty()) std::filesystem::create_directories(folder_);
 }
@@ -54,7 +56,7 @@ std::filesystem::path TracedTruth::fileOf(int frame, Size size) const {
            fmt::format("{}-{}x{}-{}-{:03}.truth", stem_, size.width, size.height, samples_, frame);
 }
 
-const RenderedPicture& TracedTruth::at(int frame, const RenderView& view) {
+const RenderedPicture& TracedTruth::at(int frame, const RenderView& view, Timestamp time) {
     if (const auto known = pictures_.find(frame); known != pictures_.end()) return known->second;
     RenderedPicture& picture = pictures_[frame];
     const Size size = view.camera.size;
@@ -69,7 +71,12 @@ const RenderedPicture& TracedTruth::at(int frame, const RenderView& view) {
         if (in) transferAll(in, picture);
         if (in) return picture;
     }
-    picture = tracePicture(tracer_, view, samples_);
+    if (moves(*scene_)) {
+        const auto posed = tracer_.posed(std::make_shared<const Scene>(sceneAt(*scene_, time)));
+        picture = tracePicture(*posed, view, samples_);
+    } else {
+        picture = tracePicture(tracer_, view, samples_);
+    }
     if (folder_.empty()) return picture;
     std::ofstream out(fileOf(frame, size), std::ios::binary);
     transferAll(out, picture);

@@ -6,6 +6,7 @@
 #include <array>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -20,11 +21,12 @@ public:
 
     /// The picture stays valid as long as this object exists. Incomplete files are traced again.
     /// Throws EvalError if a file cannot be written.
-    const RenderedPicture& at(int frame, const RenderView& view);
+    const RenderedPicture& at(int frame, const RenderView& view, Timestamp time);
 
 private:
     [[nodiscard]] std::filesystem::path fileOf(int frame, Size size) const;
 
+    std::shared_ptr<const Scene> scene_;
     PathTracer tracer_;
     int samples_;
     std::filesystem::path folder_;

@@ -4,6 +4,8 @@
 #include "pipeline/models/gltf_model.h"
 #include "pipeline/models/showpiece.h"
 #include "pipeline/render/picture_resolver.h"
+#include "pipeline/scene/scene_bounds.h"
+#include "pipeline/scene/scene_parts.h"
 #include "tests/measure/eval/report.h"
 #include "tests/render/still_life.h"
 
@@ -24,21 +26,12 @@ constexpr double kFill = 0.6;  // diameter of the objects' bounding sphere / pic
 
 Scene sceneOf(Model model) {
     Scene scene;
-    scene.objects.push_back({std::make_shared<const Model>(std::move(model)), {}, 1});
+    scene.objects = partsOf({std::make_shared<const Model>(std::move(model)), {}, 1});
     scene.catcher.positions = {{-2, -2, 0}, {2, -2, 0}, {2, 2, 0}, {-2, 2, 0}};
     scene.catcher.triangles = {{0, 1, 2}, {0, 2, 3}};
     scene.lighting.environment = std::make_shared<const Environment>(studioEnvironment());
     scene.lighting.sun = Sun{};
     return scene;
-}
-
-Eigen::AlignedBox3d boxOf(const Scene& scene) {
-    Eigen::AlignedBox3d box;
-    for (const SceneObject& object : scene.objects)
-        for (const Mesh& mesh : object.model->meshes)
-            for (const Eigen::Vector3f& p : mesh.positions)
-                box.extend(object.T_world_object * (object.scale * p.cast<double>()));
-    return box;
 }
 
 std::vector<std::uint32_t> pixelsIn(const PixelRect& r, int width) {
@@ -69,7 +62,7 @@ std::shared_ptr<const Scene> warpScene(const std::string& name) {
 }
 
 RenderView warpView(const Scene& scene, Size size, double degrees) {
-    const Eigen::AlignedBox3d box = boxOf(scene);
+    const Eigen::AlignedBox3d box = boundsOf(scene);
     const double azimuth = degrees * std::numbers::pi / 180;
     const double elevation = kElevation * std::numbers::pi / 180;
     const Eigen::Vector3d back(std::cos(elevation) * std::sin(azimuth),

@@ -1,0 +1,41 @@
+#pragma once
+
+#include "pipeline/models/gltf_document.h"
+#include "pipeline/scene/rigid_path.h"
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace mfar {
+
+/// The motion of a document's nodes: translations and rotations of its first animation. Everything
+/// else that moves is left out, with a sentence in notes(). Invalid keyframes are refused.
+class GltfMotion {
+public:
+    explicit GltfMotion(const GltfDocument& document);
+
+    struct Tracks {
+        MotionTrack translation, rotation;
+    };
+    /// Returns null if the node does not move by itself.
+    [[nodiscard]] const Tracks* of(int node) const;
+    [[nodiscard]] double length() const { return length_; }  ///< [s]
+
+    /// Adds a sentence about something that is not shown, unless there is one of this kind.
+    void note(const std::string& place, const char* what);
+    [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
+
+private:
+    void readChannel(const tinygltf::Animation& animation, std::size_t channel);
+    MotionTrack keyframesOf(const tinygltf::AnimationSampler& sampler, bool turns,
+                            const std::string& place) const;
+    [[nodiscard]] std::vector<double> timesOf(int accessor, const std::string& place) const;
+
+    const GltfDocument& document_;
+    std::map<int, Tracks> tracks_;
+    double length_ = 0;
+    std::vector<std::string> notes_;
+};
+
+}  // namespace mfar

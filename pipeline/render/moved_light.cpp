@@ -1,0 +1,133 @@
+#include "pipeline/render/moved_light.h"
+
+#include "base/luminance.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mfar {
+namespace {
+
+// Motions below these limits count as none [rad], [m].
+constexpr double kLeastTurn = 1e-5, kLeastWay = 1e-6;
+// Standard deviation of a single sample, relative to the light. Real values are around it.
+constexpr float kNoise = 0.5F;
+// Light that a moved object itself receives changes by this share if the object moves by its radius
+// or turns by a radian.
+constexpr float kOwnChange = 0.5F;
+// A shadow of the sun is expected up to this angle outside of the object's ball [rad].
+constexpr float kPenumbra = 0.03F;
+constexpr float kLeastLight = 1e-6F;
+
+}  // namespace
+
+struct MovedLight::Sight {
+    Eigen::Vector3f towards{0, 0, 1};
+    float sine = 1;  ///< of the ball's angular radius
+
+    Sight(const Eigen::Vector3f& point, const Eigen::Vector3f& centre, float radius) {
+        const Eigen::Vector3f way = centre - point;
+        const float distance = way.norm();
+        if (!(distance > 0)) return;
+        towards = way / distance;
+        sine = std::min(1.0F, radius / distance);
+    }
+    [[nodiscard]] bool covers(const Eigen::Vector3f& direction, float margin) const {
+        const float angle = std::acos(std::clamp(towards.dot(direction), -1.0F, 1.0F));
+        return angle < std::asin(sine) + margin;
+    }
+};
+
+float stillWorth(float count, float change) {
+    const float bias = change / kNoise;
+    return count / (1 + count * bias * bias);
+}
+
+MovedLight::MovedLight(std::span<const Object> objects, const SunLight& sun, const FarLight& far)
+    : sun_(sun), far_(far) {
+    for (const Object& o : objects) {
+        const RigidTransform T = o.T_world_before * o.T_world_now.inverse();
+        const double turn = o.T_world_before.rotation.angularDistance(o.T_world_now.rotation);
+        const Eigen::Vector3d before = o.T_world_before * o.own.centre,
+                              now = o.T_world_now * o.own.centre;
+        if (!(turn > kLeastTurn || (now - before).norm() > kLeastWay)) continue;
+        Moved& moved = moved_.emplace_back();
+        moved.id = o.id;
+        moved.ball = {before.cast<float>(), now.cast<float>(), static_cast<float>(o.own.radius),
+                      static_cast<float>(turn), o.glow};
+        moved.T_before_now =
+            Eigen::Translation3f(T.translation.cast<float>()) * T.rotation.cast<float>();
+    }
+}
+
+const MovedLight::Moved* MovedLight::find(std::uint8_t id) const {
+    const auto found = std::ranges::find(moved_, id, &Moved::id);
+    return found == moved_.end() ? nullptr : &*found;
+}
+
+void MovedLight::follow(std::uint8_t id, Eigen::Vector3f& point, Eigen::Vector3f& normal,
+                        Eigen::Vector3f& eye) const {
+    const Moved* moved = find(id);
+    if (moved == nullptr) return;
+    point = moved->T_before_now * point;
+    normal = moved->T_before_now.linear() * normal;
+    eye = moved->T_before_now * eye;
+}
+
+/// Returns the distant light that the ball hides from a surface, divided by pi.
+float MovedLight::blocked(const Sight& sight, const Eigen::Vector3f& normal) const {
+    // A ball that the horizon cuts hides less; the sum below is an upper limit.
+    const float facing = std::clamp(normal.dot(sight.towards) + sight.sine, 0.0F, 1.0F);
+    const float sky =
+        far_.dark() ? 0 : luminanceOf<float>(far_.mirrored(sight.towards, std::sqrt(sight.sine)));
+    float out = sight.sine * sight.sine * facing * sky;
+    const float sunFacing = normal.dot(sun_.towards());
+    if (!sun_.dark() && sunFacing > 0 &&
+        sight.covers(sun_.towards(), sun_.angularRadius() + kPenumbra))
+        out += luminanceOf<float>(sun_.irradiance()) * sunFacing / static_cast<float>(M_PI);
+    return out;
+}
+
+float MovedLight::diffuseChange(const Eigen::Vector3f& point, const Eigen::Vector3f& normal) const {
+    float sum = 0;
+    for (const Moved& moved : moved_) {
+        const Ball& ball = moved.ball;
+        const Sight before(point, ball.before, ball.radius), now(point, ball.now, ball.radius);
+        const float way = (ball.now - ball.before).norm() / std::max(ball.radius, 1e-6F);
+        // The share of the ball's disc that becomes visible or hidden.
+        const float fresh = std::min(1.0F, way + ball.turn);
+        const float glow = ball.glow * std::max(before.sine * before.sine, now.sine * now.sine);
+        sum += fresh * (std::max(blocked(before, normal), blocked(now, normal)) + glow);
+    }
+    const float sun = std::max(normal.dot(sun_.towards()), 0.0F) *
+                      luminanceOf<float>(sun_.irradiance()) / static_cast<float>(M_PI);
+    return sum / std::max(luminanceOf<float>(far_.diffuse(normal)) + sun, kLeastLight);
+}
+
+MovedLight::Change MovedLight::at(const SeenSurface& seen, const Eigen::Vector3f& point,
+                                  const Eigen::Vector3f& eye) const {
+    if (const Moved* own = find(seen.hit.id)) {
+        const float way = (own->ball.now - own->ball.before).norm();
+        const float change =
+            kOwnChange * (own->ball.turn + way / std::max(own->ball.radius, 1e-6F));
+        return {change, change};
+    }
+    Change out{diffuseChange(point, seen.normal), 0};
+    const Eigen::Vector3f view = (point - eye).normalized();
+    const Eigen::Vector3f mirrored = view - 2 * seen.normal.dot(view) * seen.normal;
+    const float alpha = std::max(seen.roughness * seen.roughness, 1e-3F);
+    for (const Moved& moved : moved_) {
+        const Ball& ball = moved.ball;
+        const float way = (ball.now - ball.before).norm() / std::max(ball.radius, 1e-6F);
+        const float fresh = std::min(1.0F, way + ball.turn);
+        for (const Eigen::Vector3f& centre : {ball.before, ball.now}) {
+            const Sight sight(point, centre, ball.radius);
+            if (!sight.covers(mirrored, 2 * alpha)) continue;
+            const float square = sight.sine * sight.sine;
+            out.specular += fresh * square / (square + alpha * alpha);
+        }
+    }
+    return out;
+}
+
+}  // namespace mfar
