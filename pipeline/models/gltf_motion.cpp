@@ -5,12 +5,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 namespace mfar {
 namespace {
 
 constexpr double kLeastQuaternion = 1e-6;
+constexpr float kLongest = 1e6F;   // last time of an animation [s]
+constexpr float kFarthest = 1e6F;  // translation along each axis [m], or its change per second
 
 /// Returns a sentence for each kind of motion that is never shown, with the first place.
 std::vector<std::string> stillParts(const GltfDocument& document) {
@@ -74,6 +77,7 @@ std::vector<double> GltfMotion::timesOf(int accessor, const std::string& place) 
     if (times.front() < 0 ||
         std::ranges::adjacent_find(times, std::greater_equal<>()) != times.end())
         document_.refuse(place, "the times must not be negative and must increase");
+    if (times.back() > kLongest) document_.refuse(place, "the times must be at most 1e6 seconds");
     return {times.begin(), times.end()};
 }
 
@@ -93,6 +97,8 @@ MotionTrack GltfMotion::keyframesOf(const tinygltf::AnimationSampler& sampler, b
     if (values.size() != count * static_cast<std::size_t>(components))
         document_.refuse(
             place, fmt::format("the sampler must have {} values, {} for each time", count, ofTime));
+    if (std::ranges::any_of(values, [](float v) { return std::abs(v) > kFarthest; }))
+        document_.refuse(place, "the values must be between -1e6 and 1e6");
     for (std::size_t i = 0; i < count; ++i) {
         const float* v = &values[i * static_cast<std::size_t>(components)];
         Eigen::Vector4d value(v[0], v[1], v[2], turns ? v[3] : 0);

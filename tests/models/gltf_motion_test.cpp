@@ -149,6 +149,11 @@ TEST(GltfMotion, InvalidKeyframesAreRefused) {
               place + "the times must not be negative and must increase");
     EXPECT_EQ(faultOf([&](GltfMaker& m) { sampler(m)["input"] = m.floats({0, 1, 2}, 1); }),
               place + "the sampler must have 3 values, 1 for each time");
+    EXPECT_EQ(faultOf([&](GltfMaker& m) { sampler(m)["input"] = m.floats({0, 2e6}, 1); }),
+              place + "the times must be at most 1e6 seconds");
+    EXPECT_EQ(
+        faultOf([&](GltfMaker& m) { sampler(m)["output"] = m.floats({0, 0, 0, 0, 2e6, 0}, 3); }),
+        place + "the values must be between -1e6 and 1e6");
     EXPECT_NE(faultOf([&](GltfMaker& m) { sampler(m)["output"] = 99; }), "");
     EXPECT_NE(faultOf([&](GltfMaker& m) {
                   m.root["animations"][0]["channels"][0]["target"]["node"] = 7;

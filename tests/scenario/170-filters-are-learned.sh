@@ -36,7 +36,7 @@ sed -i '/superres/,$d' mfard.toml
 echo "filters are also learned while the GLES engine draws"
 sed -i 's/"simd"/"gles"/' mfard.toml
 mv "$file" kept
-learn --frames 7
+learn --frames 10
 [ "$(stills)" -ge 1 ] || fail "filters were not learned from any still"
 sed -i 's/"gles"/"simd"/' mfard.toml
 mv kept "$file"
