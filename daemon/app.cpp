@@ -21,6 +21,7 @@ namespace {
 using Seconds = std::chrono::duration<double>;
 
 constexpr Seconds kLookTime{1};
+constexpr double kOpeningTime = 0.5;  // [s]
 /// All time limits are kFirstPatience times as long until this number of pictures was shown.
 constexpr std::uint64_t kFirstPictures = 10;
 
@@ -276,6 +277,8 @@ void App::logHealth(const Health& health) {
     if (health.state == told_.state && health.cause == told_.cause) return;
     // During a shutdown, no new pictures are expected, so this state is not a fault.
     if (stopReason_ && health.state == HealthState::Stalled) return;
+    // A camera may be opened some time after the other one.
+    if (health.isDevice && !isProven_ && health.sinceS < kOpeningTime) return;
     if (health.state != HealthState::Ok)
         log_.warning(sentence(health), health.cause, subjectOf(health));
     else if (told_.isDevice)

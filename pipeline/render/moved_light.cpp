@@ -4,11 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace mfar {
 namespace {
 
-// Motions below these limits count as none [rad], [m].
+// Smaller motions count as no motion [rad], [m].
 constexpr double kLeastTurn = 1e-5, kLeastWay = 1e-6;
 // Standard deviation of a single sample, relative to the light. Real values are around it.
 constexpr float kNoise = 0.5F;
@@ -84,7 +85,7 @@ float MovedLight::blocked(const Sight& sight, const Eigen::Vector3f& normal) con
     const float sunFacing = normal.dot(sun_.towards());
     if (!sun_.dark() && sunFacing > 0 &&
         sight.covers(sun_.towards(), sun_.angularRadius() + kPenumbra))
-        out += luminanceOf<float>(sun_.irradiance()) * sunFacing / static_cast<float>(M_PI);
+        out += luminanceOf<float>(sun_.irradiance()) * sunFacing / std::numbers::pi_v<float>;
     return out;
 }
 
@@ -100,7 +101,7 @@ float MovedLight::diffuseChange(const Eigen::Vector3f& point, const Eigen::Vecto
         sum += fresh * (std::max(blocked(before, normal), blocked(now, normal)) + glow);
     }
     const float sun = std::max(normal.dot(sun_.towards()), 0.0F) *
-                      luminanceOf<float>(sun_.irradiance()) / static_cast<float>(M_PI);
+                      luminanceOf<float>(sun_.irradiance()) / std::numbers::pi_v<float>;
     return sum / std::max(luminanceOf<float>(far_.diffuse(normal)) + sun, kLeastLight);
 }
 

@@ -1,6 +1,7 @@
 #include "pipeline/render/path_integrator.h"
 
 #include "base/luminance.h"
+#include "pipeline/render/path_parts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,113 +16,11 @@ constexpr std::uint32_t kPairsOfPath = kPairsOfVertex * 64;
 // The pairs of emissive triangles come after those of both walks of a sample, so that a scene
 // without emission uses the same numbers as if there were no emission at all.
 constexpr std::uint32_t kEmitterPair = 2 * kPairsOfPath, kFineEmitterPair = kEmitterPair + 1;
-// A path that carries at least this share of the light always survives. Ending such paths at random
-// would add much noise, also with a good sampler.
-constexpr float kSurvives = 0.25F;
-
-/// Balance heuristic for one sample from each of two densities (Veach 1997, equation 9.8). The
-/// density of EnvironmentLight is made for this heuristic (MIS compensation).
-float balanceWeight(float taken, float other) {
-    return taken / (taken + other);
-}
-
-/// Power heuristic (Veach 1997, equation 9.13) for the sun and emissive triangles. Samples of a
-/// broad lobe rarely hit them. With the balance heuristic, these few samples would be very bright.
-float powerWeight(float taken, float other) {
-    const float ratio = other / taken;
-    return 1 / (1 + ratio * ratio);
-}
-
 constexpr float kLeastFarShare = 0.05F, kLeastFar = 1e-6F;
 // Largest angular radius [rad] of a sun whose light is computed without a ray.
 constexpr float kWidestKnownSun = 0.05F;
 
 }  // namespace
-
-struct PathIntegrator::World {
-    const TracedScene& scene;
-    const EmissiveTriangles& emitters;
-    bool objects;
-    bool touched = false;
-
-    bool blocked(const Ray& ray) {
-        if (objects && !scene.objects().empty() && scene.objects().blocked(ray)) {
-            touched = true;
-            return true;
-        }
-        return !scene.catcher().empty() && scene.catcher().blocked(ray);
-    }
-
-    /// True if nothing hides the sampled point. The ray must hit the sampled triangle itself. So of
-    /// two triangles in the same place, only the one that other rays hit gives light, and the holes
-    /// of an alpha mask give none.
-    bool sees(const EmissiveTriangles::Sample& sample) {
-        Ray ray = sample.ray;
-        const RayHit hit = scene.objects().first(ray);
-        if (hit.mesh != sample.point.mesh || hit.triangle != sample.point.triangle) return false;
-        ray.most = hit.t;
-        if (!scene.catcher().empty() && scene.catcher().blocked(ray)) return false;
-        touched = true;
-        return true;
-    }
-
-    /// Returns the point that a ray hits. `density` is the one of the ray's direction. The point's
-    /// emission is multiplied by its weight in multiple importance sampling.
-    std::optional<SurfacePoint> next(Ray ray, float density) {
-        RayHit object;
-        if (objects && !scene.objects().empty()) object = scene.objects().first(ray);
-        if (object.found()) {
-            touched = true;
-            ray.most = object.t;
-        }
-        const RayHit real = scene.catcher().empty() ? RayHit{} : scene.catcher().first(ray);
-        if (real.found()) return scene.catcherPoint(real, ray.direction);
-        if (!object.found()) return std::nullopt;
-        SurfacePoint point = scene.objectPoint(object, ray.direction);
-        if (!emitters.dark()) point.emission *= powerWeight(density, emitters.density(ray, object));
-        return point;
-    }
-};
-
-/// A surface point of a path. `wo` is the direction to the point before it.
-struct PathIntegrator::Vertex {
-    SurfacePoint point;
-    Eigen::Vector3f wo;
-    Eigen::Matrix3f frame;
-    SurfaceScatter scatter;
-
-    Vertex(const SurfacePoint& p, const Eigen::Vector3f& towards)
-        : point(p), wo(towards), frame(frameAround(p.shading)),
-          scatter(p.look, frame.transpose() * towards) {}
-
-    /// True if the triangle faces `direction`. The shading normal may face another side.
-    [[nodiscard]] bool faces(const Eigen::Vector3f& direction) const {
-        return point.geometric.dot(direction) > 0;
-    }
-};
-
-struct PathIntegrator::Carried {
-    Eigen::Vector3f all{1, 1, 1}, white{0, 0, 0};
-
-    void scatter(const ScatterSample& sample, bool first) {
-        all = all.cwiseProduct(sample.weight);
-        if (first)
-            white.setConstant(sample.white);
-        else
-            white = white.cwiseProduct(sample.weight);
-    }
-    bool survives(float random) {
-        const float chance = std::min(1.0F, all.maxCoeff() / kSurvives);
-        if (!(random < chance)) return false;
-        all /= chance;
-        white /= chance;
-        return true;
-    }
-};
-
-struct PathIntegrator::Lights {
-    SampledLight sun, environment;
-};
 
 PathIntegrator::PathIntegrator(const TracedScene& scene, const PathTracerOptions& options,
                                std::shared_ptr<const DistantLight> light)
@@ -263,53 +162,65 @@ bool PathIntegrator::survives(Carried& carried, int depth, const PixelSampler& s
            carried.survives(sampler.pair(pair + kRoulettePair).x());
 }
 
-PathIntegrator::Parts PathIntegrator::walk(const Vertex& begin, Lobes lobes, Lights& lights,
-                                           const PixelSampler& sampler, World& world) const {
-    Parts out;
-    std::uint32_t pair = kCameraPairs + (lobes == Lobes::Mirrored ? kPairsOfPath : 0);
-    Carried carried;
-    const Vertex* vertex = &begin;
-    std::optional<Vertex> reached;
-    for (int depth = 1;; ++depth, pair += kPairsOfVertex) {
-        const bool first = depth == 1, last = depth == options_.maxDepth;
-        const Lobes here = first ? lobes : Lobes::Both;
-        // The walk with Lobes::Broad already adds the first surface's own emission. Emission of the
-        // second surface counts as direct light (depth 1).
-        if (!first || lobes != Lobes::Mirrored)
-            out.rest += sent(carried, vertex->point.emission, depth - 1);
-        if (first) {
-            out.direct = direct(*vertex, here, lights, world);
-        } else {
-            Lights own = sampledLights(sampler, pair);
-            out.rest += sent(carried, direct(*vertex, here, own, world).light.radiance, depth);
-        }
-        if (!last && !emitters_.dark()) {
-            const Sent light = emitted(*vertex, here, sampler, pair, world);
-            out.rest += first ? light : sent(carried, light.radiance, depth);
-        }
-        const ScatterSample scattered =
-            vertex->scatter.sample(sampler.pair(pair + kScatterPair), here);
-        if (!(scattered.density > 0)) return out;
-        const Eigen::Vector3f direction = vertex->frame * scattered.wi;
-        carried.scatter(scattered, first);
-        std::optional<Escaped> sky;
-        if (first) {
-            sky = escaped(direction, scattered.density);
-            out.direct.unblocked += sent(carried, sky->far, depth);
-        }
-        if (!vertex->faces(direction) || !survives(carried, depth, sampler, pair)) return out;
-        const Ray ray = vertex->point.leaving(direction);
-        std::optional<SurfacePoint> next;
-        // At the last surface, the ray only tests if the lights in the sampled direction are
-        // visible. That completes the multiple importance sampling.
-        const bool free = last ? !world.blocked(ray) : !(next = world.next(ray, scattered.density));
-        if (free) {
-            if (!sky) sky = escaped(direction, scattered.density);
-            (first ? out.direct.light : out.rest) += sent(carried, sky->light, depth);
-        }
-        if (free || last) return out;
-        vertex = &reached.emplace(*next, -direction);
+void PathIntegrator::addDirect(const Vertex& vertex, Lights& lights, Walk& walk) const {
+    Parts& out = walk.out;
+    // The walk with Lobes::Broad already adds the first surface's own emission. Emission of the
+    // second surface counts as direct light (depth 1).
+    if (!walk.isFirst() || walk.lobes != Lobes::Mirrored)
+        out.rest += sent(walk.carried, vertex.point.emission, walk.depth - 1);
+    const Arrived arrived = direct(vertex, walk.lobesHere(), lights, walk.world);
+    if (walk.isFirst())
+        out.direct = arrived;
+    else
+        out.rest += sent(walk.carried, arrived.light.radiance, walk.depth);
+    if (walk.depth == options_.maxDepth || emitters_.dark()) return;
+    const Sent light = emitted(vertex, walk.lobesHere(), walk.sampler, walk.pair, walk.world);
+    out.rest += walk.isFirst() ? light : sent(walk.carried, light.radiance, walk.depth);
+}
+
+bool PathIntegrator::scatter(const Vertex& vertex, Walk& walk) const {
+    Parts& out = walk.out;
+    const bool first = walk.isFirst(), last = walk.depth == options_.maxDepth;
+    const ScatterSample scattered =
+        vertex.scatter.sample(walk.sampler.pair(walk.pair + kScatterPair), walk.lobesHere());
+    if (!(scattered.density > 0)) return false;
+    const Eigen::Vector3f direction = vertex.frame * scattered.wi;
+    walk.carried.scatter(scattered, first);
+    std::optional<Escaped> sky;
+    if (first) {
+        sky = escaped(direction, scattered.density);
+        out.direct.unblocked += sent(walk.carried, sky->far, walk.depth);
     }
+    if (!vertex.faces(direction) || !survives(walk.carried, walk.depth, walk.sampler, walk.pair))
+        return false;
+    const Ray ray = vertex.point.leaving(direction);
+    std::optional<SurfacePoint> next;
+    // At the last surface, the ray only tests if the lights in the sampled direction are visible.
+    // That completes the multiple importance sampling.
+    const bool free =
+        last ? !walk.world.blocked(ray) : !(next = walk.world.next(ray, scattered.density));
+    if (free) {
+        if (!sky) sky = escaped(direction, scattered.density);
+        (first ? out.direct.light : out.rest) += sent(walk.carried, sky->light, walk.depth);
+    }
+    if (free || last) return false;
+    walk.reached.emplace(*next, -direction);
+    return true;
+}
+
+PathIntegrator::Parts PathIntegrator::walk(const Vertex& first, Lobes lobes, Lights& lights,
+                                           const PixelSampler& sampler, World& world) const {
+    Walk walk{sampler, world, lobes, kCameraPairs + (lobes == Lobes::Mirrored ? kPairsOfPath : 0)};
+    addDirect(first, lights, walk);
+    bool goesOn = scatter(first, walk);
+    while (goesOn) {
+        ++walk.depth;
+        walk.pair += kPairsOfVertex;
+        Lights own = sampledLights(sampler, walk.pair);
+        addDirect(*walk.reached, own, walk);
+        goesOn = scatter(*walk.reached, walk);
+    }
+    return walk.out;
 }
 
 // Replaces the sampled unblocked light by known light, scaled by the share that objects do not

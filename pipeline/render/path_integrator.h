@@ -67,6 +67,7 @@ private:
     struct Vertex;
     struct Carried;
     struct Lights;
+    struct Walk;
     /// Radiance that leaves the first point of a path. `white` is its diffuse part divided by the
     /// point's paint.
     struct Sent {
@@ -91,6 +92,11 @@ private:
     /// `lights` are samples of the lights for `first`.
     [[nodiscard]] Parts walk(const Vertex& first, Lobes lobes, Lights& lights,
                              const PixelSampler& sampler, World& world) const;
+    /// Adds the light that arrives at a walk's vertex from the lights and from its own emission.
+    void addDirect(const Vertex& vertex, Lights& lights, Walk& walk) const;
+    /// Follows a reflected ray from a walk's vertex, and adds the distant light at its end. Returns
+    /// true if it reaches a surface, which is then `walk.reached`.
+    [[nodiscard]] bool scatter(const Vertex& vertex, Walk& walk) const;
     /// `number` is the index of the sample in its pixel.
     [[nodiscard]] static Sent sum(const Parts& parts, std::uint32_t number);
     /// Weight in multiple importance sampling. `taken` is the density of the strategy that drew the
