@@ -35,11 +35,11 @@ struct TracedLayer::State {
         changing = std::max(changing, 1);
     }
 
+    [[nodiscard]] bool isMoving() const { return scene && moves(*scene); }
+
     CameraModel camera;
     Warp warp;
     TracedRenderer renderer;
-    [[nodiscard]] bool isMoving() const { return scene && moves(*scene); }
-
     int fadeFrames;
     std::shared_ptr<const Scene> scene;
     Timestamp time;

@@ -152,7 +152,7 @@ private:
         std::uint32_t hits = 0;
     };
     struct Pixel {
-        // What every reader needs comes first, so that it shares cache lines.
+        // Members that all functions read come first, so that they share cache lines.
         std::uint32_t taken = 0, lost = 0;
         std::uint32_t objectHits = 0;  // number of samples that hit any object
         bool isSeen = false;

@@ -226,7 +226,8 @@ PathIntegrator::Parts PathIntegrator::walk(const Vertex& first, Lobes lobes, Lig
 // Replaces the sampled unblocked light by known light, scaled by the share that objects do not
 // block (Heitz et al. 2018). Where nothing blocks light, the result has no noise. Known light has
 // an error of a few percent, so its weight falls after 16 samples.
-PathIntegrator::Sent PathIntegrator::sum(const Parts& parts, std::uint32_t number) {
+PathIntegrator::Sent PathIntegrator::sum(const Parts& parts, const Sent& known,
+                                         std::uint32_t number) {
     constexpr std::uint32_t kTrusted = 16;
     const Arrived& direct = parts.direct;
     Sent out = parts.rest;
@@ -235,8 +236,8 @@ PathIntegrator::Sent PathIntegrator::sum(const Parts& parts, std::uint32_t numbe
     float trust =
         number < kTrusted ? 1.0F : static_cast<float>(kTrusted) / static_cast<float>(number);
     if (unblocked > 0) trust *= std::min(1.0F, luminanceOf(direct.light.radiance) / unblocked);
-    out += {trust * (parts.known.radiance - direct.unblocked.radiance),
-            trust * (parts.known.white - direct.unblocked.white)};
+    out += {trust * (known.radiance - direct.unblocked.radiance),
+            trust * (known.white - direct.unblocked.white)};
     return out;
 }
 
@@ -249,14 +250,12 @@ PathIntegrator::OfObject PathIntegrator::ofObject(const RayHit& hit,
     Lights lights = sampledLights(sampler, kCameraPairs);
     Sent sent, known;
     const auto add = [&](Lobes lobes) {
-        Parts parts = walk(vertex, lobes, lights, sampler, all);
-        parts.known = knownSky(vertex, lobes);
-        const Sent sun = knownSun(vertex, lobes);
-        Sent whole = parts.known;
-        whole += sun;
+        const Parts parts = walk(vertex, lobes, lights, sampler, all);
+        const Sent sky = knownSky(vertex, lobes);
+        Sent whole = sky;
+        whole += knownSun(vertex, lobes);
         known += whole;
-        if (sunIsKnown_) parts.known = whole;
-        sent += sum(parts, sampler.number());
+        sent += sum(parts, sunIsKnown_ ? whole : sky, sampler.number());
     };
     add(Lobes::Broad);
     if (!vertex.point.look.matt) add(Lobes::Mirrored);

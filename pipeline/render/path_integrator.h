@@ -86,7 +86,6 @@ private:
     };
     struct Parts {
         Arrived direct;
-        Sent known;  ///< approximation of direct.unblocked without a ray
         Sent rest;
     };
     /// `lights` are samples of the lights for `first`.
@@ -97,8 +96,9 @@ private:
     /// Follows a reflected ray from a walk's vertex, and adds the distant light at its end. Returns
     /// true if it reaches a surface, which is then `walk.reached`.
     [[nodiscard]] bool scatter(const Vertex& vertex, Walk& walk) const;
-    /// `number` is the index of the sample in its pixel.
-    [[nodiscard]] static Sent sum(const Parts& parts, std::uint32_t number);
+    /// `number` is the index of the sample in its pixel, `known` an approximation of
+    /// parts.direct.unblocked without a ray.
+    [[nodiscard]] static Sent sum(const Parts& parts, const Sent& known, std::uint32_t number);
     /// Weight in multiple importance sampling. `taken` is the density of the strategy that drew the
     /// sample, `other` the other strategy's density.
     using Weight = float (*)(float taken, float other);

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <optional>
 
-/// Parts of PathIntegrator that only path_integrator.cpp uses.
+// Parts of PathIntegrator that only path_integrator.cpp uses.
 namespace mfar {
 
 // A path that carries at least this share of the light always survives. Ending such paths at random

@@ -12,6 +12,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace mfar::simd::HWY_NAMESPACE {
 
+// The kernel has a radius of one step. A radius of two takes twice the time and is not better
+// (measured at 1 to 64 samples).
 constexpr std::array<float, 2> kSpline = {0.5F, 0.25F};
 
 /// Luminance of linear RGB (see base/luminance.h).

@@ -188,7 +188,7 @@ void requireAllPixels(const RenderedPicture& picture, std::size_t count) {
                                     "pixel or for none");
 }
 
-/// What a moving object mirrors is shown as traced, because gloss has normals in the world.
+/// Reflections on a moving object are shown as traced, because gloss has normals in the world.
 void forgetGlossOfMoving(const RenderedPicture& picture, std::vector<GlossWords>& gloss) {
     if (gloss.empty() || picture.poses.empty() || !picture.scene) return;
     const std::vector<SceneObject>& objects = picture.scene->objects;
