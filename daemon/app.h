@@ -19,6 +19,7 @@
 #include <atomic>
 #include <cstdint>
 #include <exception>
+#include <filesystem>
 #include <fstream>
 #include <future>
 #include <mutex>
@@ -96,7 +97,7 @@ private:
     [[nodiscard]] ControlActions controlActions();
     [[nodiscard]] nlohmann::ordered_json statusNow();
     [[nodiscard]] nlohmann::ordered_json statsNow();
-    void startRecording(const std::string& name);
+    std::filesystem::path startRecording(const std::string& name);
     [[nodiscard]] nlohmann::ordered_json stopRecording();
     void onTick();
     /// Warns about parts of the models that are not shown.

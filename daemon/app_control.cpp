@@ -4,6 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <filesystem>
+#include <memory>
 #include <stdexcept>
 
 namespace mfar {
@@ -35,7 +37,7 @@ ControlActions App::controlActions() {
     actions.snapshot = [session](bool screen) {
         return session([screen](Session& s) { return s.snapshot(screen); });
     };
-    actions.record = [this](const std::string& name) { startRecording(name); };
+    actions.record = [this](const std::string& name) { return startRecording(name); };
     actions.stopRecording = [this] { return stopRecording(); };
     actions.trigger = [session] { session([](Session& s) { s.askForStill(); }); };
     actions.resetLearning = [session] { session([](Session& s) { s.resetLearning(); }); };
@@ -83,11 +85,12 @@ ordered_json App::statsNow() {
 
 // Runs on an answer thread of the control socket. It creates the recording's folder, so that the
 // session does not wait for the disk.
-void App::startRecording(const std::string& name) {
+std::filesystem::path App::startRecording(const std::string& name) {
     const auto make =
         sessionCalls_.call([name](Session& s) { return s.makeRecording(name); }, kAnswerTime);
-    sessionCalls_.call([recorder = make()](Session& s) { s.startRecording(recorder); },
-                       kAnswerTime);
+    const std::shared_ptr<Recorder> recorder = make();
+    sessionCalls_.call([recorder](Session& s) { s.startRecording(recorder); }, kAnswerTime);
+    return std::filesystem::absolute(recorder->folder());
 }
 
 // Runs on an answer thread of the control socket. It completes the recording, so that the session
@@ -98,7 +101,10 @@ ordered_json App::stopRecording() {
     finishesRecording_ = true;
     const std::shared_ptr<void> atEnd(nullptr, [this](void*) { finishesRecording_ = false; });
     const Recorded recorded = finish();
-    return {{"video", recorded.video}, {"stills", recorded.stills}, {"dropped", recorded.dropped}};
+    return {{"folder", std::filesystem::absolute(recorded.folder).string()},
+            {"video", recorded.video},
+            {"stills", recorded.stills},
+            {"dropped", recorded.dropped}};
 }
 
 }  // namespace mfar

@@ -83,8 +83,7 @@ ControlAnswer record(const ControlActions& actions, const json& request) {
     if (!name->is_string() || !isFolderName(name->get<std::string>()))
         throw BadRequest("a recording's name must consist of letters, digits, '.', '-' and '_', "
                          "and must not begin with '.'");
-    actions.record(name->get<std::string>());
-    return line(with());
+    return line(with({{"folder", actions.record(name->get<std::string>()).string()}}));
 }
 
 ControlAnswer learn(const ControlActions& actions, const json& request) {

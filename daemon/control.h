@@ -5,6 +5,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -22,8 +23,10 @@ struct ControlActions {
     /// Reads the configuration again. Returns a message that names the settings that need a
     /// restart.
     std::function<std::string()> reload;
-    std::function<void(const std::string& name)> record;
-    /// Ends the recording. Returns the numbers of its frames and stills, and of dropped pictures.
+    /// Starts a recording with this name. Returns its folder.
+    std::function<std::filesystem::path(const std::string& name)> record;
+    /// Ends the recording. Returns its folder, and the numbers of its frames, of its stills and of
+    /// dropped pictures.
     std::function<nlohmann::ordered_json()> stopRecording;
     std::function<void()> trigger;
     std::function<void()> resetLearning;
@@ -36,7 +39,8 @@ struct ControlActions {
 ///   {"command": "record", "name": "walk-1"}, {"command": "record", "stop": true}
 /// The answer is {"ok": true, ...} or {"ok": false, "error": "one sentence"}. The answer to
 /// snapshot has "width", "height" and "bytes". After the line of this answer, "bytes" bytes follow:
-/// the pixels R G B A, row 0 first. An observer may only send status and stats. Never throws.
+/// the pixels R G B A, row 0 first. The answer to record has "folder". An observer may only send
+/// status and stats. Never throws.
 [[nodiscard]] ControlAnswer answerControl(const ControlActions& actions, std::string_view request,
                                           ControlRole role = ControlRole::Operator);
 

@@ -225,8 +225,8 @@ std::function<Recorded()> Rig::stopRecording() {
     lostBefore_ += lostBy(*recorder_);
     return [recorder = std::exchange(recorder_, nullptr)]() -> Recorded {
         finish(*recorder);
-        return {recorder->videoCounts().written, recorder->stillCounts().written,
-                lostBy(*recorder)};
+        return {recorder->folder(), recorder->videoCounts().written,
+                recorder->stillCounts().written, lostBy(*recorder)};
     };
 }
 

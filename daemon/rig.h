@@ -32,6 +32,7 @@ namespace mfar {
 class RigSource;
 
 struct Recorded {
+    std::filesystem::path folder;
     std::uint64_t video = 0;
     std::uint64_t stills = 0;
     std::uint64_t dropped = 0;

@@ -1,6 +1,7 @@
 #include "daemon/exit_code.h"
 #include "daemon/tools/control_client.h"
 #include "daemon/tools/ctl_arguments.h"
+#include "daemon/tools/status_text.h"
 #include "hal/virtual/image_files.h"
 
 #include <fmt/format.h>
@@ -13,11 +14,6 @@ namespace mfar {
 namespace {
 
 constexpr int kRefused = 1;
-
-void print(const nlohmann::ordered_json& body) {
-    for (const auto& [key, value] : body.items())
-        fmt::print("{:<11}{}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
-}
 
 void saveSnapshot(const Reply& reply, const std::string& file) {
     const Size size{reply.body.value("width", 0), reply.body.value("height", 0)};
@@ -39,7 +35,7 @@ void run(const CLI::App& app, const CtlArguments& a) {
     const Reply reply = ask(a.socket, request);
     if (wants("snapshot")) return saveSnapshot(reply, a.snapshot);
     if (wants("stats")) return fmt::print("{}\n", reply.body.dump(2));
-    print(reply.body);
+    fmt::print("{}", statusText(reply.body));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <filesystem>
 #include <gmock/gmock.h>
 #include <stdexcept>
 
@@ -21,7 +22,10 @@ struct Control : testing::Test {
                           : ScreenPicture{{1, 1}, PixelFormat::Rgba8, {9, 8, 7, 6}};
         };
         actions.reload = [] { return "read again"; };
-        actions.record = [this](const std::string& name) { recorded = name; };
+        actions.record = [this](const std::string& name) {
+            recorded = name;
+            return std::filesystem::path("/records") / name;
+        };
         actions.stopRecording = [] { return ordered_json{{"video", 3}}; };
         actions.trigger = [this] { ++triggered; };
         actions.resetLearning = [this] { ++resets; };
@@ -54,7 +58,8 @@ TEST_F(Control, ExecutesEveryCommand) {
     EXPECT_EQ(resets, 1);
     EXPECT_THAT(errorOf(R"({"command": "learn"})"), HasSubstr("needs \"reset\": true"));
     EXPECT_EQ(resets, 1);
-    EXPECT_EQ(ask(R"({"command": "record", "name": "walk-1"})"), (json{{"ok", true}}));
+    EXPECT_EQ(ask(R"({"command": "record", "name": "walk-1"})"),
+              (json{{"ok", true}, {"folder", "/records/walk-1"}}));
     EXPECT_EQ(recorded, "walk-1");
     EXPECT_EQ(ask(R"({"command": "record", "stop": true})"), (json{{"ok", true}, {"video", 3}}));
 }

@@ -3,6 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <filesystem>
+
 namespace {
 
 using namespace mfar;
@@ -20,6 +22,7 @@ ControlActions actions() {
     out.record = [](const std::string& name) {
         test::requireThat(isFolderName(name) && name.find('/') == name.npos,
                           "a recording name that is not a single folder name was accepted");
+        return std::filesystem::path(name);
     };
     out.stopRecording = []() -> ordered_json { throw std::runtime_error("nothing is recorded"); };
     out.trigger = [] {};

@@ -25,8 +25,9 @@ start --config mfard.toml --source synthetic:flat,rest --display png:frames --co
 until_true started
 asks status
 says answer '^state +running$'
+says answer '^health +ok for [0-9.]+ s'
 says answer '^source +synthetic'
-says answer '^fault +null$'
+says answer '^fault +none$'
 run 69 --source synthetic:flat --control control --frames 1
 says err 'another process listens'
 
@@ -60,10 +61,12 @@ says err.ctl 'mfard.toml:1:1'
 echo "mfarctl record starts and ends a recording"
 refused 1 record ../outside
 asks record walk
+says answer "^folder +$work/walk$"
 refused 1 record again
 says err.ctl 'already running'
 until_true grep -q png walk/cam0/data.csv
 asks record --stop
+says answer "^folder +$work/walk$"
 says answer '^video +[1-9]'
 taken=$(sed -n 's/^video *//p' answer)
 [ "$(grep -vc '^#' walk/cam0/data.csv)" -ge "$taken" ] ||

@@ -47,7 +47,7 @@ start --config mfard.toml --control control
 until_true started
 ended() { grep -q 'the recording has ended: films/.*: the recording has become larger than' err; }
 until_true ended
-says <(status) '^recording +null$'
+says <(status) '^recording +none$'
 goes_on
 "$ctl" --socket control record more
 listed() { [ "$(cat more/cam0/data.csv 2>/dev/null | wc -l)" -gt 1 ]; }

@@ -44,7 +44,7 @@ warned() { grep -q -- "$1" err; }
 
 echo "the still driver hangs: the video continues, and status names the still camera"
 begin
-until_true fault_is null
+until_true fault_is none
 says_of video91 hang
 until_true fault_is 'still camera: its driver does not answer'
 goes_on
@@ -58,7 +58,7 @@ begin
 says_of video91 hang
 until_true fault_is 'still camera: its driver does not answer'
 says_of video91
-until_true fault_is null
+until_true fault_is none
 goes_on
 
 echo "status names a still camera that sends nothing"
@@ -66,13 +66,13 @@ says_of video91 silent
 until_true fault_is 'still camera: sends no pictures'
 goes_on
 says_of video91
-until_true fault_is null
+until_true fault_is none
 
 echo "the video driver hangs: status names the video camera"
 says_of video90 hang
 until_true fault_is 'video camera: its driver does not answer'
 says_of video90
-until_true fault_is null
+until_true fault_is none
 goes_on
 
 echo "a video camera that repeats one picture is reported"
@@ -144,7 +144,7 @@ for absent in video still; do
         fail "status reports a fault of the $other camera"
     [ $absent = video ] || goes_on
     touch cameras/$device
-    until_true fault_is null
+    until_true fault_is none
     goes_on
     stop_now 1500
 done

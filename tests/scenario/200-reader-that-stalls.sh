@@ -17,7 +17,7 @@ exec 3<>pipe
 start --config mfard.toml --source synthetic:flat,rest --display y4m:pipe --control control \
     --summary summary.json 3>&-
 until_true started
-until_true status_says '"state":"degraded","cause":"y4m:pipe: the reader of the pipe accepts no data"'
+until_true status_says '^health +degraded for .*: y4m:pipe: the reader of the pipe accepts no data'
 shown=$(frames)
 more() { [ "$(frames)" -gt $((shown + 20)) ]; }
 until_true more
@@ -28,7 +28,7 @@ echo "the reader reads again: mfard's state is ok"
 cat <pipe >/dev/null 3>&- &
 reader=$!
 pids+=("$reader")
-until_true status_says '"state":"ok"'
+until_true status_says '^health +ok'
 
 echo "the reader closes the pipe: mfard ends with exit code 74"
 exec 3>&-

@@ -26,7 +26,7 @@ begin() {
         MFAR_FAULTY_GL=$PWD/gl start --config mfard.toml --display none \
         --control control --summary summary.json "$@"
     until_true frames 12
-    status_says '"state":"ok"' || fail "the state in mfard's status is not ok"
+    status_says '^health +ok' || fail "the state in mfard's status is not ok"
 }
 
 echo "the OpenGL ES context is lost: mfard restarts the GPU"
@@ -34,7 +34,7 @@ begin --engine gles --mode detail
 gpu_says "lost once"
 until_true failed_times 1
 until_true status_says \
-    '"state":"degraded","cause":"the GPU failed and was restarted \(the OpenGL ES context is lost\)"'
+    '^health +degraded for .*: the GPU failed and was restarted \(the OpenGL ES context is lost\)'
 goes_on
 until_true says err 'the GPU failed and was restarted \(.*\); the restart took [0-9]{1,4} ms'
 
@@ -43,7 +43,7 @@ gpu_says never
 until_true failed_times 2
 gpu_says ""
 goes_on
-status_says '"cause":"the GPU failed and was restarted \(the GPU does not finish a picture\)"' ||
+status_says '^health .*: the GPU failed and was restarted \(the GPU does not finish a picture\)' ||
     fail "status does not report that the GPU did not finish a picture"
 status_says '^engine +gles' || fail "status does not report that the GLES engine draws"
 control snapshot before.png
@@ -52,7 +52,7 @@ echo "after the third failure the CPU draws"
 gpu_says "lost again"
 until_true status_says '^engine +simd'
 goes_on
-status_says '"state":"degraded","cause":"the GPU failed 3 times within a minute, so the CPU draws now' ||
+status_says '^health +degraded for .*: the GPU failed 3 times within a minute, so the CPU draws now' ||
     fail "the health in the status does not report that the CPU draws"
 status_says '^renderer +without OpenGL ES' || fail "status still names a renderer of OpenGL ES"
 control snapshot after.png
@@ -73,7 +73,7 @@ ends_with 0 1000
 echo "a driver that does not return from drawing is reported; a run with a time limit still ends"
 begin --engine gles --seconds 4
 gpu_says hang
-until_true status_says '"state":"stalled","cause":"the picture thread hangs"'
+until_true status_says '^health +stalled for .*: the picture thread hangs'
 ends_with 0 6000
 says err 'the picture thread hangs; ended without waiting for it'
 summary_has exit_reason '"--seconds"'

@@ -28,7 +28,7 @@ for seconds in 3600 -3600 315360000 -315360000 0; do
     step $seconds
     shown=$(frames)
     until_true more
-    says <(status) '"state":"ok"'
+    says <(status) '^health +ok'
 done
 kill -TERM "$pid"
 ends_with 0 1500

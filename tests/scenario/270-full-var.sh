@@ -22,7 +22,7 @@ goes_on() {
     shown=$(frames)
     more() { [ "$(frames)" -gt $((shown + 15)) ] 2>/dev/null; }
     until_true more
-    says <(status) '"state":"ok"'
+    says <(status) '^health +ok'
 }
 trap 'umount --lazy "$work/var"; clean_up' EXIT
 mkdir var
@@ -60,7 +60,7 @@ ended() { grep -Eq "the recording has ended: .*${film#var/}.*$no_room" err; }
 until_true ended
 is_full || fail "the disk is not full"
 goes_on
-says <(status) '^recording +null$'
+says <(status) '^recording +none$'
 
 echo "a new recording is refused or ends"
 "$ctl" --socket control record more 2>refused || says refused "$no_room"
