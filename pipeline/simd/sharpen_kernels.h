@@ -17,8 +17,8 @@ struct TrustRows {
 };
 void strengthRow(const TrustRows& trust, int begin, int end, std::int16_t* strength);
 
-/// Sharpens the middle one of five rows; they are also read two bytes before `begin` and after
-/// `end`. The result is in grey levels, clamped to [0, 255].
+/// Sharpens the middle one of five rows. Each row is also read two bytes before `begin` and two
+/// after `end`. The result is in grey levels, clamped to [0, 255].
 void sharpenRow(const std::array<const std::uint8_t*, 5>& rows, const std::int16_t* strength,
                 int begin, int end, float* to);
 void plainRow(const std::uint8_t* row, int begin, int end, float* to);

@@ -178,7 +178,7 @@ struct Found {
     M left;
 };
 
-/// The surface that each pixel of a vector shows, and its position in the traced picture.
+/// The surface that each pixel of a vector shows, and the surface's position in the traced picture.
 struct Asked {
     V z;  ///< z of the surface in the layer's camera [m]
     VU id;
@@ -189,7 +189,7 @@ struct Asked {
     V pixelX, pixelY, lowX, lowY;  ///< position in the traced picture, exact and rounded down [px]
 };
 
-/// Returns each point, transformed by the entry of its surface's number.
+/// Transforms each point by the entry of `transforms` with the number of the point's surface.
 HWY_INLINE Triples<V> TransformedByNumber(const PointTransform* transforms, VU number,
                                           const Triples<V>& p) {
     const D d;
