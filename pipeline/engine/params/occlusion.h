@@ -12,7 +12,7 @@ namespace mfar::params {
 inline constexpr float kLeastInverseDepth = 1e-6F;
 inline constexpr float kMostInverseDepth = 1e6F;
 inline constexpr float kLeastDepthSigma = 1e-20F;
-/// A virtual pixel is drawn if its z is between these limits, exclusive [m].
+/// A virtual pixel is drawn only if kLeastVirtualDepth < z < kMostVirtualDepth [m].
 inline constexpr float kLeastVirtualDepth = 1e-4F;
 inline constexpr float kMostVirtualDepth = 1e6F;
 /// Added to the colour weight of each depth sample. If no sample has a similar colour, the samples'

@@ -17,8 +17,8 @@ inline constexpr float kFarthestOffset = 4e3F;
 
 /// Variance of the error of rounding to 8 bits [grey levels^2].
 inline constexpr float kByteVariance = 0.083F;
-/// If the still's variance is this multiple of the noise variance, the gain measured at half
-/// resolution has half of its full weight.
+/// The photometric gain is also measured at half resolution. If the still's variance there is this
+/// multiple of the noise variance, that measurement has half of its full weight.
 inline constexpr float kLowContrast = 8.0F;
 inline constexpr float kLargestGain = 2.0F;
 /// Amplifies the still's detail to compensate for the loss in bilinear look-ups.
@@ -27,8 +27,8 @@ inline constexpr float kLookUpLoss = 1.15F;
 /// and certainly match from kAlikePatches on.
 inline constexpr float kUnlikePatches = 0.2F;
 inline constexpr float kAlikePatches = 0.6F;
-/// Thresholds of the change of the flow [px per px]. Up to kEvenFlow, it is noise. From kBentFlow
-/// on, the cameras see the surface from different directions.
+/// Thresholds of the change of the flow [px per px]. Changes up to kEvenFlow are noise. From
+/// kBentFlow on, the cameras certainly see the surface from different directions.
 inline constexpr float kEvenFlow = 0.015F;
 inline constexpr float kBentFlow = 0.07F;
 /// Thresholds of the second difference of the flow between neighbouring cells [video px]. Up to
@@ -36,7 +36,7 @@ inline constexpr float kBentFlow = 0.07F;
 /// look-ups between them are invalid.
 inline constexpr float kSmoothStep = 1.0F;
 inline constexpr float kTornStep = 4.0F;
-/// Smaller weights have no visible effect.
+/// Weights below this have no visible effect.
 inline constexpr float kSmallestWeight = 0.004F;
 /// A patch is textured if its variance per pixel is at least this multiple of (noise variance + 1)
 /// [grey levels^2].
@@ -54,9 +54,10 @@ inline constexpr float kUnexplainedMatch = 0.25F;
 /// edges that only the still shows would be accepted.
 inline constexpr float kFineRoom = 4.0F;
 inline constexpr float kFineShareRoom = 3.0F;
-/// Only every kFineStep-th row of cells is sampled. Rows between get the mean of both neighbours.
+/// The finest detail is compared only in every kFineStep-th row of cells. The rows between them get
+/// the mean of the rows above and below.
 inline constexpr int kFineStep = 2;
-/// Smaller variances of the finest detail are not significant [grey levels^2].
+/// Variances of the finest detail below this are not significant [grey levels^2].
 inline constexpr float kFineLeast = 0.1F;
 
 struct alignas(16) AssessCells {
