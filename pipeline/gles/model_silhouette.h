@@ -13,18 +13,18 @@
 
 namespace mfar {
 
-/// Draws the depth and number of the visible virtual surface at each pixel: of the objects, and
-/// elsewhere of the shadow catcher. The surfaces are rasterised at twice the layer's resolution, so
-/// that each layer pixel has four quarters. The lens distortion is applied to the vertices. Colours
-/// are not computed.
+/// Draws the depth and number of the virtual surface that is visible at each pixel: an object or,
+/// where there is none, the shadow catcher. Surfaces are rasterised at twice the layer's
+/// resolution, so that each layer pixel has four quarters. The lens distortion is applied to the
+/// vertices. Colours are not computed.
 class ModelSilhouette {
 public:
     /// `layer` is the video camera at the layer's resolution. Throws GlError if the GL
     /// implementation cannot draw into R32UI.
     explicit ModelSilhouette(const CameraModel& layer);
 
-    /// Uploads the meshes of the scene, simplified if it has more than 20000 triangles. Surfaces
-    /// with an alpha mask are not drawn where their alpha is too small.
+    /// Uploads the scene's meshes, which are simplified if the scene has more than 20000 triangles.
+    /// Surfaces with an alpha mask are not drawn where their alpha is below the mask's threshold.
     void setScene(const Scene& scene);
     void setPoses(std::span<const RigidTransform> T_world_objects) {
         models_.setPoses(T_world_objects);
