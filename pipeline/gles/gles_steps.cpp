@@ -32,7 +32,7 @@ public:
 
     [[nodiscard]] const gpu::Texture& texture() const { return picture_.texture(); }
     void upload(const void*, std::ptrdiff_t) override {
-        assert(!"upload() of a still's luma, which is computed from its colours");
+        assert(!"a still's luma cannot be uploaded, because it is computed from its colours");
     }
     [[nodiscard]] const ToneTexture& tone() const { return tone_; }
     /// Sets the still's format, which tells the order of the channels that download() reads back.
