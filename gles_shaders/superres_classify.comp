@@ -78,7 +78,7 @@ bool secondIsMore(ivec2 c) {
 }
 
 // True if a tile shows some of the second still. The cells around the tile are tested too, because
-// the tile's outer pixels are interpolated with them.
+// the weights of the tile's outer pixels are interpolated with them.
 bool showsSecond(ivec2 first) {
     ivec2 low = max(first - 1, ivec2(0)), high = min(first + 4, lastCell());
     for (int y = low.y; y <= high.y; ++y)
