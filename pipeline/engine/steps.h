@@ -133,8 +133,8 @@ struct TileSummary {
     std::array<int, kTileClasses> tiles{};
     double meanConfidence = 0;
     double explained = 0;  ///< share of tiles that are flat or match a still, [0, 1]
-    double changed = 0;
-    int second = 0;
+    double changed = 0;    ///< share of tiles that changed, [0, 1]
+    int second = 0;        ///< number of tiles that show the second still
 };
 
 struct DetailOptions {

@@ -43,8 +43,8 @@ public:
     [[nodiscard]] const gpu::Texture& colour() const { return colour_; }
     [[nodiscard]] const gpu::Texture& depth() const { return depth_; }
     /// State of each pixel, RGBA8. R: number of the surface with unknown colour. G: share of the
-    /// pixel with unknown colour. B: 1 if no picture shows this surface. A: number of a surface
-    /// that fills the whole pixel with a known colour.
+    /// pixel with unknown colour. B: 1 if this surface fills the pixel and no picture shows it. A:
+    /// number of the surface that fills the whole pixel with a known colour.
     [[nodiscard]] const gpu::Texture& state() const { return state_; }
 
 private:

@@ -22,8 +22,8 @@ using VU = hn::Vec<DU>;
 using VI = hn::Vec<DI>;
 using V3 = Triples<V>;
 
-// The visible share of the sun is computed only if a pixel mirrors more light of the sun than this
-// factor times the light of the sky.
+// The visible share of the sun is measured only in pixels in which the mirrored sunlight exceeds
+// this factor times the mirrored light of the sky.
 constexpr float kLeastSun = 0.1F;
 // The 6 free bits of a pixel's two MirrorParts words store the sun's visible share in steps of
 // 1 / kMostSunShare.

@@ -22,13 +22,13 @@ struct LightSurfaces {
 };
 
 struct NoiseRule {
-    int step;  ///< distance of neighbours [px], at most kNoiseMargin
+    int step;  ///< distance between a pixel and its neighbours [px], at most kNoiseMargin
     /// Largest difference between two pixels' luminances that noise explains [standard deviations
     /// of the difference]. `sparseTolerance` replaces it at pixels of surface `sparseId` whose
     /// first part has fewer than `few` samples.
     float tolerance, sparseTolerance, few, sparseId;
-    float leastVariance;  ///< added to the variance of each difference
-    float depthSlope;     ///< largest relative change of depth per pixel on one surface
+    float leastVariance;  ///< added to the variance of each luminance difference
+    float depthSlope;     ///< largest change of depth within a surface [fraction of depth per px]
 };
 
 /// filterNoiseRow() reads up to this number of values before and after each array.

@@ -163,7 +163,7 @@ HWY_INLINE Vec16 loadShares(const std::int32_t* shares, int c) {
 #endif
 }
 
-/// Twice the columns of a row's pixels, relative to the centre of their part.
+/// Returns twice the column of each pixel of a row, relative to the centre of the pixel's part.
 template <int kParts>
 HWY_INLINE const std::int16_t* alongPart() {
     alignas(16) static constexpr std::int16_t kAlong[2][kPatch] = {{-7, -5, -3, -1, 1, 3, 5, 7},

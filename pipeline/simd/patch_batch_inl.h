@@ -142,8 +142,8 @@ HWY_INLINE void tryActive(const Compare& compare, const CompareSums& sums, Batch
     takeBetter(sums, batch);
 }
 
-/// Sets the trials of the active cells to the result of one Gauss-Newton step, at most a pixel
-/// long. Deactivates cells whose step is too short.
+/// Sets `trial` of each active cell to the result of one Gauss-Newton step, which is at most a
+/// pixel long. Deactivates cells whose step is shorter than params::kShortestStep allows.
 HWY_INLINE void stepActive(Batch& batch) {
     const Cells d;
     const auto one = hn::Set(d, 1.0F);

@@ -74,7 +74,8 @@ void propagateCells(const PropagateStep& step, int row, int first, int end);
 struct AlignStep {
     PatchPicture from, to;
     FlowPlanes out;
-    const float* seed = nullptr;  ///< per cell: flow x, y, two unused; no gaps between rows
+    /// Four floats per cell, row by row without gaps: flow x and y [px], and two unused values.
+    const float* seed = nullptr;
     int steps = 0;
 };
 void alignCells(const AlignStep& step, int row, int first, int end);

@@ -99,7 +99,7 @@ HWY_INLINE Vec16 loadPixels(const std::uint8_t* from) {
     return hn::PromoteTo(Row16(), hn::LoadU(Row8(), from));
 }
 
-/// Rows of pixels that may be read without bounds checks. Outside the picture, its border is
+/// Rows of a picture that can be read without bounds checks. Outside the picture, its border is
 /// repeated.
 class PatchRows {
 public:

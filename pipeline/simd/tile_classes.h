@@ -12,9 +12,9 @@
 
 namespace mfar::simd {
 
-/// Numbers of tiles in a frame, computed as in superres_classify.comp.
+/// Statistics of a frame's tiles, computed as in superres_classify.comp.
 struct TileSummary {
-    std::array<int, kTileClasses> tiles{};
+    std::array<int, kTileClasses> tiles{};  ///< number of tiles of each class
     /// Number of tiles in which at least params::kUnexplainedCells cells match neither still.
     int unexplained = 0;
     int second = 0;

@@ -47,7 +47,7 @@ public:
     [[nodiscard]] std::span<const Group> groups(int level) const {
         return groups_[static_cast<std::size_t>(level)];
     }
-    /// True for each tile that groups(0) contains.
+    /// A flag for each tile, row-major: true if groups(0) contains the tile.
     [[nodiscard]] const std::vector<bool>& tiles() const { return listed_; }
     [[nodiscard]] int count() const { return static_cast<int>(groups_[0].size()); }
 

@@ -97,8 +97,7 @@ HWY_INLINE Light BlendLight(const Four& words, const Four& weights) {
     return out;
 }
 
-/// Interpolates the veil bilinearly. The veil is the share of specular light that does not depend
-/// on the surface's colour.
+/// Interpolates UnpackedLight::veil bilinearly.
 HWY_INLINE V BlendVeil(const Four& diffuse, const Four& specular, const Four& weights) {
     const auto veil = [&](VU d, VU s, VU weight) HWY_ATTR {
         const VU bits = hn::Or(hn::ShiftLeft<3>(hn::ShiftRight<kLightFreeBit>(d)),

@@ -26,8 +26,8 @@ struct DecideRow {
     const float *greatest, *least;  ///< for each pixel, see rangeOfSamples()
     std::uint8_t* visibility;       ///< 0, 255 or kOpen; written up to 16 pixels beyond the last
                                     ///< pixel
-    float* inverse;                 ///< inverse depth of the layer [1/m]; written as far as
-                                    ///< `visibility`
+    float* inverse;                 ///< inverse depth of the layer [1/m]; written up to 16 pixels
+                                    ///< beyond the last pixel
 };
 /// Value in DecideRow::visibility for a pixel that decideRow() leaves to weighOpenPixels().
 inline constexpr std::uint8_t kOpen = 1;

@@ -17,14 +17,14 @@
 
 namespace mfar::simd {
 
-/// Input for the weights of a frame. The data must remain valid during the call.
+/// Input of WeighStep::run() for a frame. The data must remain valid during the call.
 struct WeighInput {
     /// At least two pyramid levels of each picture; their pixels are in `words`. The photometric
     /// gain between the sensors is measured at the second level.
     const std::vector<LumaLevel>& videoLuma;
     const std::vector<LumaLevel>& stillLuma;
     std::span<const std::uint32_t> words;  ///< must end with kLumaSpareWords
-    Rows<const FlowCell> forward;          ///< flow from video to still, per 4x4 video pixels
+    Rows<const FlowCell> forward;          ///< flow from video to still
     /// Flow from still to video, in pixels of pyramid level `backwardLevel`. Read only if
     /// errors.data is null.
     Rows<const FlowCell> backward;

@@ -8,8 +8,8 @@ inline constexpr float kPatchPixels = 64.0F;
 /// Texture (see FlowCell) that noise causes in a patch [grey levels^2]. A patch with less texture
 /// is flat.
 inline constexpr float kPatchNoise = 128.0F;
-/// Added to the diagonal of the Hessian. It limits the Gauss-Newton steps where there is no
-/// gradient.
+/// This value is added to the diagonal of the Hessian. It limits the length of Gauss-Newton steps
+/// in patches without gradient.
 inline constexpr float kPatchDamping = 64.0F;
 /// The refinement ends after a Gauss-Newton step whose squared length is below kShortestStep
 /// [px^2]. Candidates whose squared distance is below kSameCandidate [px^2] count as equal.
