@@ -34,8 +34,8 @@ layout(std430, binding = 2) buffer Draws {
     uint counts[8];
 };
 layout(std430, binding = 3) buffer Lists {
-    // The five lists. Then, for each tile, the number of the last frame that listed it as a
-    // neighbour.
+    // The five lists. After them, one entry per tile: the number of the frame in which the tile was
+    // last listed as a neighbour.
     uint lists[];
 };
 layout(binding = 0) uniform sampler2D cellField;

@@ -41,8 +41,8 @@ public:
 
     [[nodiscard]] const SilhouetteModels& models() const { return models_; }
     /// R32UI with twice the layer's size: z and number of the surface, packed as in
-    /// warp_surface.glsl, or 0 without a surface. The shadow catcher appears only where there is no
-    /// object, even if it is nearer than the object.
+    /// warp_surface.glsl, or 0 without a surface. Objects hide the shadow catcher, even if the
+    /// catcher is nearer.
     [[nodiscard]] const gpu::Texture& surface() const { return surface_; }
     [[nodiscard]] std::size_t triangles() const { return models_.triangles(); }
 

@@ -31,10 +31,10 @@ struct PathVolume {
     const std::int16_t* base;   ///< first label of each pixel's window
     Size size;
     int vectors;
-    std::uint8_t step;          ///< penalty if neighbouring pixels' labels differ by one
+    std::uint8_t step;          ///< penalty if two neighbouring pixels' labels differ by one
     int jumpDifferences;        ///< `jumps` is constant from this entry on
-    const std::uint8_t* jumps;  ///< penalty if they differ by more than one; 256 entries, indexed
-                                ///< by the absolute difference of `guide` between the pixels
+    const std::uint8_t* jumps;  ///< penalty if these labels differ by more than one; 256 entries,
+                                ///< indexed by |difference of `guide` between the two pixels|
     const std::uint8_t* costs;  ///< matching costs, kLabels * vectors per pixel
     std::uint8_t* sums;         ///< results and temporary values, one for each entry of `costs`
 };
