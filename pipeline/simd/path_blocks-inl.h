@@ -1,7 +1,8 @@
-// Aggregates costs along paths (see path_costs.h) in registers, for windows of one vector of
+// Aggregates costs along paths (see path_costs.h) in registers, for pixels with a window of 16
 // labels. A block of 16 bytes contains the path costs of one pixel's labels; a vector contains
-// several blocks. Path costs are stored as their complement, so that the zeros that shifts and
-// look-ups insert outside a window never win. This header is included once per instruction set.
+// several blocks. Path costs are stored as 255 - cost. Byte shifts and look-ups insert zeros
+// outside a window, which are then the highest cost and never win. This header is included once per
+// instruction set.
 #include "pipeline/simd/path_costs.h"
 
 #include <algorithm>
@@ -85,8 +86,9 @@ public:
         }
     }
 
-    /// Advances the complement of path costs by one pixel. `shifts`: differences of the two
-    /// windows' first labels. `jumps`: penalties of jumps. Both have one byte per block.
+    /// Advances path costs by one pixel. `path`: 255 - path cost at the previous pixel; `cost`:
+    /// matching costs of the new pixel. `shifts` and `jumps` have one byte per block: see
+    /// Neighbours::shifts() and Neighbours::penalties().
     HWY_INLINE V advance(V path, const std::uint8_t* shifts, const std::uint8_t* jumps,
                          V cost) const {
         std::uint32_t moved = 0;
@@ -128,15 +130,16 @@ private:
     V one_, places_, byTwo_, byOne_, block_;
 };
 
-/// Computes two values for a step between neighbouring pixels: the penalty of a jump, and the
-/// difference of the two windows' first labels.
+/// Computes two values for each pair of neighbouring pixels (`from`, `to`) on a path, see
+/// penalties() and shifts().
 class Neighbours {
 public:
     explicit Neighbours(const PathVolume& volume)
         : jumps_(volume.jumps), chunks_((volume.jumpDifferences + 15) / 16) {}
 
-    /// Computes the penalties of jumps between `count` pixels (at most kMost) and their neighbours.
-    /// Writes whole vectors.
+    /// Computes the penalty for a label difference of more than one, for `count` pixels (at most
+    /// kMost). `to`, `from`: PathVolume::guide at the pixels and at their neighbours. Writes whole
+    /// vectors, so `out` needs kRoom bytes.
     static constexpr int kMost = 64, kRoom = 2 * kMost;
     HWY_INLINE void penalties(const std::uint8_t* to, const std::uint8_t* from, int count,
                               std::uint8_t* out) const {
@@ -156,7 +159,8 @@ public:
                     hn::StoreU(jump, d, out + i);
                 });
     }
-    /// Computes the differences of first labels, clamped to one more than a window's length.
+    /// Computes the first label of each pixel's window minus that of its neighbour's window. The
+    /// difference is clamped to -(kLabels + 1) to kLabels + 1.
     HWY_INLINE static void shifts(const std::int16_t* to, const std::int16_t* from, int count,
                                   std::uint8_t* out) {
         for (int i = 0; i < count; ++i)
@@ -184,13 +188,14 @@ private:
     int chunks_;
 };
 
-/// Penalties and shifts of a run of pixels in `Blocks` rows, interleaved.
+/// Results of Neighbours for successive pixels in `Blocks` rows. The values of the rows are
+/// interleaved: first those of the first pixel of each row.
 template <int Blocks>
 struct RunOfRows {
     HWY_ALIGN std::uint8_t jumps[Neighbours::kMost * 4], shifts[Neighbours::kMost * 4];
 
-    /// Fills in pixels [x, x + count) of the rows from y on. `toFrom`: offset of a pixel's
-    /// neighbour. A pixel without a neighbour uses itself.
+    /// Computes the values of pixels [x, x + count) of the rows from y on. `toFrom`: column of a
+    /// pixel's neighbour minus its own column. Both values are 0 for a pixel without a neighbour.
     HWY_INLINE void fill(const Neighbours& between, const PathVolume& v, int x, int count, int y,
                          int toFrom) {
         HWY_ALIGN std::uint8_t jump[4][Neighbours::kRoom] = {}, shift[4][Neighbours::kRoom] = {};
@@ -224,8 +229,8 @@ private:
     }
 };
 
-/// Computes the path costs along rows in both directions at once. A step needs the result of the
-/// previous one, so two independent chains of steps keep the CPU busy.
+/// Computes the path costs along rows in both directions at once. Each pixel of a path needs the
+/// result of the previous one. With two independent paths, the CPU waits less for results.
 template <int Blocks>
 HWY_INLINE void blocksAlongRows(const PathVolume& v, int y) {
     static_assert(Blocks == 1 || Blocks == 2 || Blocks == 4);
@@ -261,8 +266,8 @@ HWY_INLINE void blocksAlongRows(const PathVolume& v, int y) {
     }
 }
 
-/// Finds the cheapest label of each pixel. `sums`: path costs of all directions but the last.
-/// `path`: complement of the path costs of the last direction.
+/// Finds the cheapest label of each pixel. `sums`: sums of the path costs from three directions.
+/// `path`: 255 - path cost from the fourth direction.
 template <int Blocks>
 HWY_INLINE void valleysOf(const Stepper<Blocks>& stepper, VBlocks<Blocks> sums,
                           VBlocks<Blocks> path, const std::int16_t* base, Valley* out) {
@@ -273,7 +278,7 @@ HWY_INLINE void valleysOf(const Stepper<Blocks>& stepper, VBlocks<Blocks> sums,
     const auto a = hn::BitCast(d16, sums), b = hn::BitCast(d16, hn::Not(path));
     const auto odds = [&](auto v) HWY_ATTR { return hn::And(hn::ShiftRight<8>(v), byte); };
     const auto even = hn::Add(hn::And(a, byte), hn::And(b, byte)), odd = hn::Add(odds(a), odds(b));
-    // The smallest sum wins. If sums are equal, the smaller label wins.
+    // The smallest sum wins. Of labels with equal sums, the smallest wins.
     const auto places =
         hn::BitCast(d16, everywhere<Blocks>({0, 0, 2, 0, 4, 0, 6, 0, 8, 0, 10, 0, 12, 0, 14, 0}));
     const auto evenKey = hn::Or(hn::ShiftLeft<4>(even), places);
@@ -301,7 +306,7 @@ HWY_INLINE void valleysOf(const Stepper<Blocks>& stepper, VBlocks<Blocks> sums,
     }
 }
 
-/// Path costs of a strip of columns, which advance together, either down or up.
+/// Computes the path costs of adjacent columns, row by row, first downwards and then upwards.
 class BlockColumns {
 public:
     BlockColumns(const PathVolume& volume, int first, int last)
