@@ -32,7 +32,7 @@ public:
     /// and height are rounded up.
     EpipolarLens(const CameraModel& camera, int level);
 
-    /// Makes this the lens of the rectangle `pixels` in the picture of `whole`.
+    /// Makes this object the lens of the rectangle `pixels`, a part of the picture of `whole`.
     void cover(const EpipolarLens& whole, const PixelRect& pixels);
 
     [[nodiscard]] Size size() const { return size_; }

@@ -71,7 +71,7 @@ struct Cell {
     float count = 0;
 };
 
-/// Groups of vertices that are connected by edges within a grid cell. Each group gets its own
+/// Puts vertices of a grid cell that are connected by edges into one group. Each group gets its own
 /// texture coordinate, so that the two sides of a texture seam stay separate.
 class Groups {
 public:
