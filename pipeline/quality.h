@@ -4,8 +4,9 @@
 
 namespace mfar {
 
-/// Off: the video is only enlarged. Blend is the paper's method: the warped still is blended in by
-/// confidence. Detail: the still's fine detail is added where the video confirms it.
+/// Use of the still. Off: the video is only enlarged. Blend (the paper's method): the warped still
+/// is blended in by confidence. Detail: the still's fine detail is added where the video confirms
+/// it.
 enum class SuperResMode {
     Off,
     Blend,

@@ -11,8 +11,8 @@ namespace {
 // Standard deviation of a match along its epipolar line [px], measured with ground truth in smooth
 // areas.
 constexpr float kMatchError = 0.3F;
-// Two points that land on the same pixel count as one slanted surface if their displacements [px]
-// differ by at most this.
+// Two points that the other picture shows at the same pixel count as one slanted surface if their
+// displacements [px] differ by at most this.
 constexpr float kSlope = 1.5F;
 // Largest difference [px] between the match of a cell and that of a pixel on the same surface.
 constexpr double kSameSurface = 0.5;

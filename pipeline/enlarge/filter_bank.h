@@ -50,8 +50,8 @@ struct FineMatch {
 /// FineMatch and StillTone learned from the same sensors. Immutable.
 class FilterBank {
 public:
-    /// Weights of a class's filter. They are halved, because the residuals of a pixel's two classes
-    /// are added. A halved weight of one is stored as 16384.
+    /// Weights of a class's filter. A weight w is stored as w * 16384 / 2. It is halved, because
+    /// the residuals of a pixel's two classes are added.
     using Filter = std::array<std::int16_t, enlarge::kFilterSize>;
 
     /// `unique` must contain kUnique filters, gradient classes first. Throws FilterBankError.
@@ -73,8 +73,8 @@ public:
     [[nodiscard]] const FineMatch& fineMatch() const { return fineMatch_; }
     /// The tone curve of the stills. The shipped filters leave stills as they are.
     [[nodiscard]] const StillTone& tone() const { return tone_; }
-    /// Keys' cubic minus the pixel itself, as a filter with the same taps and sub-pixels. Its
-    /// weights are not halved. A weight of one is stored as 16384.
+    /// Keys' cubic minus the pixel itself, as a filter with the same taps and sub-pixels. A weight
+    /// w is stored as w * 16384, not halved.
     [[nodiscard]] const std::int16_t* cubic() const { return cubic_[0]; }
 
 private:

@@ -87,7 +87,8 @@ struct Symmetry {
         const bool ascends = lower == left;
         return {ascends ? inHalf : bins / 2 - 1 - inHalf, lower, left};
     }
-    /// Maps the position `v`. The position (last / 2, last / 2) stays unchanged.
+    /// Maps a position in a square of (last + 1) x (last + 1) pixels. With last = 0, maps an offset
+    /// from a pixel, positive or negative.
     [[nodiscard]] constexpr Offset map(Offset v, int last = 0) const {
         const Offset mirrored{v.x, mirrors ? last - v.y : v.y};
         return transposes ? Offset{mirrored.y, mirrored.x} : mirrored;

@@ -22,7 +22,7 @@ struct GltfDocument {
 
     /// Returns "name: place: what" on one line.
     [[nodiscard]] std::string sentence(std::string_view place, std::string_view what) const;
-    /// Throws ModelError with this sentence.
+    /// Throws ModelError with the message sentence(place, what).
     [[noreturn]] void refuse(std::string_view place, std::string_view what) const;
     /// Refuses an index that is out of range.
     template <class T>

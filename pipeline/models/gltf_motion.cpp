@@ -15,7 +15,8 @@ constexpr double kLeastQuaternion = 1e-6;
 constexpr float kLongest = 1e6F;   // last time of an animation [s]
 constexpr float kFarthest = 1e6F;  // translation along each axis [m], or its change per second
 
-/// Returns a sentence for each kind of motion that is never shown, with the first place.
+/// Returns a sentence for each type of motion that is never shown, with its first position in the
+/// document.
 std::vector<std::string> stillParts(const GltfDocument& document) {
     std::vector<std::string> out;
     const tinygltf::Model& gltf = document.gltf;

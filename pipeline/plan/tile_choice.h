@@ -10,14 +10,14 @@
 
 namespace mfar {
 
-/// Sums over the tiles that are not marked as changed.
+/// Number of tiles that are not marked as changed, and sums of their TileMeasure values.
 struct TileEnergy {
     int tiles = 0;
     double pixels = 0, means = 0, bends = 0;
 
     void add(const TileMeasure& tile);
-    /// True if the differences of the 2x2 means are larger than `grain` times the noise of the
-    /// pixels. This finds changes that are too weak to be found in one tile, such as a moving
+    /// True if `means` exceeds `grain` * `pixels`, its value for noise alone, by a significant
+    /// amount. This finds changes that are too weak to be found in one tile, such as a moving
     /// smooth slope of brightness.
     [[nodiscard]] bool drifted(double grain) const;
 };

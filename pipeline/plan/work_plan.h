@@ -25,7 +25,7 @@ namespace mfar {
 /// moves, nothing is drawn.
 class WorkPlan {
 public:
-    /// `workers` compare the tiles. Null: the caller's thread does.
+    /// `workers` are the threads that compare the tiles. Null: only the caller's thread does.
     explicit WorkPlan(Size video, std::shared_ptr<Workers> workers = nullptr);
 
     /// Compares `now` with `drawn`, both of the video's size. If `force` is true, every tile counts
@@ -47,8 +47,8 @@ public:
     /// once. With 0, any changed tile is enough.
     void drawWholeFrom(double share) { wholeShare_ = share; }
     /// From now on, only tiles with structure above the noise, and their neighbours, are matched
-    /// with the still. Other tiles are only enlarged. At most the share `mostShare`, (0, 1], of all
-    /// tiles is matched; tiles with the most structure are preferred. By default all tiles are
+    /// with the still; all other tiles are only enlarged. `mostShare`, (0, 1], limits the share of
+    /// matched tiles; tiles with the most structure are preferred. By default, all tiles are
     /// matched.
     void matchStructured(double mostShare) { matchedShare_ = mostShare; }
     void matchEverything() { matchedShare_ = 0; }
