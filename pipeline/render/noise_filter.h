@@ -17,14 +17,14 @@ namespace mfar {
 /// Variances are of the luminance; a negative variance is unknown. Counts are numbers of samples.
 struct LightPixel {
     Eigen::Array3f first{0, 0, 0}, second{0, 0, 0};
-    /// With fewer samples, the variance counts as unknown.
+    /// Lower limit of the number of samples. With fewer samples, the variance counts as unknown.
     static constexpr float kFew = 4;
     float firstVariance = 0, secondVariance = 0;
     float firstCount = 0, secondCount = 0;
     Eigen::Array3f normal{0, 0, 0};  ///< surface normal, unit length
     float depth = 0;                 ///< [m] along the optical axis
     std::uint8_t id = 0;             ///< surface id; 0: several surfaces or none
-    /// If true, the filter does not change this pixel, but its neighbours use its light.
+    /// True: the filter does not change this pixel, but still uses its light for its neighbours.
     bool kept = false;
 };
 

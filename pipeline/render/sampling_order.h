@@ -2,7 +2,8 @@
 
 #include <cstdint>
 
-/// Order of the pixels in a tile. Slices samples and Film stores the pixels in this order.
+/// Order of the pixels in a tile. The class Slices hands out pixels in this order, and the class
+/// Film stores them in this order.
 namespace mfar::sampling {
 
 inline constexpr int kTileEdge = 8;  ///< [px]

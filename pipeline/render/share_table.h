@@ -6,8 +6,8 @@
 
 namespace mfar {
 
-/// Draws indices with given probabilities. Similar random numbers draw indices that are near each
-/// other, so that well distributed numbers stay well distributed.
+/// Selects random indices with given probabilities. Similar random numbers select indices that are
+/// near each other, so that well distributed numbers give well distributed indices.
 class ShareTable {
 public:
     ShareTable() = default;
