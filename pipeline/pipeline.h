@@ -124,8 +124,8 @@ public:
     [[nodiscard]] const InverseDepthField& inverseDepth() const;
 
     // These functions read results back for tests, evaluation and the preview. They wait for the
-    // GPU. On a GPU, FrameResult::stats are those of the run before, but readStats() returns those
-    // of the last run.
+    // GPU. On a GPU, FrameResult::stats are the statistics of the previous run; readStats() returns
+    // the statistics of the last run.
     [[nodiscard]] FrameStats readStats() const;
     /// Flow of every video pixel (x, y interleaved), interpolated between cells. With poses, a
     /// pixel gets its own vector from the epipolar search if this differs from the interpolated

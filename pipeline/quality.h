@@ -30,7 +30,8 @@ struct Quality {
     Flow2dOptions flow2d{};
     EpipolarOptions epipolar{};
     /// Largest share of a frame's tiles that are matched with the still, (0, 1]. If more tiles have
-    /// structure, those with the least are only enlarged. It has no effect in mode Blend.
+    /// structure, the tiles with the least structure are only enlarged. Without effect in mode
+    /// Blend.
     double detailShare = 1;
     /// Largest share of a frame's tiles that are matched with a second, older still because the
     /// newest does not show them, [0, 1]. 0: there is no second still. A second still is used only

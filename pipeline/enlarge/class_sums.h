@@ -16,7 +16,7 @@ namespace mfar::enlarge {
 using Taps = Eigen::Matrix<double, kTaps, 1>;
 /// True picture minus Keys' cubic enlargement at a pixel's sub-pixels, row-major [grey levels].
 using Phases = Eigen::Matrix<double, kPhases, 1>;
-/// Weights of a class's filter. Unlike those of FilterBank::Filter, they are not halved.
+/// Weights of a class's filter. They are not halved; the weights in FilterBank::Filter are.
 using ClassWeights = Eigen::Matrix<double, kTaps, kPhases>;
 
 /// The stored filter of a class, and the symmetry that maps the class's pixels onto this filter.

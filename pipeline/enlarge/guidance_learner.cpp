@@ -20,8 +20,8 @@ constexpr double kPriorPixels = 2000;
 constexpr double kLeastPixels = 0.02;
 // Guidance is used if it removes at least this share of the squared error.
 constexpr double kWorthwhile = 0.005;
-// New factors within this distance of those in use are ignored, because they would change pictures
-// without a gain.
+// New factors are ignored if both differ from the factors in use by at most this: they would change
+// pictures without a gain.
 constexpr float kSame = 0.01F;
 // Lower limit of the normal equations' determinant, divided by the product of their diagonal. Below
 // it, the two factors cannot be separated.

@@ -11,10 +11,10 @@
 
 namespace mfar::enlarge {
 
-/// Sums of products for a least-squares fit of the two factors of Guidance. For each sub-pixel,
-/// `still` is the detail that the still would add. `video` is the change from removing the video's
-/// detail. `missing` is the detail that the drawn frame lacks. The fit approximates `missing` by a
-/// weighted sum of `still` and `video`.
+/// Sums over sub-pixels for a least-squares fit of the two factors of Guidance: squares and
+/// products of three values. `still` is the detail that the still would add. `video` is the change
+/// from removing the video's detail. `missing` is the detail that the drawn frame lacks. The fit
+/// approximates `missing` by a weighted sum of `still` and `video`.
 struct FactorSums {
     double still2 = 0, video2 = 0, missing2 = 0;
     double stillVideo = 0, stillMissing = 0, videoMissing = 0;

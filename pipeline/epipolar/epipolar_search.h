@@ -49,9 +49,10 @@ public:
     /// camera coordinates at the frame's time to still camera coordinates at the still's time, in
     /// any unit of length.
     ///
-    /// `covariance` is that of a small motion x in T_still_video * exp(x). If given, the pose is
-    /// first refined from the pictures, otherwise it counts as exact. `predicted` is an approximate
-    /// s of every cell in the area, row-major. If given, the coarser pyramid levels are skipped.
+    /// `covariance` is the covariance of a small motion x in T_still_video * exp(x). If given, the
+    /// pose is first refined from the pictures, otherwise it counts as exact. `predicted` is an
+    /// approximate s of every cell in the area, row-major. If given, the coarser pyramid levels are
+    /// skipped.
     /// Returns false and sets s() to zero if the pose is invalid (soundMotion()) or no
     /// part of the still can show the area.
     bool run(const Rows<const std::uint8_t>& video, const RigidTransform& T_still_video,

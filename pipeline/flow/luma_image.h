@@ -40,7 +40,7 @@ struct LumaImage {
 
 /// Converts a picture to luma and sets the size of `out`. The luma of RGBA and BGRA is computed as
 /// in luma.glsl (Rec. 601). For other formats it is the camera's Y with any matrix and range,
-/// because the costs of flow and pose do not depend on gain and offset.
+/// because matching for flow and pose does not depend on gain and offset.
 void lumaOf(const ImageView& picture, LumaImage& out);
 
 /// Computes the luma of the picture at `size`, which must not be larger than the picture. Each

@@ -33,8 +33,8 @@ void markBeside(std::span<TileMeasure> tiles, int columns);
 
 /// Chooses the tiles that are matched with the still: tiles whose structure exceeds the noise, and
 /// their neighbours, because the weight of a cell depends on pixels beyond its tile. If there are
-/// too many, those with the most structure are chosen. Tiles of the last choice are preferred, so
-/// that noise does not make detail appear and vanish.
+/// more tiles than `most`, the tiles with the most structure are chosen. Tiles of the last choice
+/// are preferred, so that noise does not make detail appear and vanish.
 class StructuredTiles {
 public:
     /// `none` is the largest structure that noise alone causes. If it is negative, every tile has

@@ -57,7 +57,7 @@ public:
     [[nodiscard]] const std::vector<TileMeasure>& measured() const { return measured_; }
     [[nodiscard]] Size tileCount() const { return work_.tiles; }
     /// Standard deviation of the video's noise [grey levels], measured in the quietest tiles of
-    /// earlier frames. Before the first frame it is that of 8-bit rounding.
+    /// earlier frames. Before the first frame it is the standard deviation of 8-bit rounding.
     [[nodiscard]] double noise() const { return noise_; }
     /// Noise variance of 2x2 means, divided by a quarter of a pixel's noise variance. It is 1 for
     /// white noise, and larger if the sensor has smoothed the noise. It is measured in unchanged

@@ -20,8 +20,8 @@ constexpr int kDiffuseEdge = 16;
 constexpr int kIntegrated = 32;
 constexpr int kSamples = 64;
 
-/// Roughness and resolution of a table of mirrored light. For a smaller roughness than that of the
-/// first table, light is interpolated between this table and the unfiltered environment.
+/// Roughness and resolution of a table of mirrored light. Below the roughness of the first table,
+/// light is interpolated between this table and the unfiltered environment.
 struct MirrorLevel {
     float roughness;
     int edge;

@@ -143,7 +143,7 @@ private:
     struct LightSum {
         Eigen::Vector3d light{0, 0, 0}, far{0, 0, 0};
         double weights = 0;
-        double squares = 0;  // sum of squared luminances of light / far, unweighted
+        double squares = 0;  // sum of squared luminances of light / far, without weights
 
         void add(double weight, const Eigen::Vector3f& light, const Eigen::Vector3f& far);
         [[nodiscard]] Eigen::Vector3f relative() const;

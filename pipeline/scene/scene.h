@@ -50,8 +50,8 @@ struct Mesh {
                                             ///< -1
     std::vector<std::array<std::uint32_t, 3>> triangles;
     int material = 0;
-    /// 0: rigid with the model. Otherwise the mesh moves as Model::paths[part - 1], and its
-    /// coordinates are those of the path's last joint.
+    /// 0: the mesh does not move in the model. Otherwise it moves along Model::paths[part - 1], and
+    /// its coordinates are relative to the path's last joint.
     int part = 0;
 };
 

@@ -25,8 +25,8 @@ struct HoleRequest {
     std::vector<RigidTransform> poses{};  ///< T_world_object; empty if no object moves
 };
 
-/// Answer to a HoleRequest. Each vector has one value per entry of `pixels`, as defined in
-/// RenderedPicture.
+/// Answer to a HoleRequest. Each vector except `poses` has one value per entry of `pixels`, as
+/// defined in RenderedPicture.
 struct HoleAnswer {
     RenderView view;
     std::vector<std::uint32_t> pixels;  ///< in ascending order
