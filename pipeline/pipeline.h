@@ -69,7 +69,8 @@ public:
     /// show. Empty if there is no second still.
     [[nodiscard]] std::optional<Timestamp> secondStill() const;
     void dropStill();
-    /// Computes one output picture. Throws std::invalid_argument like setStill().
+    /// Computes one output picture. Throws std::invalid_argument if `video` does not have the size
+    /// of the rig's video camera or is invalid (requireSound()).
     const FrameResult& run(const ImageView& video, Timestamp time,
                            const std::optional<Pose>& pose = {});
 

@@ -34,8 +34,8 @@ struct Quality {
     /// Blend.
     double detailShare = 1;
     /// Largest share of a frame's tiles that are matched with a second, older still because the
-    /// newest does not show them, [0, 1]. 0: there is no second still. A second still is used only
-    /// if learned filters enlarge tiles.
+    /// newest still does not show them, [0, 1]. 0: there is no second still. A second still is used
+    /// only if learned filters enlarge tiles.
     double secondShare = 0.25;
     /// Real depth is measured in every n-th frame, n in [1, 60]. Frames between get the last depth,
     /// moved to their poses.

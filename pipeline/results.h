@@ -30,9 +30,9 @@ struct FrameStats {
     /// pose is wrong. They were searched in both dimensions. It is 0 without poses, when all
     /// changed tiles are searched in both dimensions.
     int searched2d = 0;
-    /// matchedSecond: number of tiles matched with a second still because the newest does not show
-    /// them. showSecond: number of tiles that show some of the second still, including neighbours
-    /// of matched tiles.
+    /// matchedSecond: number of tiles matched with a second still because the newest still does not
+    /// show them. showSecond: number of tiles that show some of the second still, including
+    /// neighbours of matched tiles.
     int matchedSecond = 0, showSecond = 0;
     /// Number of tiles in which real depth was measured, because a virtual object may be occluded
     /// there.

@@ -18,7 +18,7 @@ using namespace enlarge;
 constexpr double kLeastPixels = 400;
 // A new still multiplies the sums of all older stills by this factor.
 constexpr double kForgetting = 0.95;
-// The shipped filter has the weight of this number of pixels.
+// Weight of the shipped filter in the least-squares fit [pixels].
 constexpr double kPriorPixels = 300;
 constexpr double kRidge = 20;  // added to the diagonal of the normal equations [grey levels^2]
 // Lower limit of the share of trusted pixels of a still to learn from. Below it, matching has

@@ -15,7 +15,7 @@ namespace {
 
 // A new pair of stills multiplies the sums over older pairs by this factor.
 constexpr double kForgetting = 0.95;
-// Zero guidance is the prior. It counts as much as this number of pixels.
+// Weight of zero guidance, the prior, in the least-squares fit [pixels].
 constexpr double kPriorPixels = 2000;
 constexpr double kLeastPixels = 0.02;
 // Guidance is used if it removes at least this share of the squared error.

@@ -91,8 +91,8 @@ private:
     Rows<const std::uint8_t> frame_;
     Cells forward_, hidden_;
     std::vector<float> predicted_;
-    // s_, aligned_: s of each video cell. nearest_: for each cell of the still, the largest
-    // s of the video cells that land on it.
+    // s_, aligned_: s of each video cell. nearest_: for each cell of the still, the largest s of
+    // the video cells that match it.
     std::vector<float> s_, aligned_, nearest_;
     std::vector<std::int32_t> landing_;
     // Rays through the point between each cell's four central pixels.

@@ -12,8 +12,8 @@ namespace mfar {
 namespace {
 
 constexpr double kLeastQuaternion = 1e-6;
-constexpr float kLongest = 1e6F;   // last time of an animation [s]
-constexpr float kFarthest = 1e6F;  // translation along each axis [m], or its change per second
+constexpr float kLongest = 1e6F;   // upper limit of the times of an animation [s]
+constexpr float kFarthest = 1e6F;  // upper limit of translations [m] and of their tangents [m/s]
 
 /// Returns a sentence for each type of motion that is never shown, with its first position in the
 /// document.

@@ -210,7 +210,7 @@ private:
     };
     void addBlock(Block& block);
 
-    /// Blocks of memory, which are given back at the end.
+    /// Blocks of memory, which the destructor gives back.
     struct Held {
         std::shared_ptr<FilmMemory> memory;
         std::vector<std::byte*> blocks;
