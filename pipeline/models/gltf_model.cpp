@@ -134,9 +134,9 @@ private:
         double scale = 1;
         const std::optional<RigidTransform> above = rigidPart(parent.T, scale);
         if (!above || model_.paths.size() == kMostParts) {
-            motion_.note(place, above ? "the node rests, because 16 other nodes move"
-                                      : "the node rests, because a parent scales it unequally or "
-                                        "mirrors it");
+            motion_.note(place, above ? "the node does not move: at most 16 nodes can move"
+                                      : "the node does not move, because a parent scales it "
+                                        "unequally or mirrors it");
             return out;
         }
         out.scale = parent.scale * scale;

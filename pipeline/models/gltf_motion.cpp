@@ -59,7 +59,7 @@ void GltfMotion::readChannel(const tinygltf::Animation& animation, std::size_t c
     if (from.target_node < 0) return;  // the target belongs to an unknown extension
     const bool turns = from.target_path == "rotation";
     if (!turns && from.target_path != "translation") {
-        note(place, from.target_path == "scale" ? "scales do not change over time"
+        note(place, from.target_path == "scale" ? "changes of the scale are not played"
                                                 : "only translations and rotations are played");
         return;
     }
