@@ -132,7 +132,7 @@ public:
     /// pixel gets its own vector from the epipolar search if this differs from the interpolated
     /// vector by at least half a pixel and no moving object is there. Empty without a still.
     [[nodiscard]] std::vector<float> readFlow() const;
-    /// Confidence (eq. 2) of every video pixel, [0, 1]. Empty without a still.
+    /// Confidence (eq. 2 of the paper) of every video pixel, [0, 1]. Empty without a still.
     [[nodiscard]] std::vector<float> readConfidence() const;
     [[nodiscard]] std::vector<TileClass> readTileClasses() const;
     [[nodiscard]] std::vector<bool> readSearchedTiles() const;

@@ -14,7 +14,7 @@ namespace mfar {
 /// the second frame.
 struct FrameStats {
     std::array<int, kTileClasses> tiles{};
-    double meanConfidence = 0;  ///< mean of eq. 2 over the frame, [0, 1]
+    double meanConfidence = 0;  ///< mean of the confidence (eq. 2 of the paper), [0, 1]
     double explained = 0;       ///< share of tiles that are flat or match a still, [0, 1]
     /// Share of tiles whose video differs from the video of their last drawing.
     double changed = 0;

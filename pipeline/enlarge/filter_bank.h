@@ -61,15 +61,15 @@ public:
     /// mfar-train-enlarger.
     [[nodiscard]] static const FilterBank& prior();
 
-    /// Differs for every bank, so that a copy of the filters can tell if it is up to date.
+    /// A number that is different for every bank. It tells if a copy of the filters is up to date.
     [[nodiscard]] std::uint64_t number() const { return number_; }
     [[nodiscard]] Rows<const std::int16_t> gradient() const { return gradient_.rows(); }
     [[nodiscard]] Rows<const std::int16_t> curvature() const { return curvature_.rows(); }
-    /// Zero for the shipped filters, because it depends on the noise and sharpness of both
-    /// sensors.
+    /// Guidance is zero for the shipped filters, because it must be learned for each pair of
+    /// sensors: it depends on their noise and sharpness.
     [[nodiscard]] const Guidance& guidance() const { return guidance_; }
-    /// Unknown for the shipped filters, because it depends on the noise and sharpness of both
-    /// sensors.
+    /// FineMatch is unknown for the shipped filters, because it must be learned for each pair of
+    /// sensors: it depends on their noise and sharpness.
     [[nodiscard]] const FineMatch& fineMatch() const { return fineMatch_; }
     /// The tone curve of the stills. The shipped filters leave stills as they are.
     [[nodiscard]] const StillTone& tone() const { return tone_; }

@@ -22,7 +22,7 @@ struct FactorSums {
 
     void add(const FactorSums& other);
     void fade(double share);
-    /// Returns how much guidance reduces the sum of squared errors.
+    /// Returns by how much the guidance `of` reduces the sum of squared errors.
     [[nodiscard]] double gainOf(const Guidance& of) const;
     /// Returns the factors with the largest gainOf(). The prior is zero guidance; it counts as much
     /// as `prior` pixels.

@@ -21,7 +21,7 @@ public:
     /// Returns the motion of the node with this index, or null if the node does not move relative
     /// to its parent.
     [[nodiscard]] const Tracks* of(int node) const;
-    [[nodiscard]] double length() const { return length_; }  ///< [s]
+    [[nodiscard]] double length() const { return length_; }  ///< length of the animation [s]
 
     /// Adds a sentence about something that is not shown, unless notes() has one with the same
     /// `what`.

@@ -38,7 +38,7 @@ void markBeside(std::span<TileMeasure> tiles, int columns);
 class StructuredTiles {
 public:
     /// `none` is the largest structure that noise alone causes. If it is negative, every tile has
-    /// structure. `most` is the largest number of tiles.
+    /// structure. `most` is the upper limit of the number of chosen tiles.
     void choose(std::span<const TileMeasure> tiles, int columns, double none, int most);
     [[nodiscard]] bool operator[](std::size_t tile) const { return chosen_[tile]; }
     [[nodiscard]] int count() const;

@@ -61,8 +61,8 @@ private:
     void unpack(std::size_t pixel, int set);
     void filterRow(int level, int y);
 
-    // The levels work on arrays, one for each value. The arrays of light exist twice: a level reads
-    // one set and writes the other.
+    // The filter's levels work on arrays, one for each value. There are two sets of the arrays of
+    // light: a level reads one set and writes the other set.
     static constexpr int kFirst = 0, kSecond = 3, kFirstVariance = 6, kSecondVariance = 7,
                          kFirstCount = 8, kSecondCount = 9, kOfSet = 10;
     static constexpr int kNormal = 2 * kOfSet, kDepth = kNormal + 3, kId = kNormal + 4,

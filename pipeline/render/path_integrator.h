@@ -96,8 +96,8 @@ private:
     /// Follows a reflected ray from a walk's vertex, and adds the distant light at its end. Returns
     /// true if it reaches a surface, which is then `walk.reached`.
     [[nodiscard]] bool scatter(const Vertex& vertex, Walk& walk) const;
-    /// `number` is the index of the sample in its pixel, `known` an approximation of
-    /// parts.direct.unblocked without a ray.
+    /// Returns the light of all parts. `number` is the index of the sample in its pixel. `known` is
+    /// an approximation of parts.direct.unblocked that needs no ray.
     [[nodiscard]] static Sent sum(const Parts& parts, const Sent& known, std::uint32_t number);
     /// Weight in multiple importance sampling. `taken` is the density of the strategy that
     /// generated the sample; `other` is the density of the other strategy for it.

@@ -119,7 +119,7 @@ struct PathIntegrator::Walk {
     int depth = 1;       ///< number of surfaces so far
     Carried carried{};
     Parts out{};
-    std::optional<Vertex> reached{};  ///< the last surface after the first
+    std::optional<Vertex> reached{};  ///< the surface that scatter() reached last
 
     [[nodiscard]] bool isFirst() const { return depth == 1; }
     [[nodiscard]] Lobes lobesHere() const { return isFirst() ? lobes : Lobes::Both; }

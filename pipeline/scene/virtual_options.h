@@ -12,8 +12,8 @@
 
 namespace mfar {
 
-/// An object from the configuration file. It shows `model`, or `shape` (without its T_world_object)
-/// if `model` is null.
+/// An object from the configuration file. It shows `model`, or `shape` if `model` is null. The
+/// member T_world_object of `shape` is not used.
 struct PlacedObject {
     std::shared_ptr<const Model> model;
     std::string modelName;  ///< "showpiece" or a file name, for messages; empty without a model

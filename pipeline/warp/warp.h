@@ -85,7 +85,7 @@ private:
     bool asked_ = false;
     HoleRequest lastRequest_;
     RigidTransform listPose_;  // pose of the frame whose missing pixels are listed
-    std::vector<RigidTransform> poses_, listPoses_;  // of the objects, now and at listPose_
+    std::vector<RigidTransform> poses_, listPoses_;  // object poses: now, and with listPose_
     std::optional<RigidTransform> warpedTo_;  // pose of the displayed frame; empty: not warped
     int restFrames_ = 0;
     WarpCounters counters_;
