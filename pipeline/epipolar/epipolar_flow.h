@@ -52,8 +52,8 @@ public:
     /// Returns the distance of a flow vector's end from the pixel's epipolar line [px]. Without
     /// parallax, the line is a point.
     [[nodiscard]] float offLine(int x, int y, float flowX, float flowY) const;
-    /// The epipolar search with its results. Its unit of length is the distance between the still
-    /// camera and the video camera.
+    /// The epipolar search with its results. Its unit of length is the distance from the video
+    /// camera at the time of the frame to the still camera at the time of the still.
     [[nodiscard]] const EpipolarSearch& search() const { return search_; }
     [[nodiscard]] double unit() const { return unit_; }
     [[nodiscard]] double lengthError() const { return lengthError_; }

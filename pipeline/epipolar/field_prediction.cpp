@@ -63,7 +63,7 @@ void FieldPrediction::land(const RigidTransform& T_still_frame, double unit) {
     }
 }
 
-// Fills cells on which no point landed. An area that becomes visible beside a depth edge gets the
+// Fills cells to which no point moved. An area that becomes visible beside a depth edge gets the
 // depth of the farthest surface next to it. Returns false if a gap is too wide.
 bool FieldPrediction::fillGaps() {
     const Size size = cells_.size();

@@ -10,7 +10,7 @@
 namespace mfar {
 
 /// Predicts the inverse depths of the next frame: moves the points of the stored frame according to
-/// the poses. If several points land on a cell, the nearest one is kept (z-test).
+/// the poses. If several points move to one cell, the nearest one is kept (z-test).
 class FieldPrediction {
 public:
     explicit FieldPrediction(const CameraModel& video);

@@ -26,7 +26,7 @@ constexpr auto kRanks = [] {
 }();
 
 constexpr float kGreyLevels = 255;
-constexpr float kEnough = 16;  // number of samples from which a pixel may stay unfiltered
+constexpr float kEnough = 16;  // with fewer samples, a pixel is always filtered
 // Assumed contrast [grey levels] between an object and the unknown background: half the range.
 constexpr float kEdgeContrast = 0.5F * kGreyLevels;
 

@@ -10,7 +10,7 @@
 namespace mfar {
 
 /// Memory of films, in blocks of one size. Films share it, so that a new picture gets the blocks of
-/// an old picture. It holds as many blocks as were ever in use at once, and never shrinks. All
+/// an old picture. It grows when take() or provide() needs more blocks, and never shrinks. All
 /// functions may be called by several threads at the same time.
 class FilmMemory {
 public:

@@ -81,7 +81,7 @@ struct PathIntegrator::Vertex {
         : point(p), wo(towards), frame(frameAround(p.shading)),
           scatter(p.look, frame.transpose() * towards) {}
 
-    /// True if the triangle faces `direction`. The shading normal may face another side.
+    /// True if the triangle faces `direction`. The shading normal is not tested.
     [[nodiscard]] bool faces(const Eigen::Vector3f& direction) const {
         return point.geometric.dot(direction) > 0;
     }
