@@ -36,8 +36,8 @@ PixelRect tilesOf(const PixelRect& pixels, Size layer, Size video) {
             static_cast<int>(std::ceil(tile(pixels.y1 + 1, layer.height, video.height)))};
 }
 
-/// Result of a test of the real surface at a pixel. Finding: the surface has the property that the
-/// test looks for. Other: it does not.
+/// Result of a test of the real surface at a pixel. Unknown: its depth is not known. Finding: the
+/// surface has the property that the test looks for. Other: it does not have this property.
 enum class Surface { Unknown, Finding, Other };
 
 struct TileBounds {

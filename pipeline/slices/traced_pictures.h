@@ -62,8 +62,8 @@ public:
     }
 
     /// Reports the camera's view `now`. A new picture gets the view `predicted`, or the view `now`
-    /// if the camera rests. While objects move, it shows them as they will be when it is shown, and
-    /// new pictures follow each other without end.
+    /// if the camera rests. While objects move, new pictures follow each other without end, and
+    /// each contains the objects as they will be when the picture is shown.
     void look(const RenderView& now, const RenderView& predicted, Timestamp time);
 
     /// True if begin() must be called. Until then next() returns no pixels.

@@ -100,7 +100,7 @@ TEST(GltfMotion, WhatIsNotPlayedIsNotedOnce) {
     EXPECT_EQ(model.notes,
               (std::vector<std::string>{
                   "test.glb: animations[1]: only the first animation is played",
-                  "test.glb: animations[0].channels[0]: scales do not change over time"}));
+                  "test.glb: animations[0].channels[0]: changes of the scale are not played"}));
 }
 
 TEST(GltfMotion, ANodeBelowAnUnequalScaleRests) {
@@ -110,8 +110,8 @@ TEST(GltfMotion, ANodeBelowAnUnequalScaleRests) {
     const Model model = modelOf(maker);
     EXPECT_TRUE(model.paths.empty());
     EXPECT_EQ(model.notes, std::vector<std::string>{
-                               "test.glb: nodes[0]: the node rests, because a parent scales it "
-                               "unequally or mirrors it"});
+                               "test.glb: nodes[0]: the node does not move, because a parent "
+                               "scales it unequally or mirrors it"});
 }
 
 TEST(GltfMotion, OnlySixteenNodesMove) {
