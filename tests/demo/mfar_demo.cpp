@@ -35,7 +35,7 @@ struct Request {
     fs::path video;       ///< Y4M written by the daemon; empty: none
     fs::path objects;     ///< configuration with objects; empty: none
     fs::path pathTraced;  ///< configuration with path-traced objects; empty: none
-    std::string scene;    ///< synthetic scene of the recording; source of true depth
+    std::string scene;    ///< name of the synthetic scene that the recording shows
 };
 
 void row(const std::string& what, const std::string& upscaled, const std::string& ours) {

@@ -30,7 +30,7 @@ void expectUndoes(const StillTone& tone, const SensorPair& pair) {
         EXPECT_NEAR(tone.levels[std::size_t(std::lround(shownBy(pair, level)))], level, 5) << level;
 }
 
-/// Pictures whose still already has the tone curve `tone`.
+/// Matched pictures whose still was already corrected with the tone curve `tone`.
 MatchedPictures toned(const SensorPair& pair, const StillTone& tone) {
     MatchedPictures out = matchedPictures(sharpDiscs(1), pair);
     for (int y = 0; y < out.still.size().height; ++y)
