@@ -24,8 +24,8 @@ struct Curve {
     std::vector<CurvePoint> points;
 };
 
-/// One of OpenCV's flow algorithms, computed in one direction. It is measured on the same samples
-/// as the curves.
+/// One of OpenCV's flow algorithms, measured on the same samples as the curves. It computes only
+/// the flow from the frame to the still.
 struct CurvePeer {
     std::string name;
     CurvePoint point;
