@@ -9,8 +9,8 @@
 
 namespace mfar::eval {
 
-/// A method that computes the flow from video frames to a still, for one rig. Frames come in the
-/// order of their times, so a method may use earlier frames.
+/// A method that computes the flow from video frames to a still, for one rig. run() must get the
+/// frames in the order of their times, because some methods use earlier frames.
 class FlowMethod {
 public:
     virtual ~FlowMethod() = default;

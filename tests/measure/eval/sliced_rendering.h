@@ -29,8 +29,8 @@ struct ErrorAt {
     double filtered = 0;  ///< RMS error after the noise was smoothed
 };
 
-/// Errors of the unfinished picture. Time slices: after 1, 2, 4, ... samples. Spatial slices: after
-/// 1, 2, 4, ... of 16 parts and at the end; parts that are not traced yet are empty.
+/// Errors of the unfinished picture. Time slices: after 1, 2, 4, ... samples per pixel. Spatial
+/// slices: after 1, 2, 4, ... sixteenths of the picture and at the end; the rest is still empty.
 [[nodiscard]] std::vector<ErrorAt> slicedErrors(const SlicedScene& scene,
                                                 const SliceOptions& slices);
 
@@ -46,7 +46,7 @@ struct ErrorAt {
 /// per second. The view rotates by `degreesPerSecond`, so new pictures are needed.
 struct BudgetRun {
     double mean = 0, deviation = 0;  ///< see BudgetKept
-    double samplesPerSecond = 0;     ///< per second of processor time
+    double samplesPerSecond = 0;     ///< samples per second of processor time
 };
 [[nodiscard]] BudgetRun budgetRun(const SliceOptions& slices, Size size, double budgetMs,
                                   int threads, int frames, double degreesPerSecond);

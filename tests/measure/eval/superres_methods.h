@@ -21,7 +21,7 @@ public:
     virtual void setStills(const Shot& newest, const Shot* second) = 0;
     struct Result {
         cv::Mat picture;
-        double ms = 0;  ///< wall time of a second run on the same frame
+        double ms = 0;  ///< wall time of a second run on the same frame; the first warms up
     };
     [[nodiscard]] virtual Result run(const Shot& frame) = 0;
 };

@@ -128,8 +128,8 @@ double hdrVdpOf(const Picture& shown, const Picture& exact, Size size) {
     return hdrVdp(lightOf(shown), lightOf(exact), display.pixelsPerDegree).q;
 }
 
-/// Flow of the objects' pixels to the frame before, CV_32FC2. NaN if that frame does not show the
-/// object there.
+/// Flow of the objects' pixels from the frame `now` to the frame `before`, CV_32FC2 [px]. NaN where
+/// `before` does not show the same object.
 cv::Mat motionTo(const RenderedPicture& before, const RenderedPicture& now) {
     const Size size = now.camera.size;
     const LensProjection lens(now.camera);

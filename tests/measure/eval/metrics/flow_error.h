@@ -15,7 +15,8 @@ struct FlowError {
     double bad1 = 0;  ///< share of pixels with an error above 1 px or without a result
     double bad2 = 0;  ///< share of pixels with an error above 2 px or without a result
     double coverage = 0;
-    double angular = 0;  ///< mean angle of (u, v, 1) to the truth, covered pixels [degrees]
+    /// Mean angle between flow and truth as vectors (u, v, 1), over covered pixels [degrees].
+    double angular = 0;
     std::size_t known = 0;
 };
 
