@@ -116,7 +116,8 @@ OcclusionRun runOcclusion(const Recording& recording, synthetic::Scene scene,
     }
     if (run.last.composite.empty())
         throw std::runtime_error(recording.root.string() +
-                                 ": the last frame has no true depth and picture");
+                                 ": the last frame needs a pose and the true pictures in "
+                                 "truth/inverse_depth and truth/highres");
     divideByFrames(run.quality);
     return run;
 }

@@ -54,7 +54,7 @@ ParetoStage warpStage(bool quick) {
         ++sum.scenes;
     }
     sums.at(kInpainting).ms += sums.at("none").ms;
-    ParetoStage out{"warp with filled holes",
+    ParetoStage out{"warp of a path-traced picture",
                     "RMSE inside the silhouette [grey levels]",
                     fmt::format("{}, turned by 10 degrees, {}x{}, wall clock",
                                 fmt::join(request.scenes, " and "), request.size.width,

@@ -212,7 +212,8 @@ private:
         const auto end = std::chrono::steady_clock::now() + kPatience;
         while (!layer_.rests()) {
             if (std::chrono::steady_clock::now() > end)
-                throw EvalError("the path tracer did not finish its work within 20 s");
+                throw EvalError("the path tracer did not finish a frame's work within 20 s; end "
+                                "other programs or reduce --budget");
             std::this_thread::sleep_for(std::chrono::microseconds(200));
         }
         if (const auto error = layer_.takeError()) throw EvalError(*error);
