@@ -112,7 +112,7 @@ TEST(GuidanceLearner, UnusablePicturesAreIgnored) {
     EXPECT_EQ(learner.stored(), before);
 }
 
-TEST(GuidanceLearner, FewInfiniteLookUpsHaveLittleInfluence) {
+TEST(GuidanceLearner, FewCellsWithInfinitePositionsHaveLittleInfluence) {
     GuidanceLearner learner;
     for (unsigned i = 1; i <= 3; ++i) {
         Stills of(4, 8, i);

@@ -40,7 +40,7 @@ MatchedPictures toned(const SensorPair& pair, const StillTone& tone) {
     return out;
 }
 
-TEST(ToneLearner, SensorsOfEqualExposureKeepTheStillAsItIs) {
+TEST(ToneLearner, EqualExposureGivesTheIdentityCurve) {
     EXPECT_TRUE(ToneLearner().tone().isIdentity());
     EXPECT_TRUE(FilterBank::prior().tone().isIdentity());
     EXPECT_TRUE(afterOneStill({.videoNoise = 2}).tone().isIdentity());
@@ -51,7 +51,7 @@ TEST(ToneLearner, FindsTheCurveFromTheStillToTheVideo) {
         expectUndoes(afterOneStill(pair).tone(), pair);
 }
 
-TEST(ToneLearner, BrighterPixelsOfTheStillStayBrighter) {
+TEST(ToneLearner, TheLearnedCurveNeverFalls) {
     ToneSums sums;
     for (const auto& [still, video] : {std::pair{40, 90}, {100, 60}, {200, 150}})
         sums.add(still, video, 1000);
@@ -62,7 +62,7 @@ TEST(ToneLearner, BrighterPixelsOfTheStillStayBrighter) {
     EXPECT_FALSE(learner.tone().isIdentity());
 }
 
-TEST(ToneLearner, AStillWithTheRightCurveChangesNothing) {
+TEST(ToneLearner, StillsCorrectedWithTheLearnedCurveDoNotChangeIt) {
     ToneLearner learner = afterOneStill(kDarker);
     const StillTone first = learner.tone();
     for (int i = 0; i < 4; ++i)

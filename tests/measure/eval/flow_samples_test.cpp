@@ -103,7 +103,7 @@ TEST(FlowSamples, ARecordingWithoutTruthIsRefused) {
     EXPECT_THROW((void)flowSamplesOf(folder / "r"), EvalError);
 }
 
-TEST(FlowSamples, TrueFlowIntoAStillGoesBeforeDepthAndFlowBetweenFrames) {
+TEST(FlowSamples, TrueFlowToAStillIsPreferredToDepthAndToFlowBetweenFrames) {
     const TempFolder folder;
     const auto truth = folder / "r/truth";
     writeRecording(folder / "r", true);

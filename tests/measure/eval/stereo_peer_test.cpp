@@ -83,7 +83,7 @@ TEST(StereoPeer, HasNoResultWithoutEnoughMotionAcrossTheOpticalAxis) {
     EXPECT_EQ(errorAfter(moved(0, {1, 0, 0}, {0.05, 0, 0.2})).coverage, 0);
 }
 
-TEST(Rectification, PutsEveryPointOnTheSameRowAndNearerPointsFartherLeft) {
+TEST(Rectification, APointHasTheSameRowInBothViewsAndMovesLeftByItsDisparity) {
     const CameraModel camera = crookedPairRig().video;
     const RigidTransform motion = moved(4, {1, -1, 2}, {0.03, 0.1, -0.02});
     const auto views = Rectification::of(camera, motion, 32);

@@ -60,7 +60,7 @@ TEST(DepthError, ValuesNotAboveZeroAreUnknown) {
     EXPECT_TRUE(std::isnan(error.absrel));
 }
 
-TEST(DepthError, EdgesAreWhereDepthJumps) {
+TEST(DepthError, NearDepthEdgeMarksPixelsBesideJumpsOfTheDepth) {
     cv::Mat truth(9, 40, CV_32F);
     for (int y = 0; y < truth.rows; ++y)
         for (int x = 0; x < truth.cols; ++x)  // slope, step and unknown depth
