@@ -26,7 +26,8 @@ cv::Mat depthOf(const InverseDepthField& field) {
     return out;
 }
 
-/// Computes the pictures that a frame should show, and one with the objects drawn over everything.
+/// Makes two pictures of a frame: the true one, in which real surfaces occlude the objects, and one
+/// with the objects drawn over everything.
 class SceneTruth {
 public:
     SceneTruth(const Recording& recording, synthetic::Scene scene,

@@ -20,7 +20,8 @@ struct SensorPair {
     unsigned seed = 1;
 };
 
-/// Random discs, with edges in all directions. The picture has four times the size of the video.
+/// Random discs, with edges in all directions. The sides of the picture are four times as long as
+/// those of the video.
 [[nodiscard]] twin::Grey sharpDiscs(unsigned seed, Size video = {256, 192});
 /// Returns the frame that the video sensor takes of `sharp`, in whole grey levels.
 [[nodiscard]] twin::Grey videoOf(const twin::Grey& sharp, const SensorPair& pair);

@@ -48,7 +48,7 @@ struct ScalingResult {
 
 struct BenchResult {
     std::string workload;  ///< workload of the cases "moving", "rest" and "rest-noise"
-    std::string posed;     ///< workload of the case "handheld"; may be empty
+    std::string posed;     ///< workload of the case "handheld"; empty if this case is left out
     std::string renderer;
     Size video, still, output;
     Summary setStill;

@@ -10,7 +10,8 @@ struct TriangulationTimes {
     double opencv = 0;              ///< cv::triangulatePoints, on undistorted points
 };
 
-/// Triangulates the flow of a hand-held camera with distorting lenses. The methods take turns.
+/// Triangulates the flow of a hand-held camera with distorting lenses. Each round times all
+/// methods, one after the other.
 [[nodiscard]] TriangulationTimes measureTriangulation(Size video);
 
 }  // namespace mfar::bench

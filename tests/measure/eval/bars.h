@@ -7,7 +7,7 @@
 
 namespace mfar::eval {
 
-/// A bar with its label. If `value` is NaN, the bar is drawn as not measured.
+/// A bar with its label. If `value` is NaN, the text "not measured" replaces the bar.
 struct Bar {
     std::string label;
     double value = 0;

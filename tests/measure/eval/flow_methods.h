@@ -27,8 +27,8 @@ public:
 
 [[nodiscard]] const std::vector<std::string>& flowMethodNames();
 
-/// Makes flow methods. The product's methods need a GL context. It is created for the first of them
-/// and stays current. create() throws std::invalid_argument for an unknown name.
+/// Makes flow methods. For the first of the product's methods, the factory creates a GL context,
+/// which stays current. create() throws std::invalid_argument for an unknown name.
 class FlowFactory {
 public:
     [[nodiscard]] std::unique_ptr<FlowMethod> create(const std::string& name, const StereoRig& rig);

@@ -109,7 +109,7 @@ struct Options {
     std::filesystem::path svg;
 };
 
-/// Checks an angle [degrees]. CLI::Range would accept NaN.
+/// Validator of an angle [degrees]. CLI::Range is not used because it accepts NaN.
 std::string isAngle(const std::string& text) {
     double degrees = -1;
     const bool number = CLI::detail::lexical_cast(text, degrees);

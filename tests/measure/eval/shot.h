@@ -13,9 +13,9 @@ namespace mfar::eval {
 
 /// A picture for the evaluated methods, with the video camera's pose at the time of the picture.
 struct Shot {
-    cv::Mat picture;  ///< CV_8UC3, B G R, in the sensor's size
+    cv::Mat picture;  ///< CV_8UC3, B G R, of the sensor's size
     Timestamp time;
-    /// Empty if unknown. Both shots of a sample share an arbitrary world frame.
+    /// Empty if unknown. Both shots of a sample share an arbitrary world coordinate system.
     std::optional<Pose> pose = std::nullopt;
 };
 

@@ -73,7 +73,7 @@ TEST(StereoPeer, FindsTheFlowOfMotionsAcrossTheOpticalAxis) {
 TEST(StereoPeer, StereoBmFindsTheFlowToo) {
     const FlowError error =
         errorAfter(moved(3, {1, 2, 1}, {-0.1, 0, 0}), StereoPeer::Matcher::Block);
-    EXPECT_GT(error.coverage, 0.9);  // no result for half a block at the top and bottom
+    EXPECT_GT(error.coverage, 0.9);  // rows within half a block of the border have no result
     EXPECT_LT(error.epe, 0.3);
 }
 

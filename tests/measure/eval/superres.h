@@ -22,7 +22,8 @@ struct SuperResRequest {
     int stills = 1;           ///< 1: reference only; 2: secondStill() too
     Degradation degradation;  ///< applied to every still
     Degradation videoDegradation;
-    int learn = 0;  ///< number of matched stills to learn from; 0: shipped filters
+    /// Number of matched stills to learn from, or kEachOnce; 0: shipped filters.
+    int learn = 0;
     /// Recordings to learn from. Empty: each recording learns from its own stills.
     std::vector<std::filesystem::path> learnFrom;
     PoseSource poses = PoseSource::Recorded;

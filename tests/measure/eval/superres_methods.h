@@ -38,7 +38,7 @@ public:
 /// True if this method, without a still, gives no result or only a plain enlargement.
 [[nodiscard]] bool needsStill(const std::string& method);
 
-/// Makes methods. The product's methods need a GL context. It is created for the first of them and
+/// Makes methods. For the first of the product's methods, the factory creates a GL context, which
 /// stays current. create() throws std::invalid_argument for an unknown name.
 class SuperResFactory {
 public:

@@ -15,8 +15,8 @@ using Eigen::Vector3f;
 
 constexpr double kShortest = 1e-9;     // shorter baselines count as zero [m]
 constexpr double kLongestLine = 1e30;  // limit of baseline and ray distance, for finite floats [m]
-constexpr float kLargestRho = 1e6F;    // larger inverse depths are rejected [1/m]
-constexpr float kNearPlane = 0.05F;    // smallest z of b's ray (x, y, 1), rotated into a's frame
+constexpr float kLargestRho = 1e6F;    // larger inverse depths count as unknown [1/m]
+constexpr float kNearPlane = 0.05F;    // least z of a ray (x, y, 1) of view b, rotated into view a
 constexpr float kNoAngle = 1e-9F;  // rays at a smaller angle count as parallel [normalised units]
 
 std::size_t pixelsOf(Size size) {
@@ -40,7 +40,7 @@ std::vector<SplitVector> raysOf(const CameraModel& camera) {
     return rays;
 }
 
-/// Motion from view a to view b, in the frame of a.
+/// Motion from view a to view b, in camera coordinates of view a.
 struct Motion {
     Eigen::Matrix3f turnHead = Eigen::Matrix3f::Zero(), turnTail = turnHead;  // R_a_b - I
     Vector3f baselineHead{0, 0, 0}, baselineTail{0, 0, 0};  // baseline scaled to length 1
@@ -135,7 +135,7 @@ private:
 
     /// Inverse depth of the midpoint of the shortest line between both rays, as in the paper. The
     /// ends of the line follow from the common normal of the rays, which `u` gives without
-    /// cancellation.
+    /// cancellation. Returns 0 if an end or the midpoint is behind its camera.
     [[nodiscard]] static float fromMidpoint(const Parallax& s) {
         const Vector3f n(-s.u.y(), s.u.x(), crossOf(s.ray, s.u));
         const Vector3f first = s.ray.homogeneous();
@@ -163,8 +163,8 @@ private:
         return motion_.length * std::sqrt(square);
     }
 
-    /// Standard deviation of fromFlow() to first order. No other method for this depth has a
-    /// smaller one.
+    /// Standard deviation of the result of fromFlow(), to first order in the flow's error. No other
+    /// method that finds depth from this flow has a smaller one.
     [[nodiscard]] float sigmaOf(const Parallax& s) const {
         const float ee = s.e.squaredNorm(), d = ee - s.b.z() * s.u.dot(s.e);
         const float sigma = flowSigma_ / focal_ * std::sqrt(ee) * ee / (d * d) / motion_.length;

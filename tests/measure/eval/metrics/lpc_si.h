@@ -21,7 +21,7 @@ struct LpcOrientation {
 
 struct LpcSharpness {
     double index = 0;                ///< LPC-SI, [0, 1); larger is sharper
-    double mapMax = 0, mapMean = 0;  ///< maximum and mean of eq. 33 over the pixels inside a border
+    double mapMax = 0, mapMean = 0;  ///< maximum and mean of eq. 33 over all pixels but the border
     std::array<LpcOrientation, 8> orientations{};
 };
 
