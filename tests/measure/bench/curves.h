@@ -15,7 +15,7 @@ struct CurvePoint {
     bool isDefault = false;
     double ms = 0;    ///< median run time of three runs
     double epe = 0;   ///< end-point error [px]
-    double bad1 = 0;  ///< share of the known pixels whose error exceeds 1 px
+    double bad1 = 0;  ///< see FlowError::bad1
 };
 
 struct Curve {

@@ -12,7 +12,7 @@ namespace mfar::eval {
 /// Errors of inverse depth over the pixels with known truth; NaN without such pixels.
 struct DepthError {
     double absrel = 0;  ///< median of |z - true z| / true z over pixels with known depth
-    double bad1 = 0;    ///< share of pixels off by more than 1 px of disparity or without depth
+    double bad1 = 0;    ///< share of pixels without depth, or with disparity off by more than 1 px
     double completeness = 0;
     std::size_t pixels = 0;
     /// Shares of pixels whose depth differs from the truth by less than a factor of 1.25, 1.25^2
