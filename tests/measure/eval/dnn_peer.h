@@ -16,7 +16,7 @@ struct DnnModelName {
     int scale;
 };
 
-/// Throws EvalError for other names.
+/// Throws EvalError if the file's name does not have this form.
 [[nodiscard]] DnnModelName dnnModelNamed(const std::filesystem::path& file);
 
 /// Makes a peer that enlarges video without a still. The model enlarges by its own factor; OpenCV

@@ -43,8 +43,8 @@ constexpr const char* kSuperResHelp =
     "shows its share of the pixels and the gain of every method over bicubic.\n"
     "The reference of a frame is the still nearest to it in time that does not show the\n"
     "frame's own view. A still shows the frame's own view if their relative pose is below\n"
-    "1e-6 (radians, metres). At equal times the rig gives this pose, otherwise the recorded\n"
-    "poses do.\n"
+    "1e-6 (radians, metres). If both have the same time, their relative pose is that of the\n"
+    "rig; otherwise it follows from the recorded poses.\n"
     "ms: time of a second run on the same frame, in which every tile is computed, without the\n"
     "work per still.\n";
 
@@ -109,7 +109,7 @@ struct Options {
     std::filesystem::path svg;
 };
 
-/// Checks an angle [degrees]. CLI::Range would accept NaN.
+/// Validator of an angle [degrees]. CLI::Range is not used because it accepts NaN.
 std::string isAngle(const std::string& text) {
     double degrees = -1;
     const bool number = CLI::detail::lexical_cast(text, degrees);
