@@ -17,8 +17,8 @@ constexpr double kBudget = 4;  // [ms] of processor time per frame
 
 using CostTrace = std::function<double(int frame)>;
 
-/// Runs a tracer with endless work and returns the time used in each frame. A portion has at most
-/// `tile` samples.
+/// Simulates a tracer that always has work. Each grant is used for at most `tile` samples, which
+/// take cost(frame) [ms] each. Returns the time used in each frame [ms].
 std::vector<double> usedIn(BudgetController& budget, int frames, int tile, const CostTrace& cost) {
     std::vector<double> used;
     for (int frame = 0; frame < frames; ++frame) {

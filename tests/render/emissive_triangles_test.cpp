@@ -63,7 +63,7 @@ TEST(EmissiveTriangles, RaysFindTheDensityOfTheSample) {
             ++seen;
             EXPECT_NEAR(emitters.density(sample.ray, hit) / sample.density, 1, 1e-3F);
         }
-        // Less than half of the sphere faces the point. Its rest is drawn if its back emits, too.
+        // Less than half of the sphere faces the point. The rest is sampled only if double-sided.
         EXPECT_NEAR(seen, 320, 30);
         EXPECT_NEAR(sampled, doubleSided ? 1000 : seen, 2);
     }

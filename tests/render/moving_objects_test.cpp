@@ -106,7 +106,7 @@ TEST(MovingObjects, PicturesShowTheirInstant) {
     const RenderedPicture& last = run.driver.shown.back();
     ASSERT_EQ(last.poses.size(), run.scene->objects.size());
     const double error = differenceOf(last, truthAt(*run.scene, last.poses, run.view));
-    // With as many pictures, the error of a scene that rests is 9.
+    // In a scene without motion, the error after the same number of pictures is 9.
     EXPECT_LT(error, 12);
     const auto misplaced = [&](const std::vector<RigidTransform>& poses) {
         const RenderedPicture truth = truthAt(*run.scene, poses, run.view);
@@ -142,7 +142,7 @@ TEST(MovingObjects, NoShadowStaysWhereTheObjectWas) {
     double ghost = 0;
     int shadowed = 0;
     for (std::size_t i = 0; i < truth.id.size(); ++i) {
-        // The old shadow, on places that are no longer in shadow.
+        // Only pixels that were in the object's shadow before it jumped, and no longer are.
         if (before.id[i] != kCatcherId || before.colour[i][3] < 25 || truth.colour[i][3] > 15)
             continue;
         ++shadowed;

@@ -16,6 +16,7 @@ constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 TEST(NextStep, StepDependsOnTheChangesOfTheView) {
     using enum TracedStep;
+    // Changes of the view since the shown picture and since the next one, see nextStep().
     struct Case {
         std::optional<double> sinceShown, sinceNext;
         TracedStep step;

@@ -42,7 +42,7 @@ struct Moving {
     /// PSNR inside the balls if the picture's colours are moved with the balls [dB].
     [[nodiscard]] double psnr(const CastScene& now, double degrees) {
         const LayerPicture& layer = warp.run(test::orbit(degrees), posesOf(now));
-        // The colours of a ball belong to points of the ball as it was.
+        // Each point of the moved ball must have the colour that it had before the motion.
         RenderedPicture truth = now.cast({warp.camera(), test::orbit(degrees)}, 3);
         const Eigen::Vector3d moved = now.balls[1].centre - before.balls[1].centre;
         const RigidTransform back{test::orbit(degrees).rotation,
