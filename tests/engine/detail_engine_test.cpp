@@ -356,11 +356,11 @@ TEST_F(DetailEngines, BothEnginesDrawTheSamePicture) {
     expectTheSamePicture(nullptr, 4, 0.85);
 }
 
-TEST_F(DetailEngines, BothEnginesEnlargeByTheSameFilters) {
+TEST_F(DetailEngines, BothEnginesDrawTheSamePictureWithLearnedFilters) {
     expectTheSamePicture(&FilterBank::prior(), 4, 0.6);
 }
 
-TEST_F(DetailEngines, BothEnginesApplyTheSameGuidance) {
+TEST_F(DetailEngines, BothEnginesDrawTheSamePictureWithGuidance) {
     expectTheSamePicture(&simd::guidedBank(), 4, 0.6);
 }
 

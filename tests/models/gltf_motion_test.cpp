@@ -91,7 +91,7 @@ TEST(GltfMotion, StepsAndSplinesAreRead) {
     expectNear(vertexAt(modelOf(spline), 0, 0, 1), {4 + 2.0 / 8 * 4, 0, 0});
 }
 
-TEST(GltfMotion, WhatIsNotPlayedIsNotedOnce) {
+TEST(GltfMotion, AnimationsThatAreNotPlayedAreNotedOnce) {
     GltfMaker maker = oneTriangle();
     maker.animate(0, "scale", {0, 1}, {1, 1, 1, 2, 2, 2});
     maker.animate(0, "scale", {0, 1}, {1, 1, 1, 2, 2, 2});

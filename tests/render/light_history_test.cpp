@@ -103,7 +103,7 @@ TEST(LightHistory, ObjectsAreNeverInterpolatedOverTwoPixels) {
     EXPECT_GT(lightFrom(film, 4.5, 4.5, floorSurface(1)).firstCount, 0);
 }
 
-TEST(LightHistory, OtherSurfacesDoNotCount) {
+TEST(LightHistory, LightOfOtherSurfacesIsNotReused) {
     const Film film = filmOf(isEven);
     EXPECT_EQ(lightFrom(film, 5, 5, floorSurface(1)).firstCount, 0) << "another object";
     SeenSurface wall = floorSurface();

@@ -87,7 +87,7 @@ struct MovingRun {
     double time = 0;
 };
 
-TEST(MovingObjects, APosedTracerShowsTheSameAsANewOne) {
+TEST(MovingObjects, APosedTracerGivesTheSamePictureAsANewTracer) {
     const auto scene = swinging();
     const PathTracer tracer(scene);
     const auto poses = posesAt(*scene, Timestamp::fromSeconds(0.7));
@@ -99,7 +99,7 @@ TEST(MovingObjects, APosedTracerShowsTheSameAsANewOne) {
     EXPECT_GT(differenceOf(there, truthAt(*scene, posesAt(*scene, {}), view)), 6);
 }
 
-TEST(MovingObjects, PicturesShowTheirInstant) {
+TEST(MovingObjects, PicturesShowObjectsAtThePosesStoredWithThem) {
     MovingRun run(swinging());
     run.until(1.6);
     ASSERT_GT(run.driver.shown.size(), 5U);
@@ -173,7 +173,7 @@ TEST(MovingObjects, LightFarFromTheMotionIsKept) {
     EXPECT_EQ(same.moved()->diffuseChange({0, 0.05F, 0}, up), 0);
 }
 
-TEST(MovingObjects, LightInTheShadowOfTheSunIsDoubted) {
+TEST(MovingObjects, DiffuseLightChangesOnlyInTheShadowOfAMovedObject) {
     Sun sun;
     sun.towards = Eigen::Vector3f(1, 0, 1).normalized();
     Scene dark;
@@ -189,7 +189,7 @@ TEST(MovingObjects, LightInTheShadowOfTheSunIsDoubted) {
     EXPECT_EQ(moved.diffuseChange({2, 0, 0}, up), 0);
 }
 
-TEST(MovingObjects, PointsAreFollowedToTheirEarlierPlaces) {
+TEST(MovingObjects, FollowMovesPointsOfAnObjectToTheirEarlierPositions) {
     const EnvironmentLight none(nullptr);
     const FarLight far(none, {}, {});
     const SunLight light({});

@@ -110,7 +110,7 @@ TEST(Mended, EpipolarFlowAcceptsPicturesOneOrTwoPixelsWide) {
     }
 }
 
-TEST(Mended, ANonFinitePredictionIsSearchedFromInfinity) {
+TEST(Mended, ANonFinitePredictionActsLikeAnExtremeFiniteOne) {
     const CameraModel camera = smallCamera({64, 48});
     const TestPicture picture = randomPicture({64, 48}, 1);
     const auto searched = [&](float predicted) {

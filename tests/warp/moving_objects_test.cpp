@@ -77,7 +77,7 @@ TEST_F(WarpMovingGl, UnmovedObjectsAreShownAsWithoutMotion) {
     EXPECT_LT(different, 40) << "rounding of the transforms may change a few pixels at edges";
 }
 
-TEST_F(WarpMovingGl, MovingObjectsAreNeverAtRest) {
+TEST_F(WarpMovingGl, WithPosesOfMovingObjectsTheViewNeverCountsAsAtRest) {
     Moving s;
     for (int frame = 0; frame < 20; ++frame) {
         s.warp.run(test::orbit(0), posesOf(s.before));

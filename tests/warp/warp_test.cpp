@@ -94,7 +94,7 @@ TEST_F(WarpGl, NothingIsShownOutsideSilhouetteAndShadow) {
     EXPECT_LT(coverage / pixels, 4) << "mean error of coverage [grey levels]";
 }
 
-TEST_F(WarpGl, DepthOfTheLayerIsThatOfTheCurrentPose) {
+TEST_F(WarpGl, DepthOfTheLayerBelongsToTheCurrentPose) {
     Shown s;
     const RenderedPicture truth = s.scene.cast(s.view(8));
     const auto z = test::valuesOf(s.warp.run(test::orbit(8)).depth);

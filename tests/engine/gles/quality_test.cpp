@@ -86,7 +86,7 @@ TEST_F(QualityTest, NeighboursAffectedByAChangeAreRedrawn) {
 }
 
 // All pipelines have processed the same frames before, so that they know the same noise.
-TEST_F(QualityTest, SettingsChangedBetweenFramesGiveThePictureOfInitialSettings) {
+TEST_F(QualityTest, SettingsChangedBetweenFramesActLikeInitialSettings) {
     const PipelineCase c;
     for (const bool withPoses : {false, true}) {
         Pipeline made(c.rig, madeWith(quick())), usual(c.rig, {}), changed(c.rig, {});

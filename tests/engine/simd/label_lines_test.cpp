@@ -55,7 +55,7 @@ struct Problem {
 // 16, whose points lie evenly on a straight line in the still. Here, a label's cost is the Hamming
 // distance of the pixel's census from that of the still pixel nearest to the label's point. With
 // `slack`, it is the least distance of this and the two pixels one pixel beside the line.
-TEST(LabelCosts, CostsOfLabelsAreThoseOfTheNearestPixels) {
+TEST(LabelCosts, CostOfALabelIsItsCensusDistanceToTheNearestStillPixel) {
     for (const std::size_t width : {1UL, 5UL, 64UL, 150UL}) {
         for (const int vectors : {1, 3}) {
             for (const bool slack : {false, true}) {
