@@ -172,7 +172,7 @@ TEST(BudgetController, LaterFramesRepayAPictureConversionInSmallParts) {
             used.push_back(budget.used());
         }
     }
-    EXPECT_EQ(framesOff(used, 0.1), 10) << "only the frames with a conversion are off";
+    EXPECT_EQ(framesOff(used, 0.1), 10) << "only frames with a conversion may miss their budget";
     EXPECT_NEAR(meanShare(used), 1, 0.01);
     budget.beginFrame(true);
     EXPECT_LE(budget.kept().deviation, 0.1);

@@ -250,7 +250,7 @@ TEST(Film, NextPictureReusesTheMemoryOfThePreviousPicture) {
     {
         const Film moved = std::move(film);
     }
-    EXPECT_EQ(memory->ready(), all) << "a film's end gives its blocks back";
+    EXPECT_EQ(memory->ready(), all) << "a film's destructor must return its blocks";
 }
 
 TEST(Film, PixelsOfProvidedMemoryCauseNoPageFaults) {

@@ -37,7 +37,7 @@ TEST(FirstPicture, MemoryIsProvidedOncePerScene) {
     }
     const std::size_t used = provided - memory->ready();
     EXPECT_GT(used, 100U);
-    EXPECT_LE(2 * used, provided) << "the next picture's memory is provided, too";
+    EXPECT_LE(2 * used, provided) << "memory for the next picture must be provided too";
     pictures.setScene(preparedStillLife(2, 1));
     pictures.look(view, view, {});
     EXPECT_TRUE(pictures.lacksMemory());

@@ -116,12 +116,13 @@ TEST(MovingObjects, PicturesShowObjectsAtThePosesStoredWithThem) {
         return count;
     };
     const auto elsewhere = posesAt(*run.scene, Timestamp::fromSeconds(1));
-    EXPECT_GT(misplaced(elsewhere), misplaced(last.poses) + 10) << "pixels of the ball";
+    EXPECT_GT(misplaced(elsewhere), misplaced(last.poses) + 10)
+        << "number of pixels with a wrong object";
     EXPECT_EQ(last.scene, run.scene);
     EXPECT_TRUE(last.layered);
     const double from = last.poses[0].translation.y(),
                  now = posesAt(*run.scene, Timestamp::fromSeconds(run.time))[0].translation.y();
-    EXPECT_LT(std::abs(from - now), 0.03) << "the picture shows nearly the present";
+    EXPECT_LT(std::abs(from - now), 0.03) << "the picture must show nearly the present poses";
 }
 
 TEST(MovingObjects, PicturesFollowEachOtherAsLongAsAnObjectMoves) {
@@ -204,7 +205,7 @@ TEST(MovingObjects, FollowMovesPointsOfAnObjectToTheirEarlierPositions) {
     EXPECT_LT((point - (p + Eigen::Vector3f(1, 0, 0))).norm(), 1e-5F);
     EXPECT_LT((normal - x).norm(), 1e-5F);
     moved.follow(2, normal, point, eye);
-    EXPECT_LT((normal - x).norm(), 1e-5F) << "other objects stay";
+    EXPECT_LT((normal - x).norm(), 1e-5F) << "points of other objects must not move";
 }
 
 }  // namespace

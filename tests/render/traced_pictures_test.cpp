@@ -61,7 +61,7 @@ TEST(TracedPictures, PictureIsRefinedWhileTheCameraRests) {
     EXPECT_TRUE(driver.pictures.settled());
     EXPECT_EQ(driver.pictures.finished(), 1U);
     driver.look(20.5);
-    EXPECT_FALSE(driver.step()) << "the picture suffices for this view";
+    EXPECT_FALSE(driver.step()) << "the shown picture must suffice for this view";
 }
 
 TEST(TracedPictures, CameraThatComesToRestGetsAPictureOfItsView) {

@@ -49,4 +49,4 @@ run 0 --config mfard.toml --check-config
 start --source synthetic:office,rest --display none --control control --config mfard.toml
 until_true is_drawn_anew
 kill -TERM "$pid"
-wait "$pid" || fail "mfard did not end properly"
+wait "$pid" || fail "mfard ended with an exit code other than 0"

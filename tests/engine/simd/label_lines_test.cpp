@@ -83,7 +83,7 @@ TEST(LabelCosts, CostOfALabelIsItsCensusDistanceToTheNearestStillPixel) {
                     ++compared;
                     if (costs[n] != expected) ++differing;
                 }
-                EXPECT_EQ(differing, 0U) << "costs differ, of " << compared << " compared costs";
+                EXPECT_EQ(differing, 0U) << "number of wrong costs among " << compared;
                 EXPECT_GT(compared, costs.size() / 2);
             }
         }
