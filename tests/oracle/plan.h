@@ -12,6 +12,7 @@
 /// Oracles of measureTiles(), markDrifted() and markBeside(), which find the tiles that changed.
 namespace mfar::twin {
 
+/// Measures of a tile. "Difference" is the new picture minus the picture that was drawn last.
 struct TileChange {
     /// For each cell, row by row: absolute value of the mean difference, and mean of the absolute
     /// difference. Each is the largest value over the channels.

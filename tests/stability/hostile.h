@@ -13,7 +13,7 @@
 
 namespace mfar::stress {
 
-/// Draws hostile inputs. They depend only on the seed.
+/// Makes random hostile inputs (extreme or invalid values), which depend only on the seed.
 class Hostile {
 public:
     explicit Hostile(std::uint64_t seed) : random_(seed) {}

@@ -88,7 +88,7 @@ TEST(Mended, InvalidDepthStaysUnknownAtEdges) {
     }
 }
 
-// The only ray is the optical axis. So the rim of the lens has radius zero.
+// The picture's only ray is the optical axis. So the lens model's valid range has radius zero.
 TEST(Mended, EpipolarLensAcceptsAPictureOfOnePixel) {
     const EpipolarLens lens(smallCamera({1, 1}), 0);
     const auto p = lens.project(0, 0);

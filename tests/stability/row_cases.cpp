@@ -100,8 +100,8 @@ void turnedRow(Context& c) {
         const double wanted =
             std::lerp(std::lerp(p[0], p[1], sx - ix),
                       std::lerp(p[size.width], p[size.width + 1], sx - ix), sy - iy);
-        // Tolerance: the result is rounded. Pixels up to a thousandth beyond the last column and
-        // row are read.
+        // Tolerance: the result is rounded, and the kernel clamps positions to 0.001 px before the
+        // last column and row.
         c.checks.within(grey[i] - wanted, -1.1, 1.1, "error of a turned pixel [grey levels]");
     }
     c.checks.through("turnedRow", static_cast<long>(width));

@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
-// The embedded shader texts. The generated source is included with another namespace.
+// The shader texts of the build, compiled in this namespace. mfar::shaders has the changed texts.
 namespace mfar::embedded_shaders {
 struct Source {
     std::string_view name, text;

@@ -216,7 +216,8 @@ TEST_F(Plan, ManyChangedTilesAreDrawnAsAWholeFrame) {
     }
 }
 
-/// A noisy slope and columns of dots two tiles apart. Each contrast in `contrasts` has one column.
+/// A noisy brightness ramp with columns of dots, two tiles apart. Column i has the contrast
+/// contrasts[i].
 TestPicture dotted(Size size, const std::vector<int>& contrasts) {
     TestPicture out(size);
     for (int y = 0; y < size.height; ++y)

@@ -85,7 +85,7 @@ TEST_F(QualityTest, NeighboursAffectedByAChangeAreRedrawn) {
     EXPECT_TRUE(p.readImage() == whole.readImage());
 }
 
-// All pipelines have processed the same frames before, so that they know the same noise.
+// All pipelines have processed the same frames before, so that they have measured the same noise.
 TEST_F(QualityTest, SettingsChangedBetweenFramesActLikeInitialSettings) {
     const PipelineCase c;
     for (const bool withPoses : {false, true}) {
