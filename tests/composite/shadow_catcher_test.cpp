@@ -219,7 +219,7 @@ TEST(ShadowCatcher, NoisyDepthOfAWallGivesAFlatShadowCatcher) {
     EXPECT_LT(off, static_cast<long>(c.positions.size()) / 50);
 }
 
-TEST(ShadowCatcher, PointsThatFitTwoPlanesLieOnTheNearest) {
+TEST(ShadowCatcher, PointsNearTwoPlanesAreMovedOntoTheNearerPlane) {
     const RigidTransform box{{1, 0, 0, 0}, {0, 0, 0.03}};
     const std::vector<GroundPlane> planes = {{{}, kThing}, {box, kThing}};
     const InverseDepthField field =

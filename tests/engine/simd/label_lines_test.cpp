@@ -153,7 +153,7 @@ TEST(LabelPlaces, PositionsBetweenLabelsMatchTheOracle) {
     }
 }
 
-TEST(LabelVertices, TheFractionOfALabelIsTheVertexOfTwoLines) {
+TEST(LabelVertices, TheFractionOfALabelIsWhereTwoCostLinesMeet) {
     for (const std::size_t count : test::kLengths) {
         std::vector<Valley> valleys(count);
         for (std::size_t i = 0; i < count; ++i)
