@@ -56,7 +56,7 @@ RenderView ofGround(const Eigen::Vector3d& point) {
 }
 
 struct Estimate {
-    double mean = 0, deviation = 0;  ///< over pixels
+    double mean = 0, deviation = 0;  ///< mean and standard deviation of the pixels' luminances
     double error() const { return deviation / 16; }
 };
 

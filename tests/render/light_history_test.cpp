@@ -63,7 +63,7 @@ KnownLight lightFrom(const Film& film, double x, double y,
 }
 
 TEST(LightHistory, WhereEveryPixelWasSampledItInterpolatesBetweenAdjacentPixels) {
-    // The light of a single pixel is changed. It must count for points less than a pixel away.
+    // One pixel has another light. It must affect only points less than a pixel away.
     Film film = filmOf([](int, int) { return true; });
     KnownLight bright = lightAt(6, 4);
     bright.second *= 2;
