@@ -146,11 +146,11 @@ protected:
     }
 };
 
-TEST_F(FineEngines, TheCheckOfFinestDetailMatchesTheOracleOnTheHost) {
+TEST_F(FineEngines, FineCheckOnTheHostMatchesTheOracle) {
     expectTheOracles(onHost);
 }
 
-TEST_F(FineEngines, TheCheckOfFinestDetailMatchesTheOracleOnTheGpu) {
+TEST_F(FineEngines, FineCheckOnTheGpuMatchesTheOracle) {
     expectTheOracles(onGpu);
 }
 

@@ -85,8 +85,8 @@ TEST_F(QualityTest, NeighboursAffectedByAChangeAreRedrawn) {
     EXPECT_TRUE(p.readImage() == whole.readImage());
 }
 
-// All pipelines have processed the same frames before, so that they know the same noise.
-TEST_F(QualityTest, SettingsChangedBetweenFramesGiveThePictureOfInitialSettings) {
+// All pipelines have processed the same frames before, so that they have measured the same noise.
+TEST_F(QualityTest, SettingsChangedBetweenFramesActLikeInitialSettings) {
     const PipelineCase c;
     for (const bool withPoses : {false, true}) {
         Pipeline made(c.rig, madeWith(quick())), usual(c.rig, {}), changed(c.rig, {});
