@@ -17,8 +17,8 @@ enum class SuperResMode {
 /// them between frames costs no time.
 struct Quality {
     SuperResMode mode = SuperResMode::Detail;
-    /// True: Keys' cubic enlarges the video. False: it is enlarged linearly from half the samples,
-    /// which is only possible in mode Off.
+    /// True: the video is enlarged with Keys' cubic (4x4 pixels). False: with bilinear
+    /// interpolation (2x2 pixels), which is faster. False has an effect only in mode Off.
     bool cubic = true;
     /// True: learned filters enlarge the video in mode Detail.
     bool learned = true;

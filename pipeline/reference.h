@@ -27,8 +27,8 @@ struct Reference {
 
     void take(const ImageView& picture, Timestamp taken, SuperResMode mode, const StillTone& tone);
     void drop();
-    /// Updates `shows` after a frame in which `tiles` tiles were matched with the still, and the
-    /// still showed `shown` of them.
+    /// Updates `shows` after a frame: `tiles` is the number of tiles matched with the still,
+    /// `shown` the number of those that the still shows.
     void count(int tiles, int shown);
     void keepFirst();
     /// Mean change of the cells' flow since the first frame matched with the still [video px]. 0 if

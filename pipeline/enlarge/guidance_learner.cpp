@@ -191,7 +191,8 @@ bool GuidanceLearner::add(const TrustedPairs& truth, const MatchedPictures& olde
             if (!truth.trusts(x, y) || !frame.knows(x, y) || isSaturated(older, x, y)) continue;
             frame.addedTo(x, y, added);
             const Phases missing = truth.target(x, y) - added.unguided;
-            // Guidance is never learned from every third tile. These tiles only measure its gain.
+            // One third of the tiles is held out: guidance is not learned from them, and its gain
+            // is measured only in them.
             FactorSums& to = (x / kTileSize + y / kTileSize) % 3 == 0 ? held : learn;
             to.add({added.still.squaredNorm(), added.video.squaredNorm(), missing.squaredNorm(),
                     added.still.dot(added.video), added.still.dot(missing),

@@ -39,8 +39,9 @@ struct PoseRefinement {
 /// the translation. If the prior's translation is zero, the matches must agree with a pure
 /// rotation. `focal` is the number of video pixels per unit of ray.
 ///
-/// The refinement is accepted if there are enough matches and few outliers, and if it reduces the
-/// distance from the epipolar lines enough: sqrt(normalBefore^2 - normalAfter^2) > kExactEnough.
+/// The refinement is accepted only if `inliers` is large enough, also in relation to `patches`, and
+/// if the median distance from the epipolar lines decreases clearly: sqrt(normalBefore^2 -
+/// normalAfter^2) > kExactEnough, where normalAfter belongs to the refined pose.
 /// Source: Hartley and Zisserman, 2nd ed., A6.3 (elimination); Beaton and Tukey 1974 (weights).
 [[nodiscard]] PoseRefinement refineRelativePose(std::span<const RayMatch> matches,
                                                 const PosePrior& prior, double focal);

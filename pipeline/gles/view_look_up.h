@@ -60,7 +60,8 @@ private:
     gpu::Texture rays_, colour_, depth_, state_;
     gpu::Framebuffer target_;
     gpu::Buffer commands_, list_;
-    /// The passes that look surfaces up.
+    /// The passes that look up the surfaces' colours. `plain` draws the simple pixels, `rest`
+    /// computes the listed others.
     struct Passes {
         gpu::DrawPass<Params> plain;
         gpu::ComputePass<Params> rest;

@@ -129,8 +129,8 @@ float EmissiveTriangles::density(const Ray& ray, const RayHit& hit) const {
                                         : density({hit.mesh, hit.triangle}, ray.direction, hit.t);
 }
 
-// Returns 0 if the triangle is seen from its edge: its points cannot be sampled, because the
-// density would be infinite.
+// Returns the probability density of sampling this direction, per solid angle. For a triangle seen
+// edge-on it would be infinite; 0 is returned then.
 float EmissiveTriangles::density(const Triangle& triangle, const Eigen::Vector3f& direction,
                                  float distance) const {
     const auto [a, b, c] = scene_->corners(triangle.mesh, triangle.index);

@@ -28,8 +28,9 @@ public:
     /// Objects that have not moved may be left out. `sun` and `far` must outlive this object.
     MovedLight(std::span<const Object> objects, const SunLight& sun, const FarLight& far);
 
-    /// Transforms a point of the object `id`, its normal and the viewer's position by the inverse
-    /// of the object's motion. They stay unchanged if the object has not moved.
+    /// Undoes the motion of object `id` since the earlier picture: applies T_world_before *
+    /// T_world_now^-1 to the point, the normal and the viewer's position `eye`. Changes nothing if
+    /// the object did not move.
     void follow(std::uint8_t id, Eigen::Vector3f& point, Eigen::Vector3f& normal,
                 Eigen::Vector3f& eye) const;
 

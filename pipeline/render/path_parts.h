@@ -39,9 +39,9 @@ struct PathIntegrator::World {
         return !scene.catcher().empty() && scene.catcher().blocked(ray);
     }
 
-    /// True if nothing hides the sampled point. The ray must hit the sampled triangle itself. So of
-    /// two triangles in the same place, only the one that other rays hit gives light, and the holes
-    /// of an alpha mask give none.
+    /// True if nothing hides the sampled point: the first hit of the ray must be the sampled
+    /// triangle. If two triangles coincide, only the one that first() returns gives light, as for
+    /// the rays of next(). Holes of an alpha mask give no light.
     bool sees(const EmissiveTriangles::Sample& sample) {
         Ray ray = sample.ray;
         const RayHit hit = scene.objects().first(ray);

@@ -2,8 +2,8 @@
 
 #include <cstdint>
 
-/// Order of the pixels in a tile. The class Slices hands out pixels in this order, and the class
-/// Film stores them in this order.
+/// Order of the pixels in a tile. The class Slices lists the pixels to be traced in this order, and
+/// the class Film stores them in it.
 namespace mfar::sampling {
 
 inline constexpr int kTileEdge = 8;  ///< [px]

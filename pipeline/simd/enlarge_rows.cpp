@@ -26,8 +26,10 @@ using U8 = hn::Rebind<std::uint8_t, I16>;
 constexpr std::int16_t fixed15(double value) {
     return static_cast<std::int16_t>(value * 32768 + (value < 0 ? -0.5 : 0.5));
 }
-// Weights of the colours in luma. They are halved, so that bytes times 128 times the weights are
-// luma in 1/64 grey level. Their sum is exactly one half, so that the luma of grey is exact.
+// Half the weights of red, green and blue in luma, as 15-bit fractions. A byte is multiplied by 128
+// (the largest power of two with which it fits into int16) and by half its weight. The sum of the
+// three products is the luma in units of 1/64 grey level. The halved weights add up to exactly 1/2,
+// so that the luma of grey is exact.
 constexpr std::int16_t kRed = fixed15(0.299 / 2), kBlue = fixed15(0.114 / 2);
 constexpr std::int16_t kGreen = 16384 - kRed - kBlue;
 

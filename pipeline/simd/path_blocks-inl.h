@@ -86,9 +86,11 @@ public:
         }
     }
 
-    /// Advances path costs by one pixel. `path`: 255 - path cost at the previous pixel; `cost`:
-    /// matching costs of the new pixel. `shifts` and `jumps` have one byte per block: see
-    /// Neighbours::shifts() and Neighbours::penalties().
+    /// Advances path costs by one pixel. `path`: 255 - path cost of each label at the previous
+    /// pixel. `cost`: matching costs of the new pixel. `shifts` and `jumps` have one byte per
+    /// block. `shifts`: first label of the new pixel's window minus that of the previous pixel's.
+    /// `jumps`: penalty for a label change of more than one. Returns 255 - path cost at the new
+    /// pixel.
     HWY_INLINE V advance(V path, const std::uint8_t* shifts, const std::uint8_t* jumps,
                          V cost) const {
         std::uint32_t moved = 0;
@@ -130,16 +132,15 @@ private:
     V one_, places_, byTwo_, byOne_, block_;
 };
 
-/// Computes two values for each pair of neighbouring pixels (`from`, `to`) on a path, see
-/// penalties() and shifts().
+/// Computes penalties() and shifts() for each pixel `to` and the pixel `from` before it on a path.
 class Neighbours {
 public:
     explicit Neighbours(const PathVolume& volume)
         : jumps_(volume.jumps), chunks_((volume.jumpDifferences + 15) / 16) {}
 
-    /// Computes the penalty for a label difference of more than one, for `count` pixels (at most
-    /// kMost). `to`, `from`: PathVolume::guide at the pixels and at their neighbours. Writes whole
-    /// vectors, so `out` needs kRoom bytes.
+    /// Computes the penalty for a label change of more than one between the pixels `from` and `to`,
+    /// for `count` pixels (at most kMost). `to`, `from`: values of PathVolume::guide at these
+    /// pixels. Writes whole vectors, so `out` needs kRoom bytes.
     static constexpr int kMost = 64, kRoom = 2 * kMost;
     HWY_INLINE void penalties(const std::uint8_t* to, const std::uint8_t* from, int count,
                               std::uint8_t* out) const {
@@ -159,8 +160,9 @@ public:
                     hn::StoreU(jump, d, out + i);
                 });
     }
-    /// Computes the first label of each pixel's window minus that of its neighbour's window. The
-    /// difference is clamped to -(kLabels + 1) to kLabels + 1.
+    /// Computes the first label of the window of each pixel `to` minus that of the pixel `from`.
+    /// `to`, `from`: values of PathVolume::base at these pixels. The difference is clamped to
+    /// -(kLabels + 1) to kLabels + 1.
     HWY_INLINE static void shifts(const std::int16_t* to, const std::int16_t* from, int count,
                                   std::uint8_t* out) {
         for (int i = 0; i < count; ++i)
@@ -188,14 +190,16 @@ private:
     int chunks_;
 };
 
-/// Results of Neighbours for successive pixels in `Blocks` rows. The values of the rows are
-/// interleaved: first those of the first pixel of each row.
+/// Penalties for label changes (`jumps`) and shifts of the window, as computed by Neighbours, for
+/// successive pixels in `Blocks` rows. The values of the rows are interleaved: first those of the
+/// first pixel of each row.
 template <int Blocks>
 struct RunOfRows {
     HWY_ALIGN std::uint8_t jumps[Neighbours::kMost * 4], shifts[Neighbours::kMost * 4];
 
-    /// Computes the values of pixels [x, x + count) of the rows from y on. `toFrom`: column of a
-    /// pixel's neighbour minus its own column. Both values are 0 for a pixel without a neighbour.
+    /// Computes the values of pixels [x, x + count) of the rows from y on. `toFrom`: column of the
+    /// previous pixel on the path minus that of the pixel itself. Both values are 0 for the first
+    /// pixel of a path.
     HWY_INLINE void fill(const Neighbours& between, const PathVolume& v, int x, int count, int y,
                          int toFrom) {
         HWY_ALIGN std::uint8_t jump[4][Neighbours::kRoom] = {}, shift[4][Neighbours::kRoom] = {};

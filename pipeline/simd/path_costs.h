@@ -24,8 +24,9 @@ struct Valley {
 
 /// Input of semi-global matching (see semi_global.h): matching costs of labels are aggregated along
 /// straight paths from four directions. Each pixel has a window of kLabels * `vectors` successive
-/// labels. Rows have no gaps. Costs and penalties must be so small that path costs stay below 85,
-/// because the sum of three of them is stored in a byte.
+/// labels. Rows have no gaps. Costs and penalties must be so small that path costs stay below 85:
+/// the sum over the first three directions is stored in a byte (the fourth is only added when the
+/// cheapest label is found).
 struct PathVolume {
     const std::uint8_t* guide;  ///< picture whose edges make large label differences cheaper
     const std::int16_t* base;   ///< first label of each pixel's window

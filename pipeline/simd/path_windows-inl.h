@@ -18,8 +18,8 @@ HWY_BEFORE_NAMESPACE();
 namespace mfar::simd::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Path cost in the margins, which stands for labels outside the pixel's window. It is so high that
-/// these labels never win.
+/// Path cost of labels outside the pixel's window; the margins of the array hold it. It is so high
+/// that these labels never win.
 constexpr std::uint8_t kNever = 200;
 
 /// Returns the length of one margin [labels]. It suffices even if two neighbouring pixels' windows

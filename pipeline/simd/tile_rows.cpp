@@ -109,8 +109,10 @@ HWY_INLINE Moments MomentsOf(const Blocks::CellSums& sums, int tile) {
     return out;
 }
 
-/// Measurements of the luma's difference, as sums over a tile: of the squared sums of 2x2 pixels
-/// (`means`), and of the blocks' squared twists (`noise`). `bends` is that of TileMeasure.
+/// Sums of squares over a tile of the luma difference (new frame minus the frame drawn last).
+/// `means`: of the sum of each block of 2x2 pixels. `noise`: of the twist a - b - c + d of each
+/// block, whose pixels are a b above c d. `bends`: of the same twist of 2x2 block sums, divided by
+/// 16, which is TileMeasure::bends.
 struct LumaDifference {
     V means, bends, noise;
     Moments moments;

@@ -37,9 +37,10 @@ struct TracedPolicy {
     int samplesToReplace = 4;
     bool filter = true;
     bool history = true;
-    /// True for callers that use only the light of a picture. While the camera moves, the next
-    /// picture begins long before the shown picture reaches its limits. It is shown before every
-    /// pixel has a sample.
+    /// True: the next picture begins when viewChange() since the shown picture reaches kSoon, which
+    /// is below 1. If it reuses the shown picture's light, it may also be shown before every pixel
+    /// has a sample. False: the next picture begins at 1. Set true only if the caller uses just the
+    /// light of the picture.
     bool soon = true;
     bool operator==(const TracedPolicy&) const = default;
 };

@@ -57,7 +57,8 @@ inline PatchMatch comparePatch(const Grey& a, const Grey& b, int cx, int cy, Eig
 }
 
 /// Like comparePatch(), but the flow changes by `dx` per pixel along x and by `dy` along y. As in
-/// the tested code, `span` neighbouring pixels of a row are read from consecutive columns of `b`.
+/// the tested code, the whole-pixel position in `b` is computed once for each group of `span`
+/// pixels in a row; within a group, `dx` only changes the interpolation weights.
 inline PatchMatch compareBentPatch(const Grey& a, const Grey& b, int cx, int cy,
                                    const Eigen::Vector2d& u, const Eigen::Vector2d& dx,
                                    const Eigen::Vector2d& dy, int span = 4) {

@@ -152,8 +152,9 @@ Valley valleyOf(Context& c) {
     return out;
 }
 
-/// Position of the minimum of two lines with opposite slopes through the costs of a label and its
-/// two neighbours.
+/// Returns the expected result of labelVertices() minus the best label. The result is where two
+/// lines with opposite slopes meet, which pass through the costs of this label and of its two
+/// neighbours. Returns 0 if the three costs are equal or if a neighbour's cost is unknown.
 double bottomOf(const Valley& v) {
     const int left = v.rise[1], right = v.rise[2], most = std::max(left, right);
     if (most == 0 || most == Valley::kUnknown) return 0;

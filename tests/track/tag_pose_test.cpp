@@ -136,7 +136,8 @@ TEST(TagPose, PoseFromSeveralTagsIsMoreExactThanFromOne) {
     EXPECT_LT(all, 0.5 * one);
 }
 
-// Blur, gamma and ink move the edges of all tags in the same way.
+// Blur, gamma and ink move the edges of all tags outwards or inwards by the same distance, the edge
+// shift (see refinePose()). With one tag, it cannot be told from a change of the tag's distance.
 TEST(TagPose, SeveralTagsDetermineTheEdgeShift) {
     const CameraModel camera = testCamera();
     const RigidTransform truth = cameraAt(0.5, 0.3, 0.2, 0.4);

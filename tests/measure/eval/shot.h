@@ -41,9 +41,9 @@ struct PoseNoise {
     std::uint64_t seed = 0;
 };
 
-/// Rotates a pose about a random axis with uniformly distributed directions. The pose relative to
-/// any still is then wrong by exactly noise.degrees. Equal recordings, times and seeds give the
-/// same axis.
+/// Rotates the pose by noise.degrees about a random axis; all directions of the axis are equally
+/// likely. The pose relative to any still is then wrong by exactly noise.degrees. Equal recordings,
+/// times and seeds give the same axis.
 [[nodiscard]] Pose turned(const Pose& pose, const PoseNoise& noise, std::string_view recording);
 
 }  // namespace mfar::eval
