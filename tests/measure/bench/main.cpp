@@ -32,9 +32,9 @@ constexpr const char* kHelp =
     "with its poses; rest: the same frame again and again; rest-noise: the same view with sensor "
     "noise of sigma 2 grey levels.\n"
     "mfar learns its filters from stills before the measurement. Whole frames are timed without "
-    "interruption until the picture is finished; stages are timed in a separate run. The peers are "
-    "the paper's method with OpenCV's flow (DIS medium, DIS fast). They process each frame right "
-    "after mfar.";
+    "interruption until the picture is finished; stages are timed in a separate run. Rows `peer "
+    "paper` and `peer paper-fast` are for comparison: the paper's method with OpenCV's flow (DIS "
+    "medium, DIS fast). It processes each frame right after mfar.";
 
 struct Options {
     std::string recording, json, mode = "detail", engine = "auto";
