@@ -22,11 +22,11 @@ namespace mfar {
 /// picture.
 class VirtualView {
 public:
-    /// Creates a view whose objects PreviewRenderer draws. `occludes` must outlive this object.
-    VirtualView(const CameraModel& video, Size output, Engine& occludes);
-    /// Creates a view whose objects the path tracer draws. `occludes` must outlive this object.
+    /// Creates a view whose objects PreviewRenderer draws. `engine` must outlive this object.
+    VirtualView(const CameraModel& video, Size output, Engine& engine);
+    /// Creates a view whose objects the path tracer draws. `engine` must outlive this object.
     /// Throws the same exceptions as TracedLayer.
-    VirtualView(const CameraModel& video, Engine& occludes, TracedLayerOptions options);
+    VirtualView(const CameraModel& video, Engine& engine, TracedLayerOptions options);
 
     void setObjects(std::vector<VirtualObject> objects);
     void setSkips(const SkipOptions& skips) { skips_ = skips; }

@@ -94,7 +94,7 @@ TEST_F(SyntheticStore, FileOfAnotherKeyIsNotUsed) {
     EXPECT_EQ(get(2, 20)(3, 5), cv::Vec4b::all(20));
 }
 
-TEST_F(SyntheticStore, WithAFolderThatCannotBeWrittenTexelsAreComputedEachTime) {
+TEST_F(SyntheticStore, TexelsAreComputedEachTimeIfTheFolderCannotBeCreated) {
     write(folder_, "a file, so that no folder can have this name");
     EXPECT_EQ(get(1, 10)(3, 5), cv::Vec4b::all(10));
     EXPECT_EQ(get(1, 10)(3, 5), cv::Vec4b::all(10));

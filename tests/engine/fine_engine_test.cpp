@@ -146,11 +146,11 @@ protected:
     }
 };
 
-TEST_F(FineEngines, FineCheckOnTheHostMatchesTheOracle) {
+TEST_F(FineEngines, SimdFineCheckMatchesTheOracle) {
     expectTheOracles(onHost);
 }
 
-TEST_F(FineEngines, FineCheckOnTheGpuMatchesTheOracle) {
+TEST_F(FineEngines, GlesFineCheckMatchesTheOracle) {
     expectTheOracles(onGpu);
 }
 

@@ -131,7 +131,7 @@ TEST_P(StepsTest, FinestDetailOfTheStillIsAmplifiedUnlessTheStillIsReduced) {
         }
 }
 
-TEST_P(StepsTest, LumaOfAStillMatchesItsColoursInEveryFormat) {
+TEST_P(StepsTest, LumaOfAStillIsCorrectInEveryPixelFormat) {
     const StereoRig rig = plainRig({50, 35}, {200, 140});
     for (const PixelFormat format : {PixelFormat::Rgba8, PixelFormat::Bgra8, PixelFormat::Gray8}) {
         const bool isGrey = format == PixelFormat::Gray8;

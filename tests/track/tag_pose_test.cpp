@@ -138,7 +138,7 @@ TEST(TagPose, PoseFromSeveralTagsIsMoreExactThanFromOne) {
 
 // Blur, gamma and ink move the edges of all tags outwards or inwards by the same distance, the edge
 // shift (see refinePose()). With one tag, it cannot be told from a change of the tag's distance.
-TEST(TagPose, SeveralTagsDetermineTheEdgeShift) {
+TEST(TagPose, EdgeShiftIsEstimatedFromSeveralTagsOnly) {
     const CameraModel camera = testCamera();
     const RigidTransform truth = cameraAt(0.5, 0.3, 0.2, 0.4);
     for (const double shift : {-0.3, 0., 0.3}) {

@@ -103,7 +103,7 @@ TEST_F(QualityTest, SettingsChangedBetweenFramesActLikeInitialSettings) {
     }
 }
 
-TEST_F(QualityTest, WithoutEpipolarLinesPosesAreIgnored) {
+TEST_F(QualityTest, PosesAreIgnoredIfAlongLinesIsOff) {
     const PipelineCase c;
     Pipeline blind(c.rig, {}), posed(c.rig, {});
     posed.setQuality({.alongLines = false});
