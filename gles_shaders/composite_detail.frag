@@ -2,8 +2,8 @@
 // where up() enlarges to the output's size.
 // LEARNED: also adds the learned enlarger's residual times max(1 - weight, 0). Where the weight is
 // large, the still is the better source of detail.
-// SECOND (includes LEARNED): draws the second still's detail over the picture that already shows
-// the first still's. The opacity rises with the second still's weight minus the first still's.
+// SECOND (includes LEARNED): draws the second still's detail over the picture with the first
+// still's detail. The opacity rises with the second still's weight minus the first still's weight.
 // Variant: #define PLAIN_TILE
 // Variant: #define LEARNED
 // Variant: #define SECOND

@@ -2,9 +2,9 @@
 // Class indices are those of GradientClasses and CurvatureClasses in
 // pipeline/enlarge/filter_layout.h. Needs pipeline/engine/params/enlarge.h.
 
-// Returns the bin of an angle; see Symmetry in pipeline/enlarge/filter_layout.h. `cosine` and
-// `sine` are those of twice the angle; both may be scaled by the same factor. `inQuadrant` is the
-// bin for |cosine| and |sine|.
+// Returns the bin of an angle; see Symmetry in pipeline/enlarge/filter_layout.h. `cosine`, `sine`:
+// cosine and sine of twice the angle, times the same positive factor. `inQuadrant`: the bin, in the
+// first quadrant, of the angle with |cosine| and |sine|.
 int angleBin(float cosine, float sine, int inQuadrant, int bins) {
     bool left = cosine < 0.0, lower = sine < 0.0;
     int bin = left != lower ? bins / 2 - 1 - inQuadrant : inQuadrant;

@@ -24,8 +24,8 @@ vec4 pairOf(ivec2 classes, int at, uint taps) {
                 dot(unpackHalf2x16(a.w) + unpackHalf2x16(b.w), steps));
 }
 
-// Returns the four sub-pixels of a row, enlarged by Keys' cubic, minus the pixel's value. Filters
-// along columns first. The order of the taps is that of kTapAt in pipeline/enlarge/filter_layout.h.
+// Returns the four sub-pixels in a row of the pixel, enlarged by Keys' cubic (along columns first),
+// minus the pixel's value. The taps are in the order of kTapAt in pipeline/enlarge/filter_layout.h.
 vec4 cubicOf(int row, uvec4 above, uvec4 below, uvec4 beside) {
     vec4 w = cubicWeights(fract(0.625 + 0.25 * float(row)));
     vec4 upper = row < 2 ? w : vec4(0.0, w.xyz);

@@ -1,10 +1,11 @@
 // Refines the flow of every cell by Gauss-Newton steps. The error of the initial flow must be less
-// than a pixel. The patch is deformed according to the flow around the cell: on a surface that the
-// other camera sees from a different direction, a rigid patch would fit best at a wrong position.
+// than a pixel. The patch is deformed according to the change of the flow around the cell. If the
+// two cameras see a surface from different directions, an undeformed patch would fit best at a
+// wrong position.
 // In: a field in cells[]. Out: another field in cells[]: flow (x, y) [px], cost, texture (sum of
 // the squared deviations of the patch from its mean). Tiles that are not matched keep their flow
 // vectors. One invocation per cell.
-// After: Baker and Matthews, Lucas-Kanade 20 years on, IJCV 2004, section 3.2.
+// Source: Baker and Matthews, Lucas-Kanade 20 years on, IJCV 2004, section 3.2.
 // Range: cells -2e4..2e4, -2e4..2e4, 0..2.02, 0..4.2e6
 #include "luma.glsl"
 #include "pipeline/engine/params/flow.h"
@@ -22,7 +23,7 @@ layout(std430, binding = 1) buffer Cells {
 
 layout(std430, binding = 2) readonly buffer Tiles {
     uvec2 header;
-    uvec2 tiles[];  // x: 1 if the tile changed; y: 1 if it is matched; one workgroup per tile
+    uvec2 tiles[];  // for each tile (workgroup): x = 1 if it changed, y = 1 if it is matched
 };
 
 #include "patch_template.glsl"
@@ -114,8 +115,8 @@ void main() {
     prepareSteps(known, cell);
     vec2 u = flowAt(cell), best = u;
     float cost = 1e9;
-    // Once the cost no longer falls, the remaining iterations evaluate the same position again. On
-    // vector processors, this is cheaper than leaving the loop.
+    // After the first iteration that does not lower the cost, the others compare the same position
+    // again. On vector processors, this is cheaper than leaving the loop.
     for (int k = 0; k <= params.steps; ++k) {
         Match m = compareBent(lb, cell, u, dx, dy);
         bool better = m.cost < cost;

@@ -4,7 +4,7 @@
 // whole-pixel displacements within a square.
 // Out: cells[] = flow (x, y) [px of this pyramid level], cost, texture (sum of the squared
 // deviations of the patch from its mean). One invocation per cell.
-// After: Kroeger et al., Fast optical flow using dense inverse search, ECCV 2016, section 2.
+// Source: Kroeger et al., Fast optical flow using dense inverse search, ECCV 2016, section 2.
 // LISTED: processes only the groups of 4x4 cells in lists[]. If the best vector is off the cell's
 // epipolar line, the cell's two-way error is derived from the cost of the match.
 // Variant: #define LISTED
@@ -49,7 +49,7 @@ vec2 candidate(ivec2 cell, int k) {
     if (params.lastFrame >= 0) --k;
     if (params.coarser < 0) {
         int n = 2 * params.radius + 1;
-        // Zero motion comes first, because the first of two vectors with equal costs wins.
+        // Displacement zero comes first, because the first of two vectors with equal costs wins.
         k = (k + n * n / 2) % (n * n);
         return vec2(k % n - params.radius, k / n - params.radius);
     }

@@ -33,7 +33,7 @@ uvec2 cellRow(uvec3 w) {
 
 // State of nextRow(), which reads a patch row by row. The patch's position is between pixels.
 struct Window {
-    int first, y;   // first: index of the patch's first word if y were 0; y: row stored in `above`
+    int first, y;   // first: index in luma[] of the patch's first word in row 0; y: row of `above`
     uint shift;     // number of bits in the first word before the patch's first pixel
     vec2 f;         // fractional part of the patch's position (x, y) [px]
     uvec3 above;

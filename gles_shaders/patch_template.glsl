@@ -25,7 +25,7 @@ struct Match {
     vec2 step;  // Gauss-Newton step of the displacement, at most one pixel long
 };
 
-// r is in [-1, kRows].
+// Returns row r of the template; r is in [-1, kRows].
 Row templateRow(int r) {
     int at = 3 * r + 3;
     return Row(unpackPixels(templateWords[at]), unpackPixels(templateWords[at + 1]));

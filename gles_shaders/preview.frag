@@ -22,9 +22,9 @@ void main() {
     vec3 n = normalize(facing);
     if (dot(n, point) > 0.0) n = -n;
     float lit = mix(max(dot(n, vec3(params.lightX, params.lightY, params.lightZ)), 0.0), 1.0, params.ambient);
-    // Signed distance [px] to the nearest line of the checkerboard. The transition at a line is one
-    // pixel wide. The border of a face is not such a line, because the colour beyond it may be the
-    // same.
+    // Signed distance [px] to the nearest line between squares of the checkerboard, where the
+    // colour changes over one pixel. A face's border does not count as such a line, because the
+    // colour beyond it may be the same.
     vec2 inner = clamp(square, vec2(0.5), vec2(params.squares - 0.5));
     vec2 wave = 2.0 * abs(fract(0.5 * inner + 0.25) - 0.5) - 0.5;
     vec2 side = clamp(wave / max(fwidth(square), 1e-6), vec2(-0.5), vec2(0.5));

@@ -8,8 +8,8 @@ vec2 inStill(vec2 p) {
            vec2(params.stillTexelX, params.stillTexelY);
 }
 
-// Returns the mean of 4x4 samples of the still over this video pixel. Positions between the four
-// outermost samples are interpolated bilinearly.
+// Returns the mean of 4x4 samples of the still over this video pixel. inStill() gives the positions
+// of the four corner samples. The other positions are interpolated bilinearly between them.
 float stillSeen() {
     const float reach = 0.375 * kSeen;
     vec2 first = inStill(gl_FragCoord.xy - reach), last = inStill(gl_FragCoord.xy + reach);

@@ -25,7 +25,7 @@ layout(std430, binding = 1) readonly buffer Cells {
 };
 layout(std430, binding = 2) readonly buffer Tiles {
     uvec2 header;
-    uvec2 tiles[];  // x: 1 if the tile changed; y: 1 if it is matched; one workgroup per tile
+    uvec2 tiles[];  // for each tile (workgroup): x = 1 if it changed, y = 1 if it is matched
 };
 layout(rgba32f, binding = 0) uniform writeonly highp image2D displacement;
 layout(rgba32f, binding = 1) uniform writeonly highp image2D statistics;

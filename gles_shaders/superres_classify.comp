@@ -34,8 +34,8 @@ layout(std430, binding = 2) buffer Draws {
     uint counts[8];
 };
 layout(std430, binding = 3) buffer Lists {
-    // The five lists. Then, for each tile, the number of the last frame that listed it as a
-    // neighbour.
+    // The five lists. After them, one entry per tile: the number of the frame in which the tile was
+    // last listed as a neighbour.
     uint lists[];
 };
 layout(binding = 0) uniform sampler2D cellField;
@@ -78,7 +78,7 @@ bool secondIsMore(ivec2 c) {
 }
 
 // True if a tile shows some of the second still. The cells around the tile are tested too, because
-// the tile's outer pixels are interpolated with them.
+// the weights of the tile's outer pixels are interpolated with them.
 bool showsSecond(ivec2 first) {
     ivec2 low = max(first - 1, ivec2(0)), high = min(first + 4, lastCell());
     for (int y = low.y; y <= high.y; ++y)

@@ -41,7 +41,8 @@ bool learns(ivec2 tile) {
     return (header.x != 0u || flags.x != 0u) && flags.y != 0u;
 }
 
-// True if learns() is true for a tile that contains or touches a pixel from `first` to `last`.
+// True if learns() is true for any tile that contains or touches one of the pixels from `first` to
+// `last`.
 bool learnsAround(ivec2 first, ivec2 last) {
     ivec2 low = (first - 1) >> 4, high = (last + 1) >> 4;
     bool any = false;

@@ -1,9 +1,9 @@
 // Compares the finest detail of video and still in each cell; see kFineRoom. The finest detail is
 // the difference between a pixel and the mean of its 2x2 block.
 // In: states of the tiles, look-ups, luma of the still with amplified finest detail, video.
-// Out: means, over the middle two rows of the cell, of the products of the details: video * video,
-// video * still, still * still [grey levels^2]. They are zero in tiles that are not matched and in
-// cells that are only partly inside the frame.
+// Out: means of three products over the middle two rows of the cell [grey levels^2]: video * video,
+// video * still and still * still, each of finest detail. The means are zero in tiles that are not
+// matched and in cells that are only partly inside the frame.
 // One workgroup per tile, one invocation per cell. Only every kFineStep-th row of cells is sampled.
 // Range: fineField 0..65025, -65025..65025, 0..65025, 0
 #include "luma.glsl"

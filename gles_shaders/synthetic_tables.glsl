@@ -10,7 +10,7 @@ struct Solid {
 struct Surface {
     vec4 size;        // half extents [m]; w: 0 box, 1 cylinder, 2 ellipsoid
     vec4 face;        // in the light map, xy: corner of the first face; zw: size of a face
-    // xyz: direction to the key light; w: half a texel / width of a face in the light map.
+    // xyz: direction to the key light; w: half a texel of the light map divided by a face's width.
     vec4 light;
     ivec4 materials;  // indices in `materials` of the x, y and z faces; w: 1 if the solid moves
 };

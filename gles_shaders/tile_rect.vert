@@ -1,5 +1,5 @@
-// Draws one rectangle of six vertices per listed tile, at any resolution. In: packed tile
-// (instanced).
+// Draws one rectangle of six vertices per listed tile, at any resolution.
+// In: position of the tile, packed by tiles.glsl (one per instance).
 // PLAIN_TILE: also outputs the look-up (see look_up.glsl) at the tile's corners. Its value at a
 // corner is the mean of the four cells that meet there.
 // AROUND: the rectangle is larger than the tile by a margin of kTileAround on each side.

@@ -1,5 +1,5 @@
-// Second half of the bicubic enlargement: along rows. superres_vertical.frag is the first half and
-// says what alpha contains. Needs tile_params.glsl, and columns.glsl or learned.glsl.
+// Second half of the bicubic enlargement: along rows. superres_vertical.frag is the first half; see
+// there for the meaning of alpha. Needs tile_params.glsl, and columns.glsl or learned.glsl.
 #include "cubic.glsl"
 
 vec4 upscaled() {

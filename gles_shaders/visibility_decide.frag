@@ -1,7 +1,7 @@
 // Finds the virtual pixels that are certainly in front of or certainly behind the real scene.
 // In: virtual z [m]; result of visibility_range.frag. Out: visibility, R8, 1 or 0; fragment depth:
-// 0 for decided pixels, otherwise 1. The depth test in visibility_sample.frag skips the decided
-// pixels. On a software renderer, a branch in the shader would save no time.
+// 0 for decided pixels, otherwise 1. The depth test then skips the decided pixels when
+// visibility_sample.frag runs. On a software renderer, a branch in that shader would save no time.
 #include "visibility.glsl"
 #include "virtual_layer.glsl"
 

@@ -1,6 +1,6 @@
-// Finds the range of a virtual pixel's inverse depth in which visibility_sample.frag must weigh
-// samples of the real depth. The samples of the result's pixel (x, y) are the 4x4 video pixels from
-// (x - 1, y - 1) to (x + 2, y + 2).
+// Finds the range of inverse depths of virtual surfaces for which visibility_sample.frag must weigh
+// samples of the real depth. Pixel (x, y) of the result holds the range for the 4x4 samples at the
+// video pixels from (x - 1, y - 1) to (x + 2, y + 2).
 // In: inverse depth and sigma of the real scene [1/m], Rg32F.
 // Out: x: virtual surfaces with at least this inverse depth are in front of every sample. y:
 // virtual surfaces with at most this inverse depth are occluded by every sample; 0: none is.

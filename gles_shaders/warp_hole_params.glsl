@@ -1,4 +1,5 @@
-// Parameters of the shaders that fill holes of a warped picture (warp_pull.comp, warp_fill.comp).
+// Parameters of the shaders that fill a warped picture's pixels without a known colour
+// (warp_pull.comp, warp_fill.comp).
 #include "pipeline/warp/pass_params.h"
 
 layout(std140, binding = 0) uniform Params {

@@ -32,8 +32,8 @@ void main() {
     id = open ? kCatcher : id;
     bool empty = open && z == 0.0;
     vec3 at = inView(0, id, z * vec3(ray, 1.0));
-    // The corner that the four texels share. Because the gather samples exactly there, rounding in
-    // the texture unit cannot select other texels.
+    // The corner at which the four texels meet. The gather samples exactly there, so that rounding
+    // in the texture unit cannot select other texels.
     vec2 corner = floor(at.xy) + 1.0;
     uvec4 t = textureGather(surfaces, corner / vec2(tracedSize()));
     vec4 off = abs(uintBitsToFloat(t & 0xffffff00u) - at.z);

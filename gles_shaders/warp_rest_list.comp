@@ -25,7 +25,7 @@ void main() {
     uint count = some.x + some.y + some.z + some.w;
     if (count == 0u) return;
     uint i = atomicAdd(commands[0].w, count);
-    // Number of groups of 64 entries that begin with one of the new entries.
+    // Number of groups of 64 list entries whose first entry is one of the new entries.
     uint groups = (i + count + 63u) / 64u - (i + 63u) / 64u;
     if (groups > 0u) atomicAdd(commands[0].x, groups);
     uint first = uint(p.y * params.width + p.x), row = uint(params.width);

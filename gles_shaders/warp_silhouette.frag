@@ -1,4 +1,4 @@
-// Writes number and depth of the object that is visible in this pixel.
+// Writes number and depth of the surface that is visible in this pixel.
 // Out: R32UI, packed by warp_surface.glsl.
 // Variant: #define ALPHA_MASK
 #include "warp_silhouette_params.glsl"

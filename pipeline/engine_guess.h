@@ -16,8 +16,8 @@ inline constexpr double kHopelessFrame = 2;
 /// flow, weigh) and the other drawing (still, detail, occlusion).
 ///
 /// `./run board-report` has predicted the times for some GPUs. An assignment is left out if its
-/// predicted time exceeds kHopelessFrame times that of the fastest. (Predictions may be wrong by a
-/// factor of two.) `driver` is GlContext::description().
+/// predicted time exceeds kHopelessFrame times the predicted time of the fastest assignment.
+/// (Predictions may be wrong by a factor of two.) `driver` is GlContext::description().
 [[nodiscard]] std::vector<EngineChoice> promisingEngines(std::string_view driver);
 
 }  // namespace mfar

@@ -26,7 +26,8 @@ std::uint8_t greyAt(int x, int y) {
     return static_cast<std::uint8_t>(sum);
 }
 
-/// Each pixel of the picture is `scale` texels wide. `shift` moves the picture [texels].
+/// Returns an RGBA picture of the texture. A pixel is `scale` texels wide, and the first pixel is
+/// at column `shift` [texels].
 std::vector<std::uint8_t> pictureOf(Size size, double scale, int shift) {
     std::vector<std::uint8_t> rgba;
     rgba.reserve(4UL * size.width * size.height);

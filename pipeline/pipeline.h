@@ -69,7 +69,8 @@ public:
     /// show. Empty if there is no second still.
     [[nodiscard]] std::optional<Timestamp> secondStill() const;
     void dropStill();
-    /// Computes one output picture. Throws std::invalid_argument like setStill().
+    /// Computes one output picture. Throws std::invalid_argument if `video` does not have the size
+    /// of the rig's video camera or is invalid (requireSound()).
     const FrameResult& run(const ImageView& video, Timestamp time,
                            const std::optional<Pose>& pose = {});
 
@@ -124,14 +125,14 @@ public:
     [[nodiscard]] const InverseDepthField& inverseDepth() const;
 
     // These functions read results back for tests, evaluation and the preview. They wait for the
-    // GPU. On a GPU, FrameResult::stats are those of the run before, but readStats() returns those
-    // of the last run.
+    // GPU. On a GPU, FrameResult::stats are the statistics of the previous run; readStats() returns
+    // the statistics of the last run.
     [[nodiscard]] FrameStats readStats() const;
     /// Flow of every video pixel (x, y interleaved), interpolated between cells. With poses, a
     /// pixel gets its own vector from the epipolar search if this differs from the interpolated
     /// vector by at least half a pixel and no moving object is there. Empty without a still.
     [[nodiscard]] std::vector<float> readFlow() const;
-    /// Confidence (eq. 2) of every video pixel, [0, 1]. Empty without a still.
+    /// Confidence (eq. 2 of the paper) of every video pixel, [0, 1]. Empty without a still.
     [[nodiscard]] std::vector<float> readConfidence() const;
     [[nodiscard]] std::vector<TileClass> readTileClasses() const;
     [[nodiscard]] std::vector<bool> readSearchedTiles() const;

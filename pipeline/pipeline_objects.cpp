@@ -91,8 +91,8 @@ PixelRect Pipeline::State::placeObjects(const std::optional<Pose>& pose, Timesta
         where = objects->place(pose ? std::optional(pose->T_world_video) : std::nullopt, time,
                                depth->stage.field());
         // If detail and occlusion run on different engines, there are two copies of the picture.
-        // When the detail step draws a tile, its copy replaces that of the occlusion step, and the
-        // objects in the replaced copy are lost.
+        // When the detail step draws a tile, its copy replaces the tile in the copy of the
+        // occlusion step, and the objects in the replaced tile are lost.
         const bool apart = options.engines.detail != options.engines.occlusion;
         const WorkPlan::Redraw redrawn = objects->redraw();
         plan.drawnOver(objects->staleTiles(), apart && redrawn == WorkPlan::Redraw::WithThem

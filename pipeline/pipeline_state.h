@@ -75,8 +75,8 @@ struct Pipeline::State {
     /// Must be called before a new still is stored. The newest still becomes the second still
     /// unless keepsOlder() prefers the older one.
     void retireNewest();
-    /// Matches the second still in the tiles that the newest still does not show. Returns null
-    /// without such tiles. Must be called after matchStill().
+    /// Matches the second still in the tiles that the newest still does not show. Returns null if
+    /// there are no such tiles. Must be called after matchStill().
     const CellWeights* matchSecond(const VideoFrame& frame, const TileWork& work);
     /// Decides if depth is measured, and copies the necessary flow results. A copy after drawing
     /// would wait until the GPU has drawn the frame. `alongLines` is the flow if it was searched

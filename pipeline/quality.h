@@ -4,8 +4,9 @@
 
 namespace mfar {
 
-/// Off: the video is only enlarged. Blend is the paper's method: the warped still is blended in by
-/// confidence. Detail: the still's fine detail is added where the video confirms it.
+/// Use of the still. Off: the video is only enlarged. Blend (the paper's method): the warped still
+/// is blended in by confidence. Detail: the still's fine detail is added where the video confirms
+/// it.
 enum class SuperResMode {
     Off,
     Blend,
@@ -16,8 +17,8 @@ enum class SuperResMode {
 /// them between frames costs no time.
 struct Quality {
     SuperResMode mode = SuperResMode::Detail;
-    /// True: Keys' cubic enlarges the video. False: it is enlarged linearly from half the samples,
-    /// which is only possible in mode Off.
+    /// True: the video is enlarged with Keys' cubic (4x4 pixels). False: with bilinear
+    /// interpolation (2x2 pixels), which is faster. False has an effect only in mode Off.
     bool cubic = true;
     /// True: learned filters enlarge the video in mode Detail.
     bool learned = true;
@@ -29,11 +30,12 @@ struct Quality {
     Flow2dOptions flow2d{};
     EpipolarOptions epipolar{};
     /// Largest share of a frame's tiles that are matched with the still, (0, 1]. If more tiles have
-    /// structure, those with the least are only enlarged. It has no effect in mode Blend.
+    /// structure, the tiles with the least structure are only enlarged. Without effect in mode
+    /// Blend.
     double detailShare = 1;
     /// Largest share of a frame's tiles that are matched with a second, older still because the
-    /// newest does not show them, [0, 1]. 0: there is no second still. A second still is used only
-    /// if learned filters enlarge tiles.
+    /// newest still does not show them, [0, 1]. 0: there is no second still. A second still is used
+    /// only if learned filters enlarge tiles.
     double secondShare = 0.25;
     /// Real depth is measured in every n-th frame, n in [1, 60]. Frames between get the last depth,
     /// moved to their poses.

@@ -27,8 +27,8 @@ struct Reference {
 
     void take(const ImageView& picture, Timestamp taken, SuperResMode mode, const StillTone& tone);
     void drop();
-    /// Updates `shows` after a frame: `shown` of the `tiles` matched tiles were visible in the
-    /// still.
+    /// Updates `shows` after a frame: `tiles` is the number of tiles matched with the still,
+    /// `shown` the number of those that the still shows.
     void count(int tiles, int shown);
     void keepFirst();
     /// Mean change of the cells' flow since the first frame matched with the still [video px]. 0 if
@@ -36,10 +36,10 @@ struct Reference {
     [[nodiscard]] double moved() const;
 };
 
-/// Decides which of two stills becomes the second one when a third still arrives: true for `older`,
-/// false for `newest`. The still that has shown the larger share of its matched tiles is preferred.
-/// The older still is also preferred if the camera has hardly moved since the newest: a still from
-/// the same position as the new one misses the same areas.
+/// Decides which of two stills becomes the second still when a third one arrives. True: `older`;
+/// false: `newest`. The still that has shown the larger share of its matched tiles is preferred.
+/// `older` is also preferred if the camera has hardly moved since `newest`: then `newest` misses
+/// the same areas as the third still.
 [[nodiscard]] bool keepsOlder(const Reference& older, const Reference& newest);
 
 }  // namespace mfar

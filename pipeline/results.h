@@ -14,7 +14,7 @@ namespace mfar {
 /// the second frame.
 struct FrameStats {
     std::array<int, kTileClasses> tiles{};
-    double meanConfidence = 0;  ///< mean of eq. 2 over the frame, [0, 1]
+    double meanConfidence = 0;  ///< mean of the confidence (eq. 2 of the paper), [0, 1]
     double explained = 0;       ///< share of tiles that are flat or match a still, [0, 1]
     /// Share of tiles whose video differs from the video of their last drawing.
     double changed = 0;
@@ -30,9 +30,9 @@ struct FrameStats {
     /// pose is wrong. They were searched in both dimensions. It is 0 without poses, when all
     /// changed tiles are searched in both dimensions.
     int searched2d = 0;
-    /// matchedSecond: number of tiles matched with a second still because the newest does not show
-    /// them. showSecond: number of tiles that show some of the second still, including neighbours
-    /// of matched tiles.
+    /// matchedSecond: number of tiles matched with a second still because the newest still does not
+    /// show them. showSecond: number of tiles that show some of the second still, including
+    /// neighbours of matched tiles.
     int matchedSecond = 0, showSecond = 0;
     /// Number of tiles in which real depth was measured, because a virtual object may be occluded
     /// there.

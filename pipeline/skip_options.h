@@ -2,10 +2,10 @@
 
 namespace mfar {
 
-/// Each option lets frames skip work whose result would not be visible. Benchmarks turn one off to
-/// measure the time that it saves and the error that it adds. Other such options are
-/// PipelineOptions::skipUnchanged and depthEverywhere, EpipolarOptions::mostPredicted,
-/// KeyframeOptions and DepthOptions.
+/// If an option is true, frames skip work whose result would not be visible, as its comment says.
+/// Benchmarks turn one option off to measure the time that it saves and the error that it adds.
+/// Other such options are PipelineOptions::skipUnchanged and depthEverywhere,
+/// EpipolarOptions::mostPredicted, KeyframeOptions and DepthOptions.
 struct SkipOptions {
     bool upscaledTiles = true;  ///< a tile to which the still adds nothing is only enlarged
     bool smoothTiles = true;    ///< a tile without structure is not matched but only enlarged

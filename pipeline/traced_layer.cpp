@@ -43,7 +43,7 @@ struct TracedLayer::State {
     int fadeFrames;
     std::shared_ptr<const Scene> scene;
     Timestamp time;
-    // Only used to compare its address with the next picture's.
+    // Address of the shown picture. It is only compared with the address of the next picture.
     const RenderedPicture* shown = nullptr;
     // Number of frames in which the layer still changes without motion of the camera.
     int changing = 0;

@@ -7,8 +7,8 @@
 namespace mfar {
 namespace {
 
-// Largest radius of the rim, as a multiple of the radius of the picture's corners. It is large
-// enough that the projection beyond the rim distorts no visible part.
+// Upper limit of LensProjection::rim, as a multiple of the radius of the picture's corners. It is
+// so large that the changed projection beyond the rim affects no visible pixel.
 constexpr double kBeyondPicture = 2;
 
 }  // namespace

@@ -6,9 +6,9 @@ namespace mfar {
 
 /// A camera's projection that is defined for all points in space, so that projected triangles can
 /// be clipped. For rays inside a certain radius (the rim), it equals CameraModel::project. Beyond
-/// the rim, the lens model may fold points back into the picture. There, the pixel's distance from
-/// the centre therefore grows linearly with the ray's radius. lens_projection.glsl implements the
-/// same projection.
+/// the rim, the lens model could fold points back into the picture. So beyond the rim, the pixel's
+/// distance from the centre grows linearly with the ray's radius. lens_projection.glsl implements
+/// the same projection.
 struct LensProjection {
     static constexpr double kNear = 0.01;  ///< z of the near plane [m]
 

@@ -33,8 +33,8 @@ public:
 
     /// Returns the extents of all triangles that lie at least partly beyond the near plane, also
     /// outside the picture. The depth ranges allow for a GPU that rounds corners to 1/256 px.
-    /// Returns none if pose or size is not finite or exceeds 100 km, or if a size is negative. The
-    /// result is valid until the next call.
+    /// Returns no extents if pose or size is not finite or exceeds 100 km, or if a size is
+    /// negative. The result is valid until the next call.
     const std::vector<SurfaceExtent>& operator()(const VirtualObject& object,
                                                  const RigidTransform& T_world_video);
 

@@ -31,7 +31,7 @@ struct alignas(16) Colour {
 };
 
 struct alignas(16) PreviewObject {
-    /// targetWidth and targetHeight are in pixels, other lengths in metres.
+    /// `targetWidth` and `targetHeight` are in pixels. All other lengths are in metres.
     Transform object;
     Projection projection;
     Colour colours[2];

@@ -48,7 +48,9 @@ private:
 
     CatcherRule rule_;
     Scene scene_;
-    std::vector<GroundPlane> planes_;  // the first one has the bounds of all objects
+    // As groundPlanes() returns them: first the plane of the tag map, whose bounds contain all
+    // objects.
+    std::vector<GroundPlane> planes_;
     int frames_ = 0;
     std::optional<Timestamp> caught_;
     Eigen::Vector3d caughtFrom_{0, 0, 0};

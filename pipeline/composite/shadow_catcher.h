@@ -15,8 +15,8 @@ namespace mfar {
 inline constexpr double kShadowReach = 1;
 
 /// Returns the part of the tag map's plane (z = 0 in the world) below and around the objects'
-/// bounding box. Empty if all objects are below the plane, or so far above it that no shadow is
-/// expected on it (`reach`, in half diagonals of the box).
+/// bounding box. It extends by `reach` half diagonals of the box. Empty if all objects are below
+/// the plane, or farther than this distance above it.
 [[nodiscard]] ShadowCatcher planeCatcher(const Eigen::AlignedBox3d& objects,
                                          double reach = kShadowReach);
 
@@ -24,11 +24,11 @@ inline constexpr double kShadowReach = 1;
 struct GroundPlane {
     RigidTransform T_world_plane;
     Eigen::AlignedBox3d objects;  ///< bounds, in the plane's frame, of the objects that shade it
-    double reach = kShadowReach;  ///< in half diagonals of the bounds
+    double reach = kShadowReach;  ///< see planeCatcher() [half diagonals of `objects`]
 };
 
-/// Returns the planes that objects are expected to shade. The first is that of the tag map, which
-/// all objects may shade. Each other is the ground of the objects that stand on it
+/// Returns the planes that objects are expected to shade. The first plane is that of the tag map;
+/// it belongs to all objects. Each other plane is the ground of the objects that stand on it
 /// (SceneObject::T_world_ground). Grounds that hardly differ around the objects count as one plane.
 [[nodiscard]] std::vector<GroundPlane> groundPlanes(const Scene& scene);
 
@@ -38,8 +38,8 @@ struct GroundPlane {
 /// Returns the measured surface of the real scene around the objects. Its vertices are video pixels
 /// of `where` with known depth, a few pixels apart. Four neighbours are joined by two triangles
 /// unless depth jumps between them. Vertices that cannot be distinguished from one of the planes
-/// are moved onto it. The bounds in the first of the planes, that of the tag map, are those of all
-/// objects.
+/// are moved onto it. planes[0] must be the plane of the tag map with the bounds of all objects, as
+/// groundPlanes() returns it.
 [[nodiscard]] ShadowCatcher depthCatcher(const InverseDepthField& field, const CameraModel& video,
                                          const RigidTransform& T_world_video,
                                          const PixelRect& where,

@@ -8,8 +8,9 @@
 namespace mfar {
 namespace {
 
-// Added to the margin [px]. It covers the size of a pixel, and the distance of straight triangle
-// edges from the curved outlines of a sphere or of a picture with lens distortion.
+// Length added to the margin [px]. It allows for the size of a pixel, and for the distance of
+// straight triangle edges from the curved outlines of a sphere or of a picture with lens
+// distortion.
 constexpr double kSlack = 1;
 
 }  // namespace

@@ -15,8 +15,8 @@ struct SurfaceRange {
 };
 
 /// Finds the tiles of the video that contain virtual objects and the range of their z, on the CPU.
-/// The result is conservative: it may contain too many tiles and too wide ranges, never too few
-/// tiles or too narrow ranges. Only the constructor allocates memory.
+/// The result can contain too many tiles and too wide ranges, but never too few tiles or too narrow
+/// ranges. Only the constructor allocates memory.
 class Silhouette {
 public:
     /// The range of a tile includes all surfaces within `margin` [video px] of its pixels.

@@ -39,8 +39,8 @@ struct ShapeMesh {
     std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
-/// Each side has kShapeSegments^2 cells of two triangles. Even if the side fills the picture of a
-/// lens with k1 = -0.3, its edges deviate from the exact curves by at most 0.25 px (of 2304).
+/// Each side has kShapeSegments^2 cells of two triangles. Even if the side fills a picture of 2304
+/// px width and the lens has k1 = -0.3, its edges deviate from the exact curves by at most 0.25 px.
 inline constexpr int kShapeSegments = 24;
 [[nodiscard]] ShapeMesh shapeMesh(VirtualShape shape);
 

@@ -36,8 +36,8 @@ PixelRect tilesOf(const PixelRect& pixels, Size layer, Size video) {
             static_cast<int>(std::ceil(tile(pixels.y1 + 1, layer.height, video.height)))};
 }
 
-/// Result of a test of the real surface at a pixel. Finding: the surface has the property that the
-/// test looks for. Other: it does not.
+/// Result of a test of the real surface at a pixel. Unknown: its depth is not known. Finding: the
+/// surface has the property that the test looks for. Other: it does not have this property.
 enum class Surface { Unknown, Finding, Other };
 
 struct TileBounds {
@@ -61,15 +61,15 @@ bool holdsMore(const TileBounds& most, const PixelRect& tile, Size video, const 
 
 }  // namespace
 
-VirtualView::VirtualView(const CameraModel& video, Size output, Engine& occludes)
+VirtualView::VirtualView(const CameraModel& video, Size output, Engine& engine)
     : video_(video.size), silhouette_(video, kMargin), catcherSilhouette_(video, kMargin),
       preview_(std::make_unique<PreviewRenderer>(video, output)),
-      occlusion_(occludes.occlusion(output)), focal_(std::max(video.fx, video.fy)) {}
+      occlusion_(engine.occlusion(output)), focal_(std::max(video.fx, video.fy)) {}
 
-VirtualView::VirtualView(const CameraModel& video, Engine& occludes, TracedLayerOptions options)
+VirtualView::VirtualView(const CameraModel& video, Engine& engine, TracedLayerOptions options)
     : video_(video.size), silhouette_(video, kMargin), catcherSilhouette_(video, kMargin),
-      traced_(std::make_unique<TracedLayer>(video, occludes, options)),
-      occlusion_(occludes.occlusion(options.size)), focal_(std::max(video.fx, video.fy)) {}
+      traced_(std::make_unique<TracedLayer>(video, engine, options)),
+      occlusion_(engine.occlusion(options.size)), focal_(std::max(video.fx, video.fy)) {}
 
 void VirtualView::setScene(std::shared_ptr<const Scene> scene) {
     // Exchanging one scene for another does not set changed_: the new scene only becomes visible

@@ -22,11 +22,11 @@ namespace mfar {
 /// picture.
 class VirtualView {
 public:
-    /// Creates a view whose objects PreviewRenderer draws. `occludes` must outlive this object.
-    VirtualView(const CameraModel& video, Size output, Engine& occludes);
-    /// Creates a view whose objects the path tracer draws. `occludes` must outlive this object.
+    /// Creates a view whose objects PreviewRenderer draws. `engine` must outlive this object.
+    VirtualView(const CameraModel& video, Size output, Engine& engine);
+    /// Creates a view whose objects the path tracer draws. `engine` must outlive this object.
     /// Throws the same exceptions as TracedLayer.
-    VirtualView(const CameraModel& video, Engine& occludes, TracedLayerOptions options);
+    VirtualView(const CameraModel& video, Engine& engine, TracedLayerOptions options);
 
     void setObjects(std::vector<VirtualObject> objects);
     void setSkips(const SkipOptions& skips) { skips_ = skips; }
@@ -45,10 +45,10 @@ public:
     [[nodiscard]] const PixelRect& region() const { return region_; }
     /// True if the real scene completely hides all placed objects. Shadows are ignored.
     [[nodiscard]] bool isHidden() const { return hidden_; }
-    /// Returns which change of the video causes the objects to be drawn again. Always: no change is
-    /// necessary, because objects changed, appeared or disappeared (or SkipOptions::objectsAtRest
-    /// is off). WithOthers: a change anywhere, because the camera has moved. WithThem: a change
-    /// near the objects.
+    /// Returns the reason for which the objects are drawn again. Always: even if no tile of the
+    /// video changed, because objects changed, appeared or disappeared (or
+    /// SkipOptions::objectsAtRest is off). WithOthers: if any tile changed, because the camera has
+    /// moved. WithThem: if a tile near the objects changed.
     [[nodiscard]] WorkPlan::Redraw redraw() const;
     /// Tiles of the video that must be drawn again before draw().
     [[nodiscard]] PixelRect staleTiles() const;

@@ -19,8 +19,8 @@ constexpr double kDrift = 0.02;
 // Upper limit of the time since the points were last moved that counts as camera motion [s]. If
 // more time has passed, the camera must have rested meanwhile.
 constexpr double kMostMoving = 0.2;
-// Points are moved only after a motion of the picture by at least this [px], because each move
-// rounds them to pixels.
+// Points are moved only when the picture has moved by at least this distance [px], because each
+// move rounds their positions to pixels.
 constexpr float kLeastMotion = 0.25F;
 // Smallest fused variance, as a fraction of the variance of one measurement. Averaging cannot
 // reduce it further, because measurements with the same still share errors.

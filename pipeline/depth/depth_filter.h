@@ -28,7 +28,7 @@ public:
 
     void forget();
     /// Moves the known depths to a camera at this pose, `seconds` after the last call. If several
-    /// surfaces land on a pixel, the nearest is kept (z-test). The variance grows with the duration
+    /// points move to one pixel, the nearest is kept (z-test). The variance grows with the duration
     /// of the motion. Invisibly small motions are summed up first, so that a camera at rest loses
     /// no depth. An invalid pose (soundMotion()) discards all depths.
     void predict(const RigidTransform& T_world_video, double seconds);

@@ -11,10 +11,10 @@ namespace {
 // Standard deviation of a match along its epipolar line [px], measured with ground truth in smooth
 // areas.
 constexpr float kMatchError = 0.3F;
-// Two points that land on the same pixel count as one slanted surface if their displacements [px]
-// differ by at most this.
+// Two points that the other picture shows at the same pixel count as one slanted surface if their
+// displacements [px] differ by at most this.
 constexpr float kSlope = 1.5F;
-// Largest difference [px] between the match of a cell and that of a pixel on the same surface.
+// A cell and a pixel in it show the same surface if their matches differ by at most this [px].
 constexpr double kSameSurface = 0.5;
 constexpr float kLeastDepth = 0.05F;
 constexpr float kNothing = -1e9F;
@@ -74,7 +74,8 @@ void DepthMeasurement::land(const EpipolarSearch& search, const Eigen::Matrix3f&
     findNearest(where);
 }
 
-// Each thread processes the points that land in one part of the other picture.
+// Fills nearest_. The other picture is divided into parts, one for each thread, so that no two
+// threads write to the same pixel.
 void DepthMeasurement::findNearest(const PixelRect& where) {
     const auto [width, height] = lens_.size();
     const int parts = std::min(workers_->count(), height);

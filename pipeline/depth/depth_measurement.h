@@ -14,8 +14,8 @@
 namespace mfar {
 
 /// Measures the inverse depth of the scene and its variance from one epipolar search. The standard
-/// deviation of inverse depth is that of a match [px], divided by the match's displacement per unit
-/// of inverse depth [px].
+/// deviation of inverse depth is the standard deviation of a match [px], divided by the
+/// displacement of the match per unit of inverse depth [px].
 class DepthMeasurement {
 public:
     DepthMeasurement(const CameraModel& video, std::shared_ptr<Workers> workers)
@@ -42,9 +42,10 @@ private:
     EpipolarLens lens_;
     float focal_;
     std::shared_ptr<Workers> workers_;
-    // Per pixel: index of the other picture's pixel that shows its point, or -1.
+    // For each pixel: index of the pixel of the other picture that shows the same point, or -1.
     std::vector<std::int32_t> landing_;
-    // nearest_: per pixel of the other picture, s of the nearest point that lands there.
+    // s_: s of each pixel. nearest_: for each pixel of the other picture, the largest s of the
+    // points at this pixel, which belongs to the nearest point.
     std::vector<float> s_, nearest_;
 };
 

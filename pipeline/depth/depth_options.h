@@ -29,16 +29,16 @@ struct KeyframeOptions {
 struct DepthOptions {
     KeyframeOptions keyframes{};
     EpipolarOptions search{};
-    /// A keyframe is not used where the relative standard deviation of the known inverse depth is
-    /// at most this, [0.001, 1].
+    /// A keyframe is not used for a part of the picture if the relative standard deviation of the
+    /// known inverse depth is at most this, [0.001, 1].
     double enough = 0.01;
 };
 
-/// Source of a frame's depth: none, only earlier frames (Carried), or a match with the still, with
-/// a keyframe, or with both.
+/// Source of a frame's depth. None: no depth. Carried: only the depth of earlier frames. Otherwise,
+/// a match with the still, with a keyframe, or with both.
 enum class DepthSource { None, Carried, Still, Keyframe, Both };
 
-/// Throw std::invalid_argument that names the first option that is out of range.
+/// Both functions throw std::invalid_argument that names the first option that is out of range.
 void validate(const KeyframeOptions& options);
 void validate(const DepthOptions& options);
 

@@ -18,7 +18,8 @@ constexpr double kNearest = 0.01;  // smallest distance that is assumed for the 
 // Depth is measured with a keyframe only if its parallax exceeds this multiple of the still's
 // parallax.
 constexpr double kWorth = 2;
-// Largest relative error of the baseline. Depth has the same relative error.
+// Depth is measured only if the relative error of the baseline is below this limit, because depth
+// has the same relative error.
 constexpr double kMostLengthError = 0.15;
 // A search starts from the known depths if at least this share of the pixels has a known depth.
 constexpr double kMostlyKnown = 0.97;

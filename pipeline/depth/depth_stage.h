@@ -47,7 +47,7 @@ public:
 private:
     struct Summary {
         double inverseDepth = 0;
-        /// median of the relative standard deviations of inverse depth, or 1 if no depth is known
+        /// Median of the relative standard deviations of inverse depth, or 1 if no depth is known.
         double share = 1;
     };
     struct Need {

@@ -17,7 +17,7 @@ struct InverseDepthField {
     /// 1 / z along the video camera's axis [1/m]. 0 is infinitely far.
     std::vector<float> inverseDepth;
     std::vector<float> variance;  ///< variance of the inverse depth [1/m^2], or kUnknown
-    /// 1 if the depth is derived from nearby pixels instead of measured
+    /// 1 if the depth comes from nearby pixels, 0 if it was measured.
     std::vector<std::uint8_t> filled;
 
     InverseDepthField() = default;

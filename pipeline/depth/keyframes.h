@@ -26,7 +26,7 @@ public:
 
     void forget();
     /// Stores a frame if the camera has moved noticeably since the newest keyframe. `inverseDepth`
-    /// is that of a typical point of the scene [1/m]. `brightness` is the mean luma.
+    /// is the inverse depth of a typical point of the scene [1/m]. `brightness` is the mean luma.
     void add(const Rows<const std::uint8_t>& luma, const Pose& pose, double brightness,
              double inverseDepth);
 

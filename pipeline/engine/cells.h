@@ -4,18 +4,21 @@
 
 namespace mfar {
 
-// Fields with one entry per cell, as both engines store them. A GPU reads the four floats of an
-// entry as one vec4. `confidence` is eq. 2 of the paper, in [0, 1].
+// Entries of arrays with one entry per cell, as both engines store them. A GPU reads the four
+// floats of an entry as one vec4. `confidence` is eq. 2 of the paper, in [0, 1].
 
 struct FlowCell {
-    float x = 0, y = 0;  ///< points from pixel p to p + flow [px of the field's pyramid level]
-    float cost = 0;      ///< 0: equal up to gain and offset; 1: unrelated patches; 2: inverted
+    /// The flow: pixel p is seen at p + (x, y) in the other picture [px of the pyramid level].
+    float x = 0, y = 0;
+    /// 0: patches equal up to gain and offset; 1: unrelated patches; 2: one is the other's
+    /// negative.
+    float cost = 0;
     /// Sum of the squared deviations from the mean in the 8x8 patch around the cell [grey
     /// levels^2].
     float texture = 0;
 };
 
-/// Two-way error [px] (eq. 2 of the paper), determined by the epipolar search.
+/// Two-way error of a cell's flow [px] (eq. 2 of the paper), determined by the epipolar search.
 struct ErrorCell {
     float error = 0;
     float unused[3] = {};
@@ -27,15 +30,16 @@ struct WeighedCell {
     float confidence = 0;
 };
 
-/// Offset and weight with which output pixels in the cell read the still.
+/// Offset and weight with which the output pixels of a cell read the still.
 struct LookUpCell {
-    /// End of the flow vector in the still, minus the cell's centre scaled to the still [still px].
+    /// Position in the still at which the cell's flow vector ends, minus the cell's centre times
+    /// (still pixels per video pixel) [still px].
     float x = 0, y = 0;
     float weight = 0;
     float confidence = 0;
 };
 
-/// Values in [0, 1] that determine the sharpening and the classes of tiles.
+/// Values in [0, 1] that determine the strength of the sharpening and the classes of tiles.
 struct TrustCell {
     float halfWeight = 0;
     float confidence = 0;

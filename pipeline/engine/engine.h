@@ -29,8 +29,8 @@ struct EngineChoice {
     [[nodiscard]] static EngineChoice all(EngineKind kind) {
         return {kind, kind, kind, kind, kind, kind};
     }
-    /// Returns the engine that the environment variable MFAR_ENGINE names ("simd", or "gles" by
-    /// default), for all steps. For benchmarks and tests that do not choose an engine.
+    /// Returns the same engine for all steps: Simd if the environment variable MFAR_ENGINE is
+    /// "simd", otherwise Gles. Used by benchmarks and tests that do not choose an engine.
     [[nodiscard]] static EngineChoice fromEnvironment();
     [[nodiscard]] bool uses(EngineKind kind) const {
         return still == kind || pyramid == kind || flow == kind || weigh == kind ||
@@ -57,8 +57,8 @@ public:
     [[nodiscard]] virtual std::unique_ptr<WeighStep> weigh() = 0;
     [[nodiscard]] virtual std::unique_ptr<DetailStep> detail() = 0;
     [[nodiscard]] virtual std::unique_ptr<OcclusionStep> occlusion(Size layer) = 0;
-    /// `layer` is the video camera at the resolution of the virtual layer. The created step draws
-    /// into memory that the step created by occlusion() reads directly. Throws
+    /// `layer` is the video camera at the resolution of the virtual layer. The result of the warp
+    /// step is where the engine's occlusion step reads it without a copy. Throws
     /// std::invalid_argument if an option is out of range.
     [[nodiscard]] virtual std::unique_ptr<WarpStep> warp(const CameraModel& layer,
                                                          const WarpOptions& options) = 0;
@@ -66,20 +66,21 @@ public:
     /// Prepares a new still for the weigh and detail steps, so that they allocate nothing while
     /// they process frames.
     virtual void take(const StillPictures&) {}
-    /// Submits all requested work to the GPU.
+    /// Submits all work of the steps to the GPU, without waiting.
     virtual void flush() {}
-    /// Waits until the GPU has done all work; for benchmarks.
+    /// Waits until the GPU has finished all work. Used by benchmarks.
     virtual void finish() {}
     /// Waits until the steps no longer read the memory of the current video frame.
     virtual void finishReading() {}
     /// Sets the importer that lets the engine read camera memory without a copy. It must outlive
     /// the engine. Null: all pictures are uploaded.
     virtual void setImporter(PlaneImporter*) {}
-    /// Returns the reason of a failed import of camera memory, once for each failure.
+    /// Returns the reason if an import of camera memory has failed since the last call, otherwise
+    /// nullopt.
     [[nodiscard]] virtual std::optional<std::string> takeImportFault() { return std::nullopt; }
 };
 
-/// The engine needs a current GL context for its whole lifetime. Throws GlError.
+/// The returned engine needs a current GL context for its whole lifetime. Throws GlError.
 [[nodiscard]] std::unique_ptr<Engine> makeGlesEngine(const StepSetup& setup);
 [[nodiscard]] std::unique_ptr<Engine> makeSimdEngine(const StepSetup& setup);
 

@@ -9,7 +9,7 @@
 
 namespace mfar {
 
-/// Numbers of bytes copied between CPU memory (host) and GPU. They only increase.
+/// Total numbers of bytes that were copied from CPU memory (host) to the GPU and back.
 struct Transfers {
     std::uint64_t uploadedBytes = 0, downloadedBytes = 0;
 };
@@ -23,14 +23,13 @@ public:
     virtual ~DeviceCopy() = default;
 
     virtual void upload(const void* data, std::ptrdiff_t pitch) = 0;
-    /// Reads all rows. Waits for the GPU.
+    /// Copies all rows to `data`. Waits for the GPU.
     virtual void download(void* data, std::ptrdiff_t pitch) = 0;
 };
 
-/// The result of a step: rows of T in CPU memory (host), on the GPU or in both. The step reports
-/// where it wrote the rows. They are copied only when a reader calls host() or device() and the
-/// copy does not exist. The written memory belongs to the step, the memory of the copy to the
-/// field.
+/// The result of a step: rows of T in CPU memory (host), on the GPU or in both. The step owns the
+/// rows that it writes, and reports where they are. host() and device() copy them to the other side
+/// if necessary. The field owns these copies.
 template <class T>
 class Field {
 public:
@@ -71,7 +70,8 @@ public:
     [[nodiscard]] bool isOnDevice() const { return device_ != nullptr; }
     [[nodiscard]] bool isEmpty() const { return !isOnHost() && !isOnDevice(); }
 
-    /// Returns the rows in CPU memory. Downloads them if necessary and then waits for the GPU.
+    /// Returns the rows in CPU memory. If they are only on the GPU, downloads them and waits for
+    /// the GPU. Returns rows without data if nothing was written yet.
     [[nodiscard]] Rows<const T> host() const {
         if (!isOnHost() && isOnDevice()) {
             if (downloaded_.size() != size_) downloaded_ = AlignedRows<T>(size_);
@@ -82,8 +82,8 @@ public:
         }
         return host_;
     }
-    /// Returns the rows in CPU memory for drawing. The copy on the GPU becomes invalid. Requires
-    /// that the last rows were reported as non-const or on the GPU.
+    /// Returns the rows in CPU memory, to be changed by the caller. The copy on the GPU becomes
+    /// invalid. Requires that the last rows were reported as Rows<T> or on the GPU.
     [[nodiscard]] Rows<T> edit() {
         (void)host();
         device_ = nullptr;
@@ -108,7 +108,7 @@ public:
 private:
     Size size_;
     Transfers* transfers_;
-    // Mutable, because reading may copy the rows without changing their values.
+    // Mutable, because host() and device() are const but store copies.
     mutable Rows<const T> host_;
     mutable Rows<T> editable_;
     mutable DeviceCopy* device_ = nullptr;

@@ -27,7 +27,7 @@ void validate(const CompositeOptions& options) {
 PixelRect layerInOutput(const PixelRect& layerPixels, Size layer, Size output) {
     const PixelRect all{0, 0, output.width, output.height};
     if (layerPixels.empty() || layer == output) return common(layerPixels, all);
-    // Linear interpolation spreads a pixel of the layer by one pixel.
+    // Linear interpolation spreads each pixel of the layer to its neighbours.
     const auto to = [](int pixel, int from, int size) {
         return static_cast<double>(pixel) * size / from;
     };

@@ -22,8 +22,8 @@ struct CompositeOptions {
     /// weight for equal colours.
     double likeness = 12;
 
-    /// True if a real surface with this inverse depth and sigma [1/m] completely hides a virtual
-    /// surface at inverse depth `inverse` [1/m].
+    /// True if a real surface with inverse depth `inverseDepth` and its standard deviation `sigma`
+    /// [1/m] certainly hides a virtual surface at inverse depth `inverse` [1/m] completely.
     [[nodiscard]] bool hides(double inverseDepth, double sigma, double inverse) const {
         const double sigmas = bias + softness;
         return inverseDepth - sigmas * sigma >= inverse * (1 + sigmas * virtualSigma);
@@ -33,7 +33,8 @@ struct CompositeOptions {
 /// Throws std::invalid_argument if an option is not finite or out of range.
 void validate(const CompositeOptions& options);
 
-/// Returns the output pixels that depend on the pixels `layerPixels` of a virtual layer.
+/// Returns a rectangle with all output pixels that depend on the pixels `layerPixels` of a virtual
+/// layer. `layer` and `output` are the pictures' sizes.
 [[nodiscard]] PixelRect layerInOutput(const PixelRect& layerPixels, Size layer, Size output);
 
 }  // namespace mfar

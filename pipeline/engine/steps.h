@@ -19,8 +19,8 @@
 #include <string>
 #include <vector>
 
-// The steps of a frame. Both engines implement them. Only the constructor of a step allocates
-// memory. The result of run() is valid until the next run() of the same step.
+// Interfaces of the steps that process a frame. Both engines implement them. Steps allocate memory
+// only in their constructors. The result of run() is valid until the next run() of the same step.
 
 namespace mfar {
 
@@ -54,8 +54,8 @@ struct LumaPyramid {
 };
 
 /// Flow between video and still. All cells are in one row: first the forward field (from video to
-/// still), then the backward field. If `errorsGiven`, the forward field is followed by its two-way
-/// errors (ErrorCell) instead.
+/// still), then the backward field. If `errorsGiven` is true, the two-way errors of the forward
+/// field (ErrorCell) replace the backward field.
 struct FlowCells {
     Field<FlowCell> cells;
     Size forward, backward;
@@ -79,7 +79,8 @@ public:
     /// The still must be valid and have the still camera's size. `tone` is applied to its luma.
     virtual const StillPictures& run(const ImageView& still, SuperResMode mode,
                                      const StillTone& tone) = 0;
-    /// Prepares the fields that the new mode needs, from the still of the last run().
+    /// Prepares those members of StillPictures that the new mode needs, from the last run()'s
+    /// still.
     virtual void setMode(SuperResMode mode) = 0;
 };
 
@@ -99,20 +100,20 @@ public:
     /// Sets the options that can change between frames, see changed() in flow_options.h. Throws
     /// std::invalid_argument if an option is out of range.
     virtual void setOptions(const Flow2dOptions& options) = 0;
-    /// Searches the flow from video to still (forward) and back. With `usePrior`, the flow of the
-    /// last frame is a candidate for every cell.
+    /// Searches the flow from video to still (forward) and from still to video (backward). If
+    /// `usePrior` is true, the last frame's flow vectors are candidates in all cells.
     virtual const FlowCells& run(const LumaPyramid& luma, const TileWork& work, bool usePrior) = 0;
-    /// Refines `vectors`, the flow of all cells. It must be exact to within a pixel. The first
-    /// number of each entry of `errors` is the vector's two-way error [px]. Tiles in which the
-    /// vectors prove to be wrong are searched in both dimensions.
+    /// Refines the flow `vectors` of all cells, whose errors must be below a pixel. The first
+    /// number of each entry of `errors` is the cell's two-way error [px]. Tiles in which the
+    /// vectors do not fit the pictures are searched in two dimensions.
     virtual const FlowCells& refine(const LumaPyramid& luma, const TileWork& work, Cells vectors,
                                     Cells errors) = 0;
     /// Returns a flag for each tile, row-major: true if the last refine() searched the tile. Waits
     /// for the GPU if necessary.
     [[nodiscard]] virtual std::vector<bool> searchedTiles() const = 0;
     [[nodiscard]] virtual int searchedCount() const = 0;
-    /// Returns searchedCount() without waiting: for the last frame on a CPU, for the frame before
-    /// it on a GPU.
+    /// Returns a searchedCount() without waiting: that of the last frame (SIMD engine), or that of
+    /// the frame before it (GLES engine).
     [[nodiscard]] virtual int finishedSearchedCount() const { return searchedCount(); }
 };
 
@@ -121,8 +122,9 @@ public:
     virtual ~WeighStep() = default;
     virtual const CellWeights& run(const LumaPyramid& luma, const FlowCells& flow,
                                    const TileWork& work) = 0;
-    /// Lowers the weights of cells where the still shows less of the video's finest detail than
-    /// `match` expects, see params::kFineRoom. Must be called after run() for the same frame.
+    /// Lowers the weights of cells in which the still does not show the video's finest detail as
+    /// well as usual (`match`), see params::kFineRoom. Must be called after run() for the same
+    /// frame.
     virtual const CellWeights& confirm(const VideoFrame& frame, const StillPictures& still,
                                        const TileWork& work, const FineMatch& match) = 0;
 };
@@ -131,8 +133,8 @@ struct TileSummary {
     std::array<int, kTileClasses> tiles{};
     double meanConfidence = 0;
     double explained = 0;  ///< share of tiles that are flat or match a still, [0, 1]
-    double changed = 0;
-    int second = 0;
+    double changed = 0;    ///< share of tiles that changed, [0, 1]
+    int second = 0;        ///< number of tiles that show the second still
 };
 
 struct DetailOptions {
@@ -159,13 +161,13 @@ public:
     /// null, the video is only enlarged.
     virtual void draw(const VideoFrame& frame, const Matched* matched, const TileWork& work,
                       const DetailOptions& options) = 0;
-    /// The output picture: RGBA8, row 0 on top, alpha 255. Pixels that other code draws into it
-    /// remain until draw() redraws their tiles.
+    /// The output picture: RGBA8, row 0 on top, alpha 255. If other code changes its pixels, they
+    /// stay changed until draw() draws their tiles again.
     [[nodiscard]] virtual Field<std::uint32_t>& output() = 0;
     /// Summary of the last frame. Waits for the GPU if necessary.
     [[nodiscard]] virtual TileSummary summary() const = 0;
-    /// Returns a summary without waiting: of the last frame on a CPU, of the frame before it on a
-    /// GPU.
+    /// Returns a summary without waiting: that of the last frame (SIMD engine), or that of the
+    /// frame before it (GLES engine).
     [[nodiscard]] virtual TileSummary finishedSummary() const { return summary(); }
     [[nodiscard]] virtual std::vector<TileClass> classes() const = 0;
 };
@@ -183,8 +185,8 @@ struct LayerPicture {
 class OcclusionStep {
 public:
     virtual ~OcclusionStep() = default;
-    /// Draws the virtual objects over `picture`, except where the real scene hides them. `real` is
-    /// the depth of the real scene. It is unknown outside the rectangle `where` [video px].
+    /// Draws the virtual objects over `picture`, except where the real scene hides them. `real`:
+    /// depth of the real scene, which must be unknown outside the rectangle `where` [video px].
     virtual void draw(const LayerPicture& layer, const InverseDepthField& real,
                       const PixelRect& where, const VideoFrame& frame,
                       Field<std::uint32_t>& picture) = 0;

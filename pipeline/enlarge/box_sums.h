@@ -8,7 +8,8 @@
 
 namespace mfar::enlarge {
 
-/// Sums of a value over squares of pixels. Reading a sum takes the same time for all sizes.
+/// Sums of a value over squares of pixels. Reading a sum takes the same time for squares of all
+/// sizes.
 class BoxSums {
 public:
     template <class ValueAt>

@@ -16,7 +16,7 @@ namespace mfar::enlarge {
 using Taps = Eigen::Matrix<double, kTaps, 1>;
 /// True picture minus Keys' cubic enlargement at a pixel's sub-pixels, row-major [grey levels].
 using Phases = Eigen::Matrix<double, kPhases, 1>;
-/// Weights of a class's filter. Unlike those of FilterBank::Filter, they are not halved.
+/// Weights of a class's filter. They are not halved; the weights in FilterBank::Filter are.
 using ClassWeights = Eigen::Matrix<double, kTaps, kPhases>;
 
 /// The stored filter of a class, and the symmetry that maps the class's pixels onto this filter.
@@ -25,7 +25,8 @@ struct UniqueClass {
     int number;  ///< index of the stored filter, [0, kUnique)
     Symmetry same;
 };
-/// `number` must come from simd::classRow().
+/// Both functions return the stored filter of the class with this number. simd::classRow() computes
+/// the number.
 [[nodiscard]] UniqueClass uniqueByGradient(int number);
 [[nodiscard]] UniqueClass uniqueByCurvature(int number);
 
@@ -41,8 +42,8 @@ struct ClassSums {
     void add(const Taps& steps, const Phases& target);
     void add(const ClassSums& other);
     void fade(double share);
-    /// Adds the sums over the same pictures rotated by 180 degrees. This rotation changes no
-    /// pixel's class.
+    /// Returns the sums over the pictures together with the pictures rotated by 180 degrees. This
+    /// rotation changes no pixel's class.
     [[nodiscard]] ClassSums turnedToo() const;
     /// Returns the sum of squared errors of a filter with these weights.
     [[nodiscard]] double errorOf(const ClassWeights& weights) const;

@@ -18,10 +18,11 @@ using namespace enlarge;
 constexpr double kLeastPixels = 400;
 // A new still multiplies the sums of all older stills by this factor.
 constexpr double kForgetting = 0.95;
-// The shipped filter has the weight of this number of pixels.
+// Weight of the shipped filter in the least-squares fit [pixels].
 constexpr double kPriorPixels = 300;
 constexpr double kRidge = 20;  // added to the diagonal of the normal equations [grey levels^2]
-// With a smaller share of trusted pixels, matching has failed.
+// Lower limit of the share of trusted pixels of a still to learn from. Below it, matching has
+// failed.
 constexpr double kLeastTrusted = 0.05;
 // Lower limit of TrustedPairs::sharpness() of a still to learn from.
 constexpr double kLeastSharpness = 1.03;
@@ -99,7 +100,8 @@ EnlargerLearner::Outcome EnlargerLearner::addOlder(const MatchedPictures& truth,
     return changes ? Outcome::Replaced : Outcome::Kept;
 }
 
-// Guidance that was learned with another tone curve adds and removes wrong shares of detail.
+// Forgets guidance if the tone curve has changed: guidance that was learned with another tone curve
+// adds and removes wrong shares of detail.
 void EnlargerLearner::learnTone(const TrustedPairs& pairs, const StillTone& applied) {
     const StillTone before = tone_.tone();
     tone_.add(pairs.toneSums(), applied);

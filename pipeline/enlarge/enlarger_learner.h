@@ -44,9 +44,9 @@ public:
     /// learned.
     Outcome add(const MatchedPictures& pictures, const std::stop_token& stop = {});
     /// Learns the guidance (see enlarge::GuidanceLearner). `truth` is a frame matched with a new
-    /// still. `older` is the same frame matched with the older still that it was drawn with.
-    /// If `older` has no tone curve yet, the curve of new stills is applied to it. Refused if it
-    /// has another curve.
+    /// still. `older` is the same frame matched with the older still with which it was drawn.
+    /// If `older` has no tone curve yet, the curve of new stills is applied to it. Returns Refused
+    /// if `older` has a tone curve that differs from the curve of new stills.
     Outcome addOlder(const MatchedPictures& truth, MatchedPictures& older,
                      const std::stop_token& stop = {});
 

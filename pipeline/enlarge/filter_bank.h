@@ -50,8 +50,8 @@ struct FineMatch {
 /// FineMatch and StillTone learned from the same sensors. Immutable.
 class FilterBank {
 public:
-    /// Weights of a class's filter. They are halved, because the residuals of a pixel's two classes
-    /// are added. A halved weight of one is stored as 16384.
+    /// Weights of a class's filter. A weight w is stored as w * 16384 / 2. It is halved, because
+    /// the residuals of a pixel's two classes are added.
     using Filter = std::array<std::int16_t, enlarge::kFilterSize>;
 
     /// `unique` must contain kUnique filters, gradient classes first. Throws FilterBankError.
@@ -61,20 +61,20 @@ public:
     /// mfar-train-enlarger.
     [[nodiscard]] static const FilterBank& prior();
 
-    /// Differs for every bank, so that a copy of the filters can tell if it is up to date.
+    /// A number that is different for every bank. It tells if a copy of the filters is up to date.
     [[nodiscard]] std::uint64_t number() const { return number_; }
     [[nodiscard]] Rows<const std::int16_t> gradient() const { return gradient_.rows(); }
     [[nodiscard]] Rows<const std::int16_t> curvature() const { return curvature_.rows(); }
-    /// Zero for the shipped filters, because it depends on the noise and sharpness of both
-    /// sensors.
+    /// Guidance is zero for the shipped filters, because it must be learned for each pair of
+    /// sensors: it depends on their noise and sharpness.
     [[nodiscard]] const Guidance& guidance() const { return guidance_; }
-    /// Unknown for the shipped filters, because it depends on the noise and sharpness of both
-    /// sensors.
+    /// FineMatch is unknown for the shipped filters, because it must be learned for each pair of
+    /// sensors: it depends on their noise and sharpness.
     [[nodiscard]] const FineMatch& fineMatch() const { return fineMatch_; }
     /// The tone curve of the stills. The shipped filters leave stills as they are.
     [[nodiscard]] const StillTone& tone() const { return tone_; }
-    /// Keys' cubic minus the pixel itself, as a filter with the same taps and sub-pixels. Its
-    /// weights are not halved. A weight of one is stored as 16384.
+    /// Keys' cubic minus the pixel itself, as a filter with the same taps and sub-pixels. A weight
+    /// w is stored as w * 16384, not halved.
     [[nodiscard]] const std::int16_t* cubic() const { return cubic_[0]; }
 
 private:

@@ -73,9 +73,9 @@ struct CurvatureClasses {
     static constexpr int kCount = kAngles * kKinds;
 };
 
-/// Maps an angle bin to a bin with stored filters. The bins divide [-pi/2, pi/2) equally. Mirroring
-/// the picture and exchanging x and y maps one quadrant of twice the angle onto the other three.
-/// Therefore only the filters of one quadrant are stored.
+/// Maps an angle bin to a bin with stored filters. The bins divide [-pi/2, pi/2) equally. By
+/// mirroring the picture, exchanging x and y, or both, every bin becomes one of the first bins / 4
+/// bins. Therefore only the filters of these bins are stored.
 struct Symmetry {
     int unique;                ///< bin with the stored filter, in [0, bins / 4)
     bool mirrors, transposes;  ///< first mirror the picture upside down, then exchange x and y
@@ -87,7 +87,8 @@ struct Symmetry {
         const bool ascends = lower == left;
         return {ascends ? inHalf : bins / 2 - 1 - inHalf, lower, left};
     }
-    /// Maps the position `v`. The position (last / 2, last / 2) stays unchanged.
+    /// Maps a position in a square of (last + 1) x (last + 1) pixels. With last = 0, maps an offset
+    /// from a pixel, positive or negative.
     [[nodiscard]] constexpr Offset map(Offset v, int last = 0) const {
         const Offset mirrored{v.x, mirrors ? last - v.y : v.y};
         return transposes ? Offset{mirrored.y, mirrored.x} : mirrored;

@@ -96,8 +96,8 @@ double quantile(std::vector<double>& values, double share) {
     return *at;
 }
 
-/// Two variances per cell to learn from. `video` is the variance of the video's finest detail.
-/// `rest` is the part of it that the still does not predict.
+/// Two variances of each cell from which FineMatch is learned. `video` is the variance of the
+/// video's finest detail; `rest` is the part of `video` that the still does not predict.
 struct Unexplained {
     std::vector<double> video, rest;
 };

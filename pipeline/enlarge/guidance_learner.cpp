@@ -15,13 +15,13 @@ namespace {
 
 // A new pair of stills multiplies the sums over older pairs by this factor.
 constexpr double kForgetting = 0.95;
-// Zero guidance is the prior. It counts as much as this number of pixels.
+// Weight of zero guidance, the prior, in the least-squares fit [pixels].
 constexpr double kPriorPixels = 2000;
 constexpr double kLeastPixels = 0.02;
 // Guidance is used if it removes at least this share of the squared error.
 constexpr double kWorthwhile = 0.005;
-// New factors within this distance of those in use are ignored, because they would change pictures
-// without a gain.
+// New factors are ignored if both differ from the factors in use by at most this: they would change
+// pictures without a gain.
 constexpr float kSame = 0.01F;
 // Lower limit of the normal equations' determinant, divided by the product of their diagonal. Below
 // it, the two factors cannot be separated.
@@ -30,8 +30,8 @@ constexpr double kMostPairs = 1e15;  // a double represents counts below this ex
 // Pixels with a video luma outside these limits may be saturated [1/8 grey level].
 constexpr int kDarkest = 2 * kLumaScale, kBrightest = 253 * kLumaScale;
 
-/// Computes what still, video and learned filters each add to a frame's cubic enlargement, at one
-/// pixel's sub-pixels.
+/// Computes the additions of still, video and learned filters to the cubic enlargement of a frame,
+/// at the sub-pixels of one pixel.
 class DrawnFrame {
 public:
     DrawnFrame(const MatchedPictures& pictures, const FilterBank& filters,
@@ -79,7 +79,7 @@ public:
     }
     struct Added {
         Phases unguided;      ///< addition to the cubic enlargement without guidance
-        Phases still, video;  ///< change by each factor of Guidance if the factor is 1
+        Phases still, video;  ///< change by Guidance::still = 1, and by Guidance::video = 1
     };
     void addedTo(int x, int y, Added& out) const {
         const Phases low = cubicOf(x, y, [&](int i, int j) { return still_.mean(i, j); });
@@ -169,8 +169,8 @@ Guidance FactorSums::best(double prior) const {
     if (!(determinant > kLeastDeterminant * a2 * b2)) return {};
     const auto stillFor = [&](double video) { return (stillMissing - video * stillVideo) / a2; };
     const auto videoFor = [&](double still) { return (videoMissing - still * stillVideo) / b2; };
-    // Optimum without limits. If it is out of range, the best point on the border of the range is
-    // used.
+    // `free` is the optimum without limits. If it is out of range, the best point on the border of
+    // the range is used.
     const double free = (stillMissing * b2 - videoMissing * stillVideo) / determinant;
     double still = std::clamp(free, 0.0, 1.0);
     const double video = std::clamp(videoFor(still), 0.0, double(Guidance::kMost));
@@ -191,7 +191,8 @@ bool GuidanceLearner::add(const TrustedPairs& truth, const MatchedPictures& olde
             if (!truth.trusts(x, y) || !frame.knows(x, y) || isSaturated(older, x, y)) continue;
             frame.addedTo(x, y, added);
             const Phases missing = truth.target(x, y) - added.unguided;
-            // Every third tile is held out, in every picture the same tiles.
+            // One third of the tiles is held out: guidance is not learned from them, and its gain
+            // is measured only in them.
             FactorSums& to = (x / kTileSize + y / kTileSize) % 3 == 0 ? held : learn;
             to.add({added.still.squaredNorm(), added.video.squaredNorm(), missing.squaredNorm(),
                     added.still.dot(added.video), added.still.dot(missing),

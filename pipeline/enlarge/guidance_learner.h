@@ -11,10 +11,10 @@
 
 namespace mfar::enlarge {
 
-/// Sums of products for a least-squares fit of the two factors of Guidance. For each sub-pixel,
-/// `still` is the detail that the still would add. `video` is the change from removing the video's
-/// detail. `missing` is the detail that the drawn frame lacks. The fit approximates `missing` by a
-/// weighted sum of `still` and `video`.
+/// Sums over sub-pixels for a least-squares fit of the two factors of Guidance: squares and
+/// products of three values. `still` is the detail that the still would add. `video` is the change
+/// from removing the video's detail. `missing` is the detail that the drawn frame lacks. The fit
+/// approximates `missing` by a weighted sum of `still` and `video`.
 struct FactorSums {
     double still2 = 0, video2 = 0, missing2 = 0;
     double stillVideo = 0, stillMissing = 0, videoMissing = 0;
@@ -22,7 +22,7 @@ struct FactorSums {
 
     void add(const FactorSums& other);
     void fade(double share);
-    /// Returns how much guidance reduces the sum of squared errors.
+    /// Returns by how much the guidance `of` reduces the sum of squared errors.
     [[nodiscard]] double gainOf(const Guidance& of) const;
     /// Returns the factors with the largest gainOf(). The prior is zero guidance; it counts as much
     /// as `prior` pixels.
@@ -33,15 +33,15 @@ struct FactorSums {
 /// and a new still is its ground truth. The method is recursive least squares with forgetting; the
 /// prior is zero guidance. Guidance is not learned from held-out tiles. It is used as long as it
 /// brings these tiles closer to the new stills.
-/// The weight of the still's detail is not learned in this way. Warping removes a part of a still's
-/// finest detail, so the new still contains less detail than the scene. The learned weight would be
-/// too low by 0.25 to 0.35 (synthetic scenes). Guidance is too low for the same reason, which does
-/// no harm.
+/// Only Guidance is learned in this way, not LookUpCell::weight, the weight of the whole detail of
+/// a still. Warping removes a part of a still's finest detail, so the new still contains less
+/// detail than the scene. A learned weight would be too low by 0.25 to 0.35 (synthetic scenes).
+/// Guidance is too low for the same reason, which does no harm.
 class GuidanceLearner {
 public:
-    /// `truth` is the frame with the new still. `older` is the same frame with the older still that
-    /// it was drawn with. Returns false if too few pixels are trusted in both stills or `stop` was
-    /// requested.
+    /// Learns from a frame matched with two stills: with the new still (`truth`), and with the
+    /// older still with which it was drawn (`older`). Returns false if too few pixels are trusted
+    /// in both stills or `stop` was requested.
     bool add(const TrustedPairs& truth, const MatchedPictures& older, const FilterBank& filters,
              const std::stop_token& stop = {});
 

@@ -7,7 +7,7 @@
 namespace mfar::enlarge {
 namespace {
 
-constexpr double kLeastOfRange = 100;   // smallest number of pixels of a range that counts
+constexpr double kLeastOfRange = 100;   // ranges with fewer pixels are left out
 constexpr double kKeptPerStill = 0.25;  // with every new still, the sums over older stills are
                                         // multiplied by this factor
 // A tone curve is replaced if it is wrong by more than this in the mean [grey levels].
@@ -20,7 +20,7 @@ double levelBefore(double level, const StillTone& tone) {
     const auto& levels = tone.levels;
     const auto first = std::ranges::lower_bound(levels, level),
                last = std::ranges::upper_bound(levels, level);
-    // A range of levels has become this one: its middle.
+    // The tone curve mapped several levels to this one. Returns the middle of these levels.
     if (first != last)
         return (double(first - levels.begin()) + double(last - levels.begin()) - 1) / 2;
     if (first == levels.begin()) return 0;

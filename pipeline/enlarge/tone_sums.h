@@ -12,7 +12,7 @@ namespace mfar::enlarge {
 class ToneSums {
 public:
     void add(double still, double video, double count = 1);
-    /// Adds the pairs of `others`, whose still had the tone curve `tone`.
+    /// Adds the pairs of `others`. Their stills had the tone curve `tone`, which is undone first.
     void add(const ToneSums& others, const StillTone& tone);
     /// Multiplies all sums by the factor `share`.
     void fade(double share);
@@ -41,7 +41,8 @@ private:
 /// exposure of the sensors may change.
 class ToneLearner {
 public:
-    /// `seen`: pairs of levels of a still that had the tone curve `tone` already.
+    /// Learns from `seen`, the pairs of grey levels of a still to which the tone curve `tone` was
+    /// applied.
     void add(const ToneSums& seen, const StillTone& tone);
     [[nodiscard]] const StillTone& tone() const { return tone_; }
 

@@ -69,7 +69,7 @@ double TrustedPairs::videoAt(int x, int y) const {
     return in_.row(y)[x] / double(kLumaScale);
 }
 
-/// Fits the video's grey level as a function of the still's.
+/// Fits the tone curve: the video's grey level as a function of the still's grey level.
 void TrustedPairs::fitTone() {
     toneSums_ = {};
     for (int y = kBorder; y < video_.height - kBorder; ++y)

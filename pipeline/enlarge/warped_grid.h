@@ -38,7 +38,7 @@ private:
 };
 
 /// Returns the member `part` of the look-ups at a pixel's sub-pixels. It is interpolated bilinearly
-/// between cells, as for drawing.
+/// between cells, as in the detail step.
 [[nodiscard]] Phases betweenCells(const AlignedRows<LookUpCell>& cells, float LookUpCell::* part,
                                   int x, int y);
 

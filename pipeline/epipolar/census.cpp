@@ -12,7 +12,8 @@ constexpr int kRadius = simd::kCensusRadius, kSide = 2 * kRadius + 1;
 // beyond the picture, or a whole row of a narrow picture.
 constexpr int kMostAtEnd = 2 * kRadius;
 
-/// Works on a copy of the rows that repeats the border pixels.
+/// Computes the census of `count` pixels from `first` on, on a copy of the rows that repeats the
+/// border pixels.
 void censusAtEnd(const std::uint8_t* const (&rows)[kSide], int width, int first, int count,
                  const std::uint8_t* seen, std::uint32_t* out) {
     std::array<std::array<std::uint8_t, kMostAtEnd + 2 * kRadius>, kSide> padded{};

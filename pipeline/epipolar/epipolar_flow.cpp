@@ -13,18 +13,18 @@ namespace mfar {
 namespace {
 
 constexpr float kNowhere = 1e4F;
-// If the change of s that moves the fastest pixel by 1 px moves another pixel by less than this
-// [px], this pixel is near the epipole, and its epipolar line counts as a point.
+// A pixel is near the epipole, and its epipolar line counts as a point, if it moves by at most this
+// distance [px] under a change of s that moves the fastest pixel by 1 px.
 constexpr float kLeastWay = 0.05F;
-// Two neighbours that land on the same cell count as one slanted surface if their displacements
-// [px] differ by at most this.
+// Two neighbouring cells that match the same cell of the still count as one slanted surface if
+// their flow vectors differ by at most this distance [px].
 constexpr float kSlope = 1.0F;
 // Margin around the searched rectangle [px] for census windows, for the cost aggregation, and for
 // the motion until the next frame.
 constexpr int kRoom = 16;
 
-/// Returns the searched rectangle if depth is needed in `where`. It has a margin and, except at the
-/// picture's border, consists of whole cells.
+/// Returns the rectangle to search if depth is needed in `where`. It includes a margin and, except
+/// at the picture's border, consists of whole cells.
 PixelRect searchedFor(const PixelRect& where, Size video) {
     const PixelRect around = widened(where, kRoom, video);
     const auto down = [](int x) { return x / kRoom * kRoom; };
@@ -115,8 +115,8 @@ void EpipolarFlow::run(const Rows<const std::uint8_t>& video, const Pose& pose,
     unit_ = relative.unit;
     lengthError_ = relative.lengthError;
     search(relative, where);
-    // Rotates from the frame's orientation, in which the search draws the still, to that of the
-    // still.
+    // Rotates rays from the frame's orientation to the still's orientation. The search has
+    // resampled the still in the frame's orientation.
     rotation_ = (rig_.T_still_video.rotation.conjugate() * search_.pose().rotation)
                     .toRotationMatrix()
                     .cast<float>();
@@ -130,8 +130,8 @@ void EpipolarFlow::run(const Rows<const std::uint8_t>& video, const Pose& pose,
 
 void EpipolarFlow::search(const UnitPose& relative, const PixelRect& where) {
     const PixelRect wanted = searchedFor(where, rig_.video.size);
-    // Only a search from coarse to fine finds objects that enter the picture or move by themselves.
-    // The prediction does not contain them.
+    // The prediction does not contain objects that enter the picture or move by themselves. They
+    // are found only by a search from coarse to fine, without prediction.
     const bool isNew = around(search_.area(), wanted) != search_.area();
     const auto predicted = predictedFrames_ < mostPredicted_ && !isNew
                                ? prediction_.in(relative.T_other_frame, relative.unit)
@@ -161,9 +161,9 @@ float EpipolarFlow::sAt(int x, int y) const {
     return search_.s()[static_cast<std::size_t>(row) * (area.x1 - area.x0) + column];
 }
 
-// Returns the position of a ray's point with inverse depth s in the still drawn with the video's
-// lens. It is far outside the picture if the point is behind the still camera or too close to its
-// image plane.
+// Returns the pixel position, in the still resampled with the video's lens, of the point with
+// inverse depth s on a ray of the frame. It is far outside the picture if the point is behind the
+// still camera or too close to its image plane.
 EpipolarLens::Point EpipolarFlow::endOf(float rayX, float rayY, float s) const {
     const Eigen::Vector3f& t = search_.translation();
     const Eigen::Vector3f p = rotation_ * Eigen::Vector3f(rayX + s * (t.x() - rayX * t.z()),
@@ -230,7 +230,7 @@ float EpipolarFlow::offLine(int x, int y, float flowX, float flowY) const {
     const auto pixel = static_cast<float>(1 / search_.pixelsPerUnit());
     const auto next = endOf(lens_.rayX(i), lens_.rayY(i), s + pixel);
     const float wayX = next.x - on.x, wayY = next.y - on.y, way = std::hypot(wayX, wayY);
-    // Near the epipole, a change of depth hardly moves the pixel, so the line is only a point.
+    // Near the epipole, a change of depth hardly moves the pixel, so the line counts as a point.
     if (!(way > kLeastWay)) return std::hypot(dx, dy);
     return std::abs(dx * wayY - dy * wayX) / way;
 }

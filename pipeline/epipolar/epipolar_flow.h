@@ -36,24 +36,24 @@ public:
     }
     void run(const Rows<const std::uint8_t>& video, const Pose& pose, const PixelRect& where);
 
-    /// Flow from the video to the still, drawn with the video's lens: x, y [video px], and two
-    /// unused numbers.
+    /// Flow of each cell from the video to the still as the video's lens would show it: x, y
+    /// [video px], and two unused numbers.
     [[nodiscard]] const Cells& forward() const { return forward_; }
-    /// Two-way error of each cell (eq. 2 of the paper) [px], and three unused numbers. It is the
-    /// difference between the parallax of the cell and that of the nearest surface that lands on
-    /// the same cell of the still.
+    /// Two-way error of each cell (eq. 2 of the paper in docs/paper.md) [px], and three unused
+    /// numbers. It is the difference between the cell's parallax and the parallax of the nearest
+    /// surface that matches the same cell of the still.
     [[nodiscard]] const Cells& occlusion() const { return hidden_; }
-    /// Returns for every cell the s whose flow along the epipolar line is closest to `flow`, for
-    /// example to forward() after it was refined in both dimensions.
+    /// Returns for every cell the s whose point on the epipolar line is closest to the end of
+    /// `flow`. Usually `flow` is forward() after a refinement in both dimensions.
     [[nodiscard]] const std::vector<float>& sOf(const Cells& flow);
-    /// Returns the flow at every video pixel, x and y interleaved. Where the still camera cannot
-    /// see the pixel, the flow ends far outside the picture.
+    /// Returns the flow at every video pixel [px], x and y interleaved. The flow of a point that
+    /// the still camera cannot see ends far outside the picture.
     [[nodiscard]] std::vector<float> flow() const;
     /// Returns the distance of a flow vector's end from the pixel's epipolar line [px]. Without
     /// parallax, the line is a point.
     [[nodiscard]] float offLine(int x, int y, float flowX, float flowY) const;
-    /// The epipolar search with its results. Its unit of length is the distance between the cameras
-    /// of still and frame.
+    /// The epipolar search with its results. Its unit of length is the distance from the video
+    /// camera at the time of the frame to the still camera at the time of the still.
     [[nodiscard]] const EpipolarSearch& search() const { return search_; }
     [[nodiscard]] double unit() const { return unit_; }
     [[nodiscard]] double lengthError() const { return lengthError_; }
@@ -61,7 +61,7 @@ public:
     [[nodiscard]] const Eigen::Matrix3f& rotation() const { return rotation_; }
     /// Luma of the frame. Valid as long as the input of run() is valid.
     [[nodiscard]] const Rows<const std::uint8_t>& luma() const { return frame_; }
-    /// True if the last frame was only searched around the prediction from the frame before it.
+    /// True if the last frame was searched only around values of s that the frame before predicted.
     [[nodiscard]] bool predicted() const { return predictedFrames_ > 0; }
 
 private:
@@ -91,11 +91,11 @@ private:
     Rows<const std::uint8_t> frame_;
     Cells forward_, hidden_;
     std::vector<float> predicted_;
-    // s_, aligned_: s of each video cell. nearest_: for each cell of the still, the largest
-    // s of the video cells that land on it.
+    // s_, aligned_: s of each video cell. nearest_: for each cell of the still, the largest s of
+    // the video cells that match it.
     std::vector<float> s_, aligned_, nearest_;
     std::vector<std::int32_t> landing_;
-    // Rays through the middle of each cell's four central pixels.
+    // Rays through the point between each cell's four central pixels.
     std::vector<float> middleRaysX_, middleRaysY_;
     std::vector<float> middlesX_, middlesY_;
 };

@@ -76,7 +76,7 @@ void EpipolarLens::cover(const EpipolarLens& whole, const PixelRect& pixels) {
         rays_ = whole.rays_;
         return;
     }
-    // Reuses the memory of the last part unless copies of this lens share it.
+    // If no copy of this lens shares the rays, their memory is reused.
     if (rays_.use_count() > 1) rays_ = std::make_shared<Rays>();
     const auto take = [&](const std::vector<float>& from, std::vector<float>& to) {
         to.clear();

@@ -13,7 +13,7 @@ namespace mfar {
 /// Returns the largest radius of the rays (x/z, y/z) through the picture's corners.
 [[nodiscard]] double cornerRadius(const CameraModel& camera);
 
-/// Returns the largest radius of rays up to which the radial distortion does not fold rays back.
+/// Returns the radius of the rays (x/z, y/z) up to which the lens model does not fold rays back.
 /// `picture` is the radius of the picture's corners. The result is between `picture` and `beyond`
 /// times `picture`.
 [[nodiscard]] double rimOf(const CameraModel& camera, double picture, double beyond);
@@ -28,11 +28,11 @@ namespace mfar {
 /// in the first view is s / (1 - s t.z). Source: Hartley and Zisserman, 9.5.
 class EpipolarLens {
 public:
-    /// `camera` is that of the finest level. Its picture is halved `level` times; each time, width
-    /// and height are rounded up.
+    /// `camera` is the camera of the finest pyramid level. Its picture is halved `level` times;
+    /// each time, width and height are rounded up.
     EpipolarLens(const CameraModel& camera, int level);
 
-    /// Makes this the lens of the rectangle `pixels` in the picture of `whole`.
+    /// Makes this object the lens of the rectangle `pixels`, a part of the picture of `whole`.
     void cover(const EpipolarLens& whole, const PixelRect& pixels);
 
     [[nodiscard]] Size size() const { return size_; }

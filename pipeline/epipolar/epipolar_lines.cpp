@@ -5,8 +5,8 @@
 namespace mfar {
 namespace {
 
-// Matches are expected within normalError() of their epipolar lines. If that is at most this
-// distance [px of the pyramid level], only the line itself is searched, and no pixels beside it.
+// If normalError() is at most this distance [px of the pyramid level], only pixels on the epipolar
+// line are searched, and no pixels beside it.
 constexpr double kNoSlack = 0.5;
 
 simd::LabelRow rowOf(const EpipolarLens& lens, int y) {

@@ -11,7 +11,7 @@
 namespace mfar {
 namespace {
 
-// Shortest side of a pyramid level [px].
+// Lower limit of the shorter side of a pyramid level [px].
 constexpr int kCoarsest = 60;
 // Number of labels beyond infinity (s < 0) at the finest pyramid level. Noise and pose errors can
 // move the match of a distant point there.
@@ -27,9 +27,9 @@ Smoothness smoothnessFor(double noise, const EpipolarOptions& options) {
             .noise = 2 * noise};
 }
 
-// Returns the weight of both neighbours in the smoothing before the census. It is 0 up to a noise
-// of one grey level, because smoothing clean pictures causes a third more wrong pixels. From about
-// two grey levels, it is 1/4, as in the 3-pixel binomial filter.
+// Returns the weight of each neighbour in the 3-pixel filter that smooths pictures before the
+// census. The weight is 0 up to a noise of one grey level, because smoothing clean pictures causes
+// a third more wrong pixels. From about two grey levels, it is 1/4, as in the binomial filter.
 float smoothingFor(double noise) {
     return static_cast<float>(std::clamp(0.2 * (noise - 1.0), 0.0, 0.25));
 }
@@ -65,8 +65,8 @@ float soundLabel(float label, float longest) {
     return label > -kBeyond ? std::min(label, longest) : static_cast<float>(-kBeyond);
 }
 
-// With this number of matched patches, their median distance from the epipolar lines is a better
-// estimate of normalError() than the covariance of the pose.
+// From this number of matched patches on, normalError() is their median distance from the epipolar
+// lines. With fewer patches, it is computed from the covariance of the pose.
 constexpr int kEnoughPatches = 16;
 
 double normalErrorOf(const Matrix6& covariance, double focal) {
@@ -184,9 +184,9 @@ int EpipolarSearch::finestLevel() const {
     return std::min(options_.finest, static_cast<int>(levels_.size()) - 1);
 }
 
-// Gives each full-size pixel the s of the pixel of finestLevel() that contains it. Half size
-// suffices for the flow of cells, because the four middle pixels of a cell lie in four different
-// pixels of half size.
+// Gives each full-size pixel the s of the pixel of finestLevel() that contains it. A finest level
+// of half size suffices for the flow of cells, because the four middle pixels of a cell lie in four
+// different pixels of half size.
 void EpipolarSearch::readInverseDepth() {
     const int finest = finestLevel();
     const Level& level = levels_[finest];
@@ -247,8 +247,8 @@ void EpipolarSearch::refine(const Matrix6& covariance, std::span<const float> pr
                                                         : refinement_.normalAfter;
 }
 
-// Draws the still as seen from the still's position in the frame's orientation, which needs no
-// depth. The drawn part is as large as the longest parallax requires.
+// Resamples the still as its camera would have shown it in the frame's orientation. A pure rotation
+// needs no depth. The resampled part is as large as the longest parallax requires.
 bool EpipolarSearch::turnStill(const Eigen::Matrix3d& R_still_video, int levels) {
     const double beyond = options_.longestParallax * whole_.size.width / video_.size.width;
     turned_.place(video_, still_, R_still_video, beyond);

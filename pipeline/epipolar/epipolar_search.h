@@ -39,8 +39,8 @@ public:
     void setStill(const ImageView& still);
     void setStill(const Rows<const std::uint8_t>& still);
 
-    /// From now on, only these video pixels are matched, widened to a grid of a few pixels.
-    /// Initially, the whole picture is matched.
+    /// Sets the rectangle of video pixels to match. It is widened to a grid of a few pixels, see
+    /// area(). Initially, the whole picture is matched.
     void setArea(const PixelRect& pixels);
     [[nodiscard]] const PixelRect& area() const { return area_; }
     [[nodiscard]] const EpipolarLens& videoLens() const { return lenses_.front(); }
@@ -49,17 +49,18 @@ public:
     /// camera coordinates at the frame's time to still camera coordinates at the still's time, in
     /// any unit of length.
     ///
-    /// `covariance` is that of a small motion x in T_still_video * exp(x). If given, the pose is
-    /// first refined from the pictures, otherwise it counts as exact. `predicted` is an approximate
-    /// s of every cell in the area, row-major. If given, the coarser pyramid levels are skipped.
+    /// `covariance` is the covariance of a small motion x in T_still_video * exp(x). If given, the
+    /// pose is first refined from the pictures, otherwise it counts as exact. `predicted` is an
+    /// approximate s of every cell in the area, row-major. If given, the coarser pyramid levels are
+    /// skipped.
     /// Returns false and sets s() to zero if the pose is invalid (soundMotion()) or no
     /// part of the still can show the area.
     bool run(const Rows<const std::uint8_t>& video, const RigidTransform& T_still_video,
              const std::optional<Matrix6>& covariance = std::nullopt,
              std::span<const float> predicted = {});
 
-    /// The T_still_video that was searched. If it was refined, refinement() describes the
-    /// difference from the argument of run().
+    /// The relative pose T_still_video that the last run() used. If run() refined it, refinement()
+    /// describes the difference from the argument of run().
     [[nodiscard]] const RigidTransform& pose() const { return pose_; }
     [[nodiscard]] const PoseRefinement& refinement() const { return refinement_; }
     /// Expected distance of matches from their epipolar lines [px]. At pyramid levels where it

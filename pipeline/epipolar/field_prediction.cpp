@@ -10,8 +10,8 @@ namespace {
 
 constexpr int kCellLevel = 2;  // a pixel of this pyramid level is a cell
 constexpr float kUnknown = -1e9F;
-// Widest gap that is filled at the picture's border and at depth edges [cells]. It allows motions
-// of 12 px per frame.
+// Gaps at the picture's border and at depth edges are filled up to this number of cells from their
+// edges. This allows motions of 12 px per frame.
 constexpr int kWidestGap = 3;
 
 }  // namespace
@@ -63,7 +63,7 @@ void FieldPrediction::land(const RigidTransform& T_still_frame, double unit) {
     }
 }
 
-// Fills cells on which no point landed. An area that becomes visible beside a depth edge gets the
+// Fills cells to which no point moved. An area that becomes visible beside a depth edge gets the
 // depth of the farthest surface next to it. Returns false if a gap is too wide.
 bool FieldPrediction::fillGaps() {
     const Size size = cells_.size();

@@ -9,21 +9,22 @@
 
 namespace mfar {
 
-/// Predicts the inverse depths of the next frame: moves those of one frame according to the poses.
-/// If several surfaces land on a cell, the nearest is kept (z-test).
+/// Predicts the inverse depths of the next frame: moves the points of the stored frame according to
+/// the poses. If several points move to one cell, the nearest one is kept (z-test).
 class FieldPrediction {
 public:
     explicit FieldPrediction(const CameraModel& video);
 
-    /// Stores s of every cell of a frame [1/unit], row-major, see EpipolarLens. `T_still_frame` has
-    /// its translation in units. `unit` is the length of a unit [unit of length of the poses].
+    /// Stores s of every cell of a frame [1/unit], row-major, see EpipolarLens. The translation of
+    /// `T_still_frame` is in the same units. `unit` is the length of one unit in the unit of length
+    /// of the tracked poses.
     void keep(std::span<const float> s, const RigidTransform& T_still_frame, double unit);
     /// Must be called when the still is replaced or the depths are no longer valid.
     void forget() { kept_.clear(); }
 
     /// Returns the predicted s [1/unit] of every cell of a frame with the relative pose
-    /// `T_still_frame`. Empty if no frame is stored, or if the stored frame does not show the same
-    /// part of the scene. Valid until the next call.
+    /// `T_still_frame`. Empty if no frame is stored, or if the stored frame does not show a large
+    /// enough part of the new frame. Valid until the next call.
     [[nodiscard]] std::span<const float> in(const RigidTransform& T_still_frame, double unit);
 
 private:

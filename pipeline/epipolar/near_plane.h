@@ -2,8 +2,9 @@
 
 namespace mfar {
 
-/// A ray of depth 1 is rotated into another camera's coordinates. If its depth is then smaller than
-/// this limit, the ray is so close to that camera's image plane that its projection is unreliable.
+/// Lower limit of z of a ray (x, y, 1) after its rotation into another camera's coordinates. With a
+/// smaller z, the ray is almost parallel to that camera's image plane, and its projection is
+/// unreliable.
 inline constexpr double kNearPlane = 0.05;
 
 }  // namespace mfar

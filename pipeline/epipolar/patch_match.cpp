@@ -12,11 +12,12 @@ namespace {
 // Width and height of the blocks over which structure tensors are summed [px]. A patch has two by
 // two blocks.
 constexpr int kBlock = kPatch / 2;
-// Smallest number of parts into which the picture is divided, if it has enough blocks.
+// Lower limit of the number of equal parts into which the picture is divided. A picture with few
+// blocks has fewer parts.
 constexpr int kPlaces = 300;
 constexpr int kPixels = kPatch * kPatch;
-// Smallest correlation of a match. The match is ambiguous if a position farther away than
-// kRivalDistance has a correlation that is lower by less than kRival.
+// kLeastScore: lower limit of the correlation of a match. A match is ambiguous if a position
+// farther away than kRivalDistance [px] has almost the same correlation, less than kRival lower.
 constexpr double kLeastScore = 0.75;
 constexpr double kRival = 0.06;
 constexpr double kRivalDistance = 2.5;
@@ -85,7 +86,7 @@ struct Sums {
             }
         }
     }
-    /// Returns the variance of the second patch times the square of its number of pixels.
+    /// Returns the variance of the second patch `b` times the square of its number of pixels.
     [[nodiscard]] double power() const { return 1.0 * kPixels * ss - 1.0 * s * s; }
 };
 
@@ -188,8 +189,8 @@ std::vector<PatchPlace> texturedPlaces(const LumaImage& picture, double noise) {
     if (field.width < 2 || field.height < 2) return out;
     const int right = field.width - 1, bottom = field.height - 1;
     const int cell = std::max(2, static_cast<int>(std::sqrt(1.0 * right * bottom / kPlaces)));
-    // Sum of the squared central differences that noise alone causes, times two, plus the sum that
-    // rounding causes.
+    // Lower limit of the texture: twice the sum of squared central differences that noise alone
+    // causes, plus the sum that rounding causes.
     const double least = kPixels * (4 * noise * noise + 8);
     for (int j0 = 0; j0 < bottom; j0 += cell) {
         for (int i0 = 0; i0 < right; i0 += cell) {

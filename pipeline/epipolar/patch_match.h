@@ -12,8 +12,8 @@ namespace mfar {
 
 inline constexpr int kPatch = 8;
 
-/// First column and row of a patch. The patch is at least one pixel away from the border of its
-/// picture.
+/// First column and first row of a patch. A border of at least one pixel must surround the patch in
+/// its picture.
 struct PatchPlace {
     int x = 0, y = 0;
     [[nodiscard]] Eigen::Vector2d middle() const {
@@ -27,8 +27,8 @@ struct PatchPlace {
 /// standard deviation of a pixel's noise [grey levels]. Source: Shi and Tomasi, CVPR 1994.
 [[nodiscard]] std::vector<PatchPlace> texturedPlaces(const LumaImage& picture, double noise);
 
-/// Positions at which a patch is searched: from `middle`, up to alongSteps pixels along the
-/// epipolar line and up to acrossSteps pixels across it, in both directions.
+/// Positions at which a patch is searched: up to alongSteps pixels from `middle` along the epipolar
+/// line and up to acrossSteps pixels perpendicular to it, in both directions.
 struct PatchWindow {
     Eigen::Vector2d middle;
     Eigen::Vector2d along;
@@ -43,8 +43,8 @@ public:
     PatchMatcher(const LumaImage& from, const LumaImage& to, const std::vector<std::uint8_t>& seen)
         : from_(from), to_(to), seen_(seen) {}
 
-    /// Returns the middle of the patch with the highest zero-mean normalised correlation in the
-    /// other picture, in whole pixels. Empty if no patch fits well, or if a distant patch fits
+    /// Returns the middle, to whole pixels, of the patch of `to` with the highest zero-mean
+    /// normalised correlation in `window`. Empty if no patch fits well, or if a distant patch fits
     /// about equally well.
     [[nodiscard]] std::optional<Eigen::Vector2d> find(PatchPlace place,
                                                       const PatchWindow& window) const;

@@ -9,7 +9,7 @@
 namespace mfar {
 namespace {
 
-// Largest number of steps across an epipolar line [px of the searched pyramid level].
+// Upper limit of the search perpendicular to an epipolar line [px of the searched pyramid level].
 constexpr int kMostSteps = 8;
 
 /// Searches a patch at half size and refines its match at full size.
@@ -29,8 +29,8 @@ public:
         if (!placed) return std::nullopt;
         Eigen::Vector2d seen = toFull(*placed + originOf(half_));
         if (scale_ > 1) {
-            // The patch at full size with the same middle. If it has too little texture, the match
-            // at half size remains.
+            // `inner` is the patch at full size with the same middle. If it cannot be matched, the
+            // match at half size remains.
             const PatchPlace inner{2 * place.x + kPatch / 2, 2 * place.y + kPatch / 2};
             if (const auto finer = atFull_.polish(inner, seen - originOf(full_)))
                 seen = *finer + originOf(full_);
@@ -47,7 +47,8 @@ private:
         return ((pixel.array() + 0.5) * scale_ - 0.5).matrix();
     }
 
-    /// The point must be in the picture of half size.
+    /// Returns the ray of the pixel that contains the point. The point must be inside the picture
+    /// of half size.
     [[nodiscard]] Eigen::Vector2d rayNear(const Eigen::Vector2d& point) const {
         const auto pixel = static_cast<std::size_t>(point.y()) * half_.lens.size().width +
                            static_cast<std::size_t>(point.x());
@@ -80,8 +81,8 @@ private:
         out.middle = expected - originOf(half_);
         const Eigen::Vector2d across(-out.along.y(), out.along.x());
         out.acrossSteps = stepsFor(across.dot(spread * across));
-        // If the error of s requires at most one step, the error of the prior pose along the line
-        // can be larger, and then determines the number of steps.
+        // If the error of s requires at most one step, the pixel is near the epipole. The error of
+        // the prior pose can then be larger and determines the number of steps along the line.
         if (out.alongSteps <= 1) out.alongSteps = stepsFor(out.along.dot(spread * out.along));
         return out;
     }

@@ -13,7 +13,7 @@ namespace mfar {
 /// data that must outlive it.
 struct TurnedPair {
     const EpipolarLens& lens;
-    PixelOffset origin;  ///< position of the still's first pixel in the frame [px]
+    PixelOffset origin;  ///< pixel of the frame at the first pixel of `still`
     const LumaImage& video;
     const LumaImage& still;
     const std::vector<std::uint8_t>& seen;  ///< 1 for valid pixels of the still

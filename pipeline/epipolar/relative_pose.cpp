@@ -19,15 +19,15 @@ constexpr int kMostSolves = 15;
 constexpr double kSettled = 0.01;  // a step shorter than this ends the refinement [px]
 constexpr int kFewest = 16;
 constexpr double kFewestShare = 0.4;
-// Matches whose error is larger than this have no weight [standard deviations].
+// Matches with an error above this number of standard deviations have no weight.
 constexpr double kTukey = 4.685;
 // Standard deviation of a good match [px]. The scale of the robust weights is at least half of it.
 constexpr double kMatchError = 0.3;
 constexpr double kExplained = 1;
 constexpr double kNotExplained = 1e6;  // error of a match that fits no pose [px]
 
-/// Estimated motion of points, relative to the orientation of the prior pose. The unit of length is
-/// Solver::unit_.
+/// Estimated motion of points from frame to still, relative to the orientation of the prior pose.
+/// The unit of length is Solver::unit_.
 struct Estimate {
     Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
     Eigen::Vector3d translation;

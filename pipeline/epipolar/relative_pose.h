@@ -39,15 +39,15 @@ struct PoseRefinement {
 /// the translation. If the prior's translation is zero, the matches must agree with a pure
 /// rotation. `focal` is the number of video pixels per unit of ray.
 ///
-/// The refinement is rejected if there are too few matches or too many outliers, or if it hardly
-/// reduces the distance from the epipolar lines: sqrt(normalBefore^2 - normalAfter^2) must exceed
-/// kExactEnough. Source: Hartley and Zisserman, 2nd ed., A6.3 (elimination); Beaton and Tukey 1974
-/// (weights).
+/// The refinement is accepted only if `inliers` is large enough, also in relation to `patches`, and
+/// if the median distance from the epipolar lines decreases clearly: sqrt(normalBefore^2 -
+/// normalAfter^2) > kExactEnough, where normalAfter belongs to the refined pose.
+/// Source: Hartley and Zisserman, 2nd ed., A6.3 (elimination); Beaton and Tukey 1974 (weights).
 [[nodiscard]] PoseRefinement refineRelativePose(std::span<const RayMatch> matches,
                                                 const PosePrior& prior, double focal);
 
-/// A pose with a smaller error [px] is not refined, because the errors of the matches would change
-/// it by as much.
+/// A pose with a smaller error [px] is not refined: the errors of the matches would add as much
+/// error as the refinement removes.
 inline constexpr double kExactEnough = 0.2;
 
 /// Returns the covariance [rays^2] of a point's position in the still that follows from the prior's

@@ -6,7 +6,7 @@
 namespace mfar {
 namespace {
 
-/// Temporary memory for the parts into which Workers splits a loop.
+/// Hands out pieces of temporary memory, one to each part into which Workers splits a loop.
 class Slots {
 public:
     Slots(std::vector<std::uint8_t>& memory, std::size_t bytes, int most)

@@ -36,17 +36,17 @@ class SemiGlobal {
 public:
     static constexpr int kLabels = simd::kLabels;
 
-    /// Writes the costs of row y: kLabels * vectors bytes per pixel, for the labels base, base + 1,
-    /// ... of the pixel. Each cost is at most kCensusBits. May be called from several threads at
-    /// once.
+    /// Writes the matching costs of row y: kLabels * vectors bytes per pixel, for the labels base,
+    /// base + 1, ... of the pixel. Each cost is at most kCensusBits. run() calls it from several
+    /// threads at once.
     using CostRow = std::function<void(int y, std::uint8_t* costs)>;
 
     /// `vectors`: largest number of SIMD vectors of kLabels labels that a picture needs in total.
     explicit SemiGlobal(std::size_t vectors);
 
-    /// Finds the best label of every pixel. `base` is the first label of each pixel. At edges of
-    /// `guide`, jumps between labels cost less. A pixel has kLabels * `vectors` labels. `base` and
-    /// `out` have one entry per pixel of `guide`.
+    /// Finds the best label of every pixel among kLabels * `vectors` labels. `base` is the first
+    /// label of each pixel. Smoothness::jump counts less at edges of `guide`. `base` and `out` have
+    /// one entry per pixel of `guide`.
     void run(const LumaImage& guide, const std::vector<std::int16_t>& base, int vectors,
              const Smoothness& smoothness, const CostRow& costs, Workers& workers,
              std::span<Valley> out);

@@ -11,7 +11,7 @@ namespace {
 
 static_assert(TurnedPicture::kAlign == simd::kTurnedCell);
 
-// A ray with a smaller z after the rotation counts as outside the camera's view.
+// A ray (x, y, 1) whose z is smaller than this after the rotation is outside the camera's view.
 constexpr double kBeside = 0.2;
 constexpr int kSidePoints = 16;
 
@@ -58,15 +58,15 @@ void TurnedPicture::know(const CameraModel& camera, const CameraModel& source) {
     }
 }
 
-/// Returns the bounds [px of the camera] of the source's picture as the camera sees it, within
-/// `whole`. Empty if the camera sees nothing of it.
+/// Returns the bounds, in pixels of the camera and within `whole`, of the part of the source's
+/// picture that the camera sees. Empty if the camera sees nothing of it.
 Eigen::AlignedBox2d TurnedPicture::boundsOf(const Eigen::Matrix3d& R_source_camera,
                                             const Eigen::AlignedBox2d& whole) const {
     Eigen::AlignedBox2d bounds;
     bool before = false;
     for (const Eigen::Vector2d& ray : known_.outline) {
         const Eigen::Vector3d turned = R_source_camera.transpose() * ray.homogeneous();
-        // If a ray points sideways or backwards, all of `whole` counts as visible.
+        // If a ray points sideways or backwards, the bounds are at least `whole`.
         if (!(turned.z() > kBeside)) {
             bounds.extend(whole);
             continue;

@@ -13,8 +13,8 @@
 
 namespace mfar {
 
-/// Draws a picture as another camera with the same optical centre would show it. The drawn picture
-/// (the canvas) may extend beyond that camera's own picture.
+/// Resamples a picture as another camera with the same optical centre would show it. The result,
+/// the canvas, can extend beyond that camera's own picture.
 class TurnedPicture {
 public:
     /// Sets size and position of the canvas: the part of the source's picture that `camera` would
@@ -28,8 +28,8 @@ public:
     [[nodiscard]] PixelOffset origin() const { return origin_; }
     static constexpr int kAlign = RayLattice::kStep;
 
-    /// Draws the source's `picture` into the canvas `out`, bilinearly. `seen` is 1 where the
-    /// picture covers the canvas, else 0.
+    /// Resamples the source's `picture` bilinearly to the canvas `out`. `seen` is 1 for canvas
+    /// pixels that `picture` covers, else 0.
     void draw(const LumaImage& picture, Workers& workers, LumaImage& out,
               std::vector<std::uint8_t>& seen) const;
 

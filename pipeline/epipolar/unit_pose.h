@@ -16,9 +16,10 @@ struct UnitPose {
     double lengthError = 0;
 };
 
-/// `other` and `frame` are the poses of the video camera at the times of both pictures.
-/// `T_camera_video` transforms video camera coordinates to those of the other picture's camera. A
-/// distance within the rounding error of the positions counts as zero.
+/// Returns the relative pose. `other` and `frame` are the poses of the video camera at the times of
+/// the other picture and of the frame. `T_camera_video` transforms video camera coordinates to
+/// those of the other picture's camera. A distance within the rounding error of the positions
+/// counts as 0.
 [[nodiscard]] UnitPose unitPose(const RigidTransform& T_camera_video, const Pose& other,
                                 const Pose& frame);
 

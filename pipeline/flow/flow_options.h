@@ -27,14 +27,14 @@ struct Flow2dOptions {
 /// directions.
 struct EpipolarOptions {
     int levels = 4;  ///< Largest number of pyramid levels, [1, 4]. All have at least 60x60 px.
-    /// largest searched parallax, as a share of the picture's width, (0, 1]
+    /// Largest searched parallax, as a share of the picture's width, (0, 1].
     double longestParallax = 0.8;
     /// Radius of a pixel's neighbourhood at the coarser pyramid level [px], [0, 8]. At the finer
     /// level, a pixel's candidates of s lie around the range that was found in this neighbourhood.
     int windowRadius = 2;
     int stepPenalty = 12;  ///< Smoothness::step for a picture without noise, [1, 30]
     int jumpPenalty = 60;  ///< see Smoothness::jump, [1, 60]
-    /// finest searched pyramid level (0 is full size, 1 half, 2 a quarter), [0, 2]
+    /// Finest searched pyramid level (0 is full size, 1 half, 2 a quarter), [0, 2].
     int finest = 0;
     /// Largest number of consecutive frames that EpipolarFlow searches only around a prediction
     /// from the last frame, [0, 60].
@@ -43,12 +43,12 @@ struct EpipolarOptions {
     bool operator==(const EpipolarOptions&) const = default;
 };
 
-/// Returns `wanted`, but with levels and longestParallax of `now`: they determine the memory
-/// layout, so they cannot change between frames.
+/// Both functions return `wanted`, but with levels and longestParallax of `now`: these options
+/// determine the memory layout, so they cannot change between frames.
 [[nodiscard]] Flow2dOptions changed(const Flow2dOptions& now, const Flow2dOptions& wanted);
 [[nodiscard]] EpipolarOptions changed(const EpipolarOptions& now, const EpipolarOptions& wanted);
 
-/// Throw std::invalid_argument that names the first option that is out of range.
+/// Both functions throw std::invalid_argument that names the first option that is out of range.
 void validate(const Flow2dOptions& options);
 void validate(const EpipolarOptions& options);
 

@@ -17,7 +17,8 @@ struct LumaImage {
 
     LumaImage() = default;
     explicit LumaImage(Size s) : size(s), pixels(static_cast<std::size_t>(s.width) * s.height) {}
-    /// Pixel values are undefined afterwards. The memory is kept if it is large enough.
+    /// Sets the size and leaves the pixel values undefined. The memory is kept if it is large
+    /// enough.
     void setSize(Size s) {
         size = s;
         pixels.resize(static_cast<std::size_t>(s.width) * s.height);
@@ -39,7 +40,7 @@ struct LumaImage {
 
 /// Converts a picture to luma and sets the size of `out`. The luma of RGBA and BGRA is computed as
 /// in luma.glsl (Rec. 601). For other formats it is the camera's Y with any matrix and range,
-/// because the costs of flow and pose do not depend on gain and offset.
+/// because matching for flow and pose does not depend on gain and offset.
 void lumaOf(const ImageView& picture, LumaImage& out);
 
 /// Computes the luma of the picture at `size`, which must not be larger than the picture. Each
@@ -54,13 +55,13 @@ void cut(const Rows<const std::uint8_t>& picture, const PixelRect& pixels, LumaI
 /// Halves the size, rounded up, by the means of 2x2 pixels. An odd last column or row is repeated.
 void halve(const LumaImage& fine, LumaImage& coarse);
 
-/// Smooths with a three-tap filter along both axes. `side` is the weight of a neighbour, in [0,
-/// 1/3]. `in` and `out` must be different pictures.
+/// Smooths a picture with a three-tap filter along both axes. `side` is the weight of each of the
+/// two neighbours, in [0, 1/3]. `in` and `out` must be different pictures.
 void smooth(const LumaImage& in, float side, LumaImage& out);
 
-/// Standard deviation of the picture's noise [grey levels]. A mask (Immerkaer, Fast noise variance
-/// estimation, 1996) first suppresses planes, and steps and lines along the axes. The result is the
-/// noise at the 20 % quantile of all blocks of 8x8 pixels.
+/// Returns the standard deviation of the picture's noise [grey levels]. A filter (Immerkaer, Fast
+/// noise variance estimation, 1996) first removes smooth slopes, and steps and lines along the
+/// axes. The result is the 20 % quantile of the noise of all blocks of 8x8 pixels.
 [[nodiscard]] double noiseOf(const Rows<const std::uint8_t>& picture);
 
 }  // namespace mfar

@@ -14,8 +14,8 @@ constexpr std::size_t kMinLevels = 2;
 
 }  // namespace
 
-// A box of one pixel has a variance of 1/12 px^2. The three-tap smoothing adds twice the weight of
-// a neighbour [px^2].
+// A box filter of one pixel has a variance of 1/12 px^2. The three-tap smoothing increases it by
+// 2 * kLumaSmoothing px^2.
 double lumaBoxWidening() {
     return std::sqrt(1 + 12 * 2 * kLumaSmoothing);
 }

@@ -18,20 +18,20 @@ struct WeighInput {
     int first;
     Size forward, backward;
     int backwardLevel;
-    bool errorsGiven;  ///< true if two-way errors replace the backward field
+    bool errorsGiven;  ///< true: `cells` has two-way errors (ErrorCell) instead of a backward field
 };
 
-/// Computes the weight of the still in each cell from the cell's match and from the photometric
-/// gain between the sensors, which it measures.
+/// Computes the weight of the still's detail in each cell. It depends on how well the still matches
+/// there and on the photometric gain between the sensors, which is measured as well.
 class CellWeigher {
 public:
     explicit CellWeigher(const StereoRig& rig);
 
-    /// Does nothing if no tile has changed.
+    /// Computes weighed(), lookUps() and trust(). Does nothing if no tile has changed.
     void run(const WeighInput& in, const TileBuffer& tiles);
 
-    /// WeighedCell of each cell (Rgba32F), LookUpCell of each cell (Rgba16F, linear filter) and
-    /// TrustCell of each cell (Rgba8, linear filter).
+    /// Textures with one texel per cell: a WeighedCell (Rgba32F), a LookUpCell (Rgba16F, linear
+    /// filter) and a TrustCell (Rgba8, linear filter).
     [[nodiscard]] const gpu::Texture& weighed() const { return weighed_; }
     [[nodiscard]] const gpu::Texture& lookUps() const { return lookUps_; }
     [[nodiscard]] const gpu::Texture& trust() const { return trust_; }

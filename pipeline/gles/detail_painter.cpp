@@ -83,8 +83,8 @@ DetailPainter::TileParams DetailPainter::tileParams() const {
     return p;
 }
 
-// Drawing a tile also reads sharpened pixels of neighbouring tiles. After frames that were not
-// sharpened, all tiles are therefore sharpened.
+// Sharpens the tiles that are drawn. Drawing a tile also reads sharpened pixels of neighbouring
+// tiles. So if the last frame was not sharpened, all tiles are sharpened.
 void DetailPainter::sharpen(const TileParams& params, const gpu::Texture& video,
                             const Matched& matched, const TileWork& work) {
     sharpen_.run(work.drawsWhole() || sharpenedIsOld_, params,
@@ -160,11 +160,11 @@ PixelRect DetailPainter::outputOf(const PixelRect& tiles) const {
 void DetailPainter::draw(const gpu::Texture& video, const Matched* matched, const TileBuffer& tiles,
                          const DetailOptions& options) {
     const TileWork& work = tiles.work();
-    // draws_ stores the counters of the last two frames. From the third frame without a change on,
-    // classifying would give the same counters again.
+    // draws_ stores the counters of the last two frames. After two frames without a change, both
+    // counters stay the same, so classify() is not needed.
     restingFrames_ = work.changed == 0 ? restingFrames_ + 1 : 0;
     if (restingFrames_ <= 2) classify(matched, tiles, options);
-    // Returns before any draw, because even an empty draw would compile its shader.
+    // Returns before any draw call, because even one that draws nothing would compile its shader.
     if (restingFrames_ > 0) return;
 
     const TileParams p = tileParams();
@@ -188,8 +188,8 @@ void DetailPainter::draw(const gpu::Texture& video, const Matched* matched, cons
         drawSecond(p, video, *matched, *filtersOf(options));
 }
 
-// Draws the second still in the tiles where it has more weight, over the detail of the first still,
-// which is faded out there.
+// Blends the detail of the second still over that of the first one, in the tiles where the second
+// still has more weight.
 void DetailPainter::drawSecond(const TileParams& params, const gpu::Texture& video,
                                const Matched& matched, const FilterBank& filters) {
     const Matched& second = *matched.second;

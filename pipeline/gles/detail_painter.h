@@ -18,33 +18,32 @@ namespace mfar {
 /// TileWork requests. Other tiles keep their pixels from earlier frames.
 class DetailPainter {
 public:
-    /// The still camera of `stillRig` has the resolution of the still's detail and picture.
+    /// The still camera of `stillRig` must have the resolution of Matched::still.
     DetailPainter(const StereoRig& stillRig, Size output);
 
     struct Matched {
         /// The still with a linear filter: StillReference::raised(), or in mode Blend the still
         /// itself.
         const gpu::Texture& still;
-        /// WeighedCell of each cell (Rgba32F), LookUpCell of each cell (Rgba16F, linear filter) and
-        /// TrustCell of each cell (Rgba8, linear filter).
+        /// See CellWeigher::weighed(), lookUps() and trust().
         const gpu::Texture& weighed;
         const gpu::Texture& lookUps;
         const gpu::Texture& trust;
-        /// A second still that is shown where its weight is larger than that of the first, or null.
+        /// A second still that is shown where its weight is larger than that of `still`, or null.
         /// Used only in mode Detail with learned filters.
         const Matched* second = nullptr;
     };
-    /// Classifies the changed tiles and draws them. If `matched` is null, the tiles are only
-    /// enlarged.
+    /// Finds the classes of the changed tiles and draws these tiles. If `matched` is null, they
+    /// show only the enlarged video.
     void draw(const gpu::Texture& video, const Matched* matched, const TileBuffer& tiles,
               const DetailOptions& options);
 
     [[nodiscard]] const gpu::Texture& output() const { return output_; }
     [[nodiscard]] const gpu::Framebuffer& target() const { return outputTarget_; }
 
-    /// Statistics of the frame before the last one, without waiting for the GPU.
+    /// Summary of the frame before the last one. Does not wait for the GPU.
     [[nodiscard]] TileSummary summaryBefore() const { return summary(1 - current_); }
-    /// Statistics of the last frame. Waits for the GPU.
+    /// Summary of the last frame. Waits for the GPU.
     [[nodiscard]] TileSummary summaryNow() const { return summary(current_); }
     /// Classes of all tiles in the last frame, row-major. Waits for the GPU.
     [[nodiscard]] std::vector<TileClass> readClasses() const;

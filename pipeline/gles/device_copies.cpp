@@ -72,7 +72,7 @@ void TextureCopy::upload(const void* data, std::ptrdiff_t pitch) {
     glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
 }
 
-// Always reads four channels, because every driver can do this.
+// Always reads back four channels, because every driver supports this.
 void TextureCopy::download(void* data, std::ptrdiff_t pitch) {
     const auto [width, height] = texture_->size();
     const Layout layout = layoutOf(texture_->format());

@@ -10,7 +10,7 @@
 
 namespace mfar {
 
-/// The GPU copy of a field with one row, in a storage buffer.
+/// The GPU's copy of a field that has a single row, as a storage buffer.
 class BufferCopy final : public DeviceCopy {
 public:
     /// Refers to `count` entries of `entryBytes` bytes of a step's buffer, from entry `first` on.
@@ -22,7 +22,7 @@ public:
     [[nodiscard]] const gpu::Buffer& buffer() const { return *buffer_; }
     [[nodiscard]] int first() const { return first_; }
 
-    /// May be called only if this object has allocated its own buffer.
+    /// Must be called only if the object was constructed without a step's buffer.
     void upload(const void* data, std::ptrdiff_t pitch) override;
     void download(void* data, std::ptrdiff_t pitch) override;
 
@@ -33,9 +33,9 @@ private:
     std::size_t count_, entryBytes_;
 };
 
-/// The GPU copy of a field, as a texture. In CPU memory, a texel has one byte for R8, two for Rg8,
-/// four for Rgba8, one float for R32F, and four floats for other formats. With `floats`, the
-/// texture is Rgba8 and a texel in CPU memory is four floats in [0, 1].
+/// The GPU's copy of a field, as a texture. In CPU memory, a texel has one byte for R8, two bytes
+/// for Rg8, four bytes for Rgba8, one float for R32F, and four floats for other formats. If
+/// `floats` is true, the texture is Rgba8, but a texel in CPU memory has four floats in [0, 1].
 class TextureCopy final : public DeviceCopy {
 public:
     /// Refers to a step's texture, which must outlive this object.

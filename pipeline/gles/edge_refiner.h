@@ -12,31 +12,31 @@
 
 namespace mfar {
 
-/// Replaces pixels that the warp blurs. The largest errors of a warped picture are where a traced
-/// pixel mixes two surfaces or shows detail as fine as a pixel. While the camera rests, these
-/// pixels are listed by their contrast and rendered individually. They are shown until the camera
-/// moves.
+/// Sharpens a warped picture while the camera rests. The warp blurs pixels in which a traced pixel
+/// mixes two surfaces or shows detail as fine as a pixel. Such pixels have a high contrast to their
+/// neighbours. They are listed and rendered individually; the rendered colours are shown until the
+/// camera moves.
 class EdgeRefiner {
 public:
     static constexpr int kLevels = params::kContrastLevels;
 
-    /// See WarpOptions for the arguments. Lists at most `most` pixels. But if more pixels than that
-    /// have the highest contrast level, all of them are listed. answer() uses at most `most`
-    /// pixels.
+    /// Arguments: see WarpOptions. At most `most` pixels are listed, except that all pixels with
+    /// the highest contrast level are always listed. answer() uses at most `most` pixels.
     EdgeRefiner(Size layer, double share, int most, int fadeFrames);
 
     /// Discards the previous list and its colours. Starts to list pixels in `where` from results of
     /// ViewLookUp: `colour` (RGBA8 premultiplied) and `state`.
     void list(const gpu::Texture& colour, const gpu::Texture& state, const PixelRect& where);
-    /// Returns the row-major indices of the listed pixels, ascending. Empty until the GPU has
-    /// finished the list. Never waits.
+    /// Returns the row-major indices of the listed pixels in ascending order, or nullopt until the
+    /// GPU has finished the list. Never waits.
     std::optional<std::vector<std::uint32_t>> poll();
-    /// Sets the rendered colours of pixels that poll() returned. Other pixels are ignored.
+    /// Sets the rendered colours of listed pixels. Ignores pixels in `answer` that are not listed.
     void answer(const HoleAnswer& answer);
-    /// Blends the colours of answer() over the listed pixels in `colour`, which must be warped to
-    /// the pose of the list. The weight of the colours grows with each frame.
+    /// Blends the rendered colours over the listed pixels of `colour`, a picture that must have
+    /// been warped to the same pose as in list(). The rendered colours fade in from frame to frame.
     void show(const gpu::Texture& colour);
-    /// Must be called when the camera has moved or the scene has changed.
+    /// Discards list and colours. Must be called when the camera has moved or the scene has
+    /// changed.
     void drop();
 
 private:

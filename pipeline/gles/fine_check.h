@@ -12,14 +12,14 @@ namespace mfar {
 /// params::kFineRoom.
 class FineCheck {
 public:
-    /// The still camera of `stillRig` has the resolution of the still's detail.
+    /// The still camera of `stillRig` must have the resolution of run()'s `still`.
     explicit FineCheck(const StereoRig& stillRig);
 
     struct Weights {
         const gpu::Texture &weighed, &lookUps, &trust;
     };
-    /// Computes weights() from `weights`, the results of CellWeigher for this frame. `still` is
-    /// luma with amplified finest detail and a linear filter.
+    /// Computes weights() from `weights`, which are the results of CellWeigher for this frame.
+    /// `still` is StillReference::raised().
     void run(const gpu::Texture& video, const gpu::Texture& still, const Weights& weights,
              const TileBuffer& tiles, const FineMatch& match);
 

@@ -78,9 +78,10 @@ void Flow2d::refine(const LumaOnGpu& luma, const TileBuffer& tiles, Cells forwar
     filter(stage, forward_, tiles);
 }
 
-// Searches the listed groups from coarse to fine, without propagation, because the neighbours of a
-// listed group need not be listed. The vectors along epipolar lines are candidates at every pyramid
-// level. At the finest level, they are replaced only if another candidate fits clearly better.
+// Searches the listed groups of cells from coarse to fine. There is no propagation, because the
+// neighbours of a listed group need not be listed. The flow along epipolar lines is a candidate at
+// every pyramid level. At the finest level, another vector replaces it only if it fits clearly
+// better (params::kClearlyLess).
 void Flow2d::searchListed(const LumaOnGpu& luma) {
     const Direction way{luma.video, luma.still, forwardStages_, 0, 0, false};
     for (int level = static_cast<int>(way.stages.size()) - 1; level >= 0; --level) {
@@ -102,8 +103,8 @@ void Flow2d::run(const Direction& way, const LumaOnGpu& luma) {
         int rounds = 1;
         if (level == way.finest) rounds = way.finestPropagations;
         if (level == coarsest) rounds = options_.coarsestPropagations;
-        // Each round writes the other area. This choice of the first area makes the last round
-        // write area 0.
+        // search() and each round of propagate() write the two areas of the stage alternately.
+        // search() begins with the area that makes the last round write area 0.
         search(way, level, rounds % 2, luma);
         for (int round = rounds; round > 0; --round)
             propagate(way, level, (round - 1) % 2, luma);
@@ -118,7 +119,8 @@ void Flow2d::search(const Direction& way, int level, int area, const LumaOnGpu& 
                 way.stages[level].groups);
 }
 
-// `prior`: index of the first cell of a finest-level field whose vectors are candidates, or -1.
+// `prior`: index of the first cell of a field at the finest pyramid level, whose vectors are
+// candidates, or -1.
 params::SearchFlow Flow2d::searchParams(const Direction& way, int level, int area, int radius,
                                         int prior) const {
     const Stage& stage = way.stages[level];
@@ -174,7 +176,7 @@ void Flow2d::align(int in, const LumaOnGpu& luma, const TileBuffer& tiles) {
 }
 
 void Flow2d::filter(const Stage& stage, const Field& out, const TileBuffer& tiles) {
-    // A workgroup is a tile only at the finest pyramid level.
+    // Only at the finest pyramid level does a workgroup process exactly one tile.
     filter_.run({.columns = stage.cells.width,
                  .rows = stage.cells.height,
                  .target = out.offset,

@@ -11,14 +11,14 @@
 
 namespace mfar {
 
-/// Computes the dense flow from video to still (forward) and from still to video (backward),
-/// without the pose: by coarse-to-fine inverse search, propagation, Gauss-Newton refinement, and
-/// removal of outliers and noise. Each cell is matched by the 8x8 patch around it. The cost of a
-/// match does not depend on gain and offset. Sources: Kroeger et al., ECCV 2016 (inverse search);
-/// Barnes et al., 2009 (propagation).
+/// Computes the dense flow from video to still (forward) and from still to video (backward) without
+/// the cameras' pose. Its parts are a coarse-to-fine inverse search, propagation, Gauss-Newton
+/// refinement, and the removal of outliers and noise. Each cell is matched by the 8x8 patch around
+/// it. A gain or an offset between the pictures does not change the cost of a match. Sources:
+/// Kroeger et al., ECCV 2016 (inverse search); Barnes et al., 2009 (propagation).
 class Flow2d {
 public:
-    /// A part of cells() with one flow vector (FlowCell) per cell, starting at index `offset`.
+    /// A part of cells() with one FlowCell per cell, starting at index `offset`.
     struct Field {
         int offset = 0;
         Size cells;
@@ -54,14 +54,14 @@ public:
                                                      forward_.cells.height,
                                                  16UL * forward_.offset);
     }
-    /// True after refine(). Then backward() contains the two-way errors of the video's cells
-    /// instead of flow.
+    /// True after refine(): backward() then has the two-way errors of forward() (ErrorCell) instead
+    /// of flow vectors. False after run().
     [[nodiscard]] bool errorsGiven() const { return errorsGiven_; }
     [[nodiscard]] const Field& backward() const { return backward_; }
 
 private:
-    /// The memory in cells_ for the flow in one direction at one pyramid level. It has two areas,
-    /// because propagation cannot work in place.
+    /// The memory in cells_ for the flow in one direction at one pyramid level. It has two areas
+    /// (indices of their first cells), because propagation reads one and writes the other.
     struct Stage {
         Size cells;
         int area[2];

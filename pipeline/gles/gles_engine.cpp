@@ -12,7 +12,8 @@ public:
         : setup_(setup), stillRig_(stillFor(setup.output, setup.rig)),
           frame_(setup.rig.video.size) {}
 
-    // Each still has its own steps. The steps of both stills share the compiled programs.
+    // A frame is matched with up to two stills, which have steps of their own. `programs_` lets the
+    // steps of both use the same compiled programs.
     std::unique_ptr<StillStep> still() override {
         const gpu::ProgramCache::Use use(programs_);
         return gles::makeStillStep(setup_, frame_);

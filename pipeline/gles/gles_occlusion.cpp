@@ -37,7 +37,8 @@ public:
     }
 
 private:
-    // Uploads the rows of `where` with new depths and clears those of the last upload.
+    // Uploads the depths in the rows of `where`, and in the rows of the last upload, whose depths
+    // are now unknown.
     void upload(const InverseDepthField& real, const PixelRect& where) {
         const PixelRect rows = around(uploaded_, where);
         uploaded_ = where;

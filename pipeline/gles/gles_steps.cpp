@@ -15,16 +15,16 @@
 namespace mfar::gles {
 namespace {
 
-/// Returns the still's luma with amplified finest detail. If the SIMD engine made it, the second
-/// channel is the pixel below.
+/// Returns the still's luma with amplified finest detail. If the SIMD engine prepared the still,
+/// the texture's second channel is the pixel below.
 const gpu::Texture& raisedOf(const StillPictures& still) {
     const auto linear = gpu::Filter::Linear;
     return still.raised.isEmpty() ? textureOf(still.pairs, gpu::TexelFormat::Rg8, linear).texture()
                                   : textureOf(still.raised, gpu::TexelFormat::R8, linear).texture();
 }
 
-/// Copy of the still's luma. The texture is the still in colour; download() computes its luma and
-/// applies the tone curve.
+/// The GPU's copy of StillPictures::luma. Its texture is the still in colour; download() computes
+/// the luma and applies the tone curve.
 class StillLumaCopy final : public DeviceCopy {
 public:
     StillLumaCopy(const gpu::PictureTexture& picture, const ToneTexture& tone)
@@ -32,10 +32,10 @@ public:
 
     [[nodiscard]] const gpu::Texture& texture() const { return picture_.texture(); }
     void upload(const void*, std::ptrdiff_t) override {
-        assert(!"upload() of a still's luma, which is computed from its colours");
+        assert(!"a still's luma cannot be uploaded, because it is computed from its colours");
     }
     [[nodiscard]] const ToneTexture& tone() const { return tone_; }
-    /// Sets the format of the picture's texture, whose channels are read back in stored order.
+    /// Sets the still's format, which tells the order of the channels that download() reads back.
     void setFormat(PixelFormat format) { format_ = format; }
     void download(void* data, std::ptrdiff_t pitch) override {
         const std::vector<std::uint8_t> rgba = texture().readRgba8();
@@ -85,7 +85,7 @@ private:
     StillReference still_;
     StillLumaCopy lumaCopy_;
     TextureCopy raisedCopy_;
-    // Created again for each still, because the still's texture may change.
+    // Created again for each still, because the next still can be in another texture.
     std::optional<TextureCopy> pictureCopy_;
     StillPictures pictures_;
 };
@@ -108,8 +108,8 @@ public:
             return std::make_unique<TextureCopy>(still.luma.size(), gpu::TexelFormat::R8,
                                                  gpu::Filter::Linear);
         });
-        // If the SIMD engine prepared the still, this is a texture of its luma, which the shaders
-        // read as a grey picture. It already has the tone curve.
+        // If the SIMD engine prepared the still, the copy is a texture of its luma with the tone
+        // curve. The shaders read it as a grey picture.
         if (const auto* own = dynamic_cast<const StillLumaCopy*>(&copy))
             pyramids_.buildStill(own->texture(), own->tone(), rig_);
         else
@@ -236,7 +236,8 @@ public:
     void draw(const VideoFrame& frame, const Matched* matched, const TileWork& work,
               const DetailOptions& options) override {
         const TileBuffer& tiles = frame_.tiles(work);
-        // If nothing has changed, the shaders do not read the video, and any texture will do.
+        // If no tile has changed, the shaders do not read the video. The output is passed instead,
+        // so that the video need not be uploaded.
         const gpu::Texture& video = work.changed > 0 ? frame_.video(frame) : painter_.output();
         if (matched == nullptr) {
             painter_.draw(video, nullptr, tiles, options);

@@ -21,8 +21,8 @@ public:
     explicit FrameOnGpu(Size video) : tiles_{TileBuffer(video), TileBuffer(video)} {}
 
     [[nodiscard]] const gpu::Texture& video(const VideoFrame& frame);
-    /// Returns the GPU's copy of `work`. Two copies are stored, because a frame is matched with up
-    /// to two stills.
+    /// Returns the GPU's copy of `work`. The last two are stored, because a frame has one TileWork
+    /// for each of up to two stills.
     [[nodiscard]] const TileBuffer& tiles(const TileWork& work);
     [[nodiscard]] gpu::PictureTexture& stillPicture() { return still_; }
     void setImporter(PlaneImporter* importer);
@@ -40,7 +40,7 @@ private:
 [[nodiscard]] std::unique_ptr<PyramidStep> makePyramidStep(const StepSetup& setup,
                                                            FrameOnGpu& frame);
 [[nodiscard]] std::unique_ptr<FlowStep> makeFlowStep(const StepSetup& setup, FrameOnGpu& frame);
-/// The still camera of `stillRig` has the resolution of the still's detail and picture.
+/// The still camera of `stillRig` must have the resolution of the stills' StillPictures::raised.
 [[nodiscard]] std::unique_ptr<WeighStep>
 makeWeighStep(const StepSetup& setup, const StereoRig& stillRig, FrameOnGpu& frame);
 [[nodiscard]] std::unique_ptr<DetailStep>

@@ -105,7 +105,7 @@ private:
     RerenderedTextures rerenderedTextures_;
     std::optional<EdgeRefiner> refiner_;
     const TracedPicture* traced_ = nullptr;
-    PixelRect drawn_;  // outside of it, the pictures of lookUp_ are empty
+    PixelRect drawn_;  // outside this rectangle, the pictures of lookUp_ are empty
     TextureCopy stateCopy_;
     Field<std::uint32_t> state_;
     TextureLayer warped_, rendered_;

@@ -20,7 +20,7 @@ int halved(int pixels) {
 std::size_t mostTexels(Size size) {
     std::size_t sum = 0;
     for (int l = 0; l < HoleFiller::kLevels; ++l) {
-        // A rectangle that begins at an odd coordinate needs one more texel than half its size.
+        // One more than half the size, because a rectangle can begin at an odd coordinate.
         size = {halved(size.width) + 1, halved(size.height) + 1};
         sum += static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
     }

@@ -24,7 +24,7 @@ LayerComposite::LayerComposite(Size video, Size output, Size layer, const Compos
       samplePass_("visibility_sample.frag", layer == output ? "" : kScaled),
       blendPass_("visibility_blend.frag", layer == output ? "" : kScaled) {
     validate(options);
-    // A new texture has undefined pixels, and run() does not write outside the layer's bounds.
+    // Clears the texture, because run() does not write outside the layer's bounds.
     constexpr std::array<GLfloat, 4> kNothing{};
     visibilityTarget_.bind();
     glClearBufferfv(GL_COLOR, 0, kNothing.data());

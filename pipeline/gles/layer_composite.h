@@ -8,8 +8,8 @@
 namespace mfar {
 
 /// Draws a virtual layer over the picture of the real scene, except where the real scene is nearer.
-/// The real depth has the video's resolution. It is interpolated so that depth edges follow the
-/// picture's edges. Only pixels in the layer's bounds are processed.
+/// The real scene's depth has the video's resolution. It is interpolated to the output's resolution
+/// so that depth edges follow image edges. Only pixels in the layer's bounds are processed.
 class LayerComposite {
 public:
     /// `layer` is the size of the layers for run(). Throws std::invalid_argument if an option is
@@ -23,9 +23,10 @@ public:
     /// video frame to which the depth belongs, RGBA8 or R8. `picture` is this frame at output size,
     /// RGBA8. `target` draws into the picture or into a copy of it.
     ///
-    /// Layer pixels are drawn if their depth is finite and positive. If the layer is smaller than
-    /// the output, colours are interpolated linearly, and depth is that of the nearest valid pixel
-    /// of the surrounding four.
+    /// Layer pixels are drawn only if their depth is finite and positive. If the layer is smaller
+    /// than the output, colours are interpolated linearly. The depth is then copied from one of the
+    /// four surrounding layer pixels: of those with a valid depth, the one closest to the output
+    /// pixel.
     void run(const VirtualLayer& layer, const gpu::Texture& realDepth, const gpu::Texture& video,
              const gpu::Texture& picture, const gpu::Framebuffer& target);
 

@@ -11,8 +11,8 @@
 
 namespace mfar {
 
-/// Enlarges the video with learned filters, except for the last step along rows, which
-/// composite_*.frag perform. It needs a current GL context for its whole lifetime.
+/// Enlarges the video with learned filters, except along rows: this last step is a part of the
+/// shaders composite_*.frag. The object needs a current GL context for its whole lifetime.
 class LearnedEnlarger {
 public:
     LearnedEnlarger(Size video, Size output);
@@ -37,7 +37,8 @@ public:
     [[nodiscard]] const gpu::Texture& residuals() const { return residuals_; }
     [[nodiscard]] const gpu::Texture& tiles() const { return learned_; }
     [[nodiscard]] DetailPasses& passes() { return passes_; }
-    /// Draws a second still over the first one. Binding 5 needs the look-ups of the first still.
+    /// The pass that draws a second still over the first one. The caller must bind the look-ups of
+    /// the first still at binding 5.
     [[nodiscard]] gpu::DrawPass<params::DrawTiles>& second() { return second_; }
 
 private:
@@ -48,7 +49,7 @@ private:
     Size video_, tiles_;
     std::uint64_t number_ = 0;
     std::vector<std::uint8_t> mask_;
-    // True if the texture was not computed in the last frame.
+    // True if columns_, seen_ or guided_ was not computed in the last frame.
     bool columnsAreOld_ = true, seenIsOld_ = true;
     bool guidedIsOld_ = true;
     gpu::Texture filters_, learned_, grid_, seen_, guided_, columns_, residuals_;

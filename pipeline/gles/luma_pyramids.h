@@ -18,20 +18,19 @@ struct LumaOnGpu {
     const gpu::Buffer& words;
 };
 
-/// Makes the luma pyramids of the video frame and of the still, the inputs of the flow. Both are
-/// smoothed in the same way. The still is resampled to the video's geometry (rotation and both
-/// lenses, but no parallax). Both pyramids are in one storage buffer with four 8-bit pixels per
-/// word.
+/// Makes the luma pyramids of the video frame and of the still, which are the inputs of the flow
+/// search. The still is resampled to the video's geometry (rotation and both lenses, but no
+/// parallax). Both pyramids are in one storage buffer with four 8-bit pixels per word.
 class LumaPyramids {
 public:
     explicit LumaPyramids(Size video);
 
     /// `video` is an RGBA8 texture of the video's size.
     void buildVideo(const gpu::Texture& video);
-    /// `still` is an RGBA8 texture with a linear filter. Called once per still.
+    /// `still` is an RGBA8 texture with a linear filter. Must be called once for each new still.
     void buildStill(const gpu::Texture& still, const ToneTexture& tone, const StereoRig& rig);
-    /// Makes the still's pyramid from a picture with the video's geometry, for the flow between two
-    /// frames.
+    /// Makes the still's pyramid from a picture in the video's geometry. Used for the flow between
+    /// two frames.
     void buildSecond(const gpu::Texture& picture);
 
     [[nodiscard]] const std::vector<LumaLevel>& video() const { return video_; }

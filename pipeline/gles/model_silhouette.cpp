@@ -28,8 +28,8 @@ PixelRect doubled(const PixelRect& r) {
     return {2 * r.x0, 2 * r.y0, 2 * r.x1, 2 * r.y1};
 }
 
-/// Culls back faces while it exists. Front faces are clockwise, because the first row of a picture
-/// is the lowest row for GL.
+/// Culls back faces during its lifetime. Front faces are clockwise for GL, because a picture's
+/// first row is GL's lowest row.
 class FrontFaces {
 public:
     FrontFaces() {
@@ -44,8 +44,8 @@ public:
     }
 };
 
-/// Sets GL's depth range while it exists. The objects get a nearer range than the shadow catcher,
-/// so that all objects are drawn in front of it.
+/// Sets GL's depth range during its lifetime. The objects get a nearer range than the shadow
+/// catcher, so that all objects are drawn in front of it.
 class DepthRange {
 public:
     DepthRange(float nearest, float farthest) { glDepthRangef(nearest, farthest); }

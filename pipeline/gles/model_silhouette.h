@@ -13,18 +13,18 @@
 
 namespace mfar {
 
-/// Draws the depth and number of the visible virtual surface at each pixel: of the objects, and
-/// elsewhere of the shadow catcher. The surfaces are rasterised at twice the layer's resolution, so
-/// that each layer pixel has four quarters. The lens distortion is applied to the vertices. Colours
-/// are not computed.
+/// Draws the depth and number of the virtual surface that is visible at each pixel: an object or,
+/// where there is none, the shadow catcher. Surfaces are rasterised at twice the layer's
+/// resolution, so that each layer pixel has four quarters. The lens distortion is applied to the
+/// vertices. Colours are not computed.
 class ModelSilhouette {
 public:
     /// `layer` is the video camera at the layer's resolution. Throws GlError if the GL
     /// implementation cannot draw into R32UI.
     explicit ModelSilhouette(const CameraModel& layer);
 
-    /// Uploads the meshes of the scene, simplified if it has more than 20000 triangles. Surfaces
-    /// with an alpha mask are not drawn where their alpha is too small.
+    /// Uploads the scene's meshes, which are simplified if the scene has more than 20000 triangles.
+    /// Surfaces with an alpha mask are not drawn where their alpha is below the mask's threshold.
     void setScene(const Scene& scene);
     void setPoses(std::span<const RigidTransform> T_world_objects) {
         models_.setPoses(T_world_objects);
@@ -41,8 +41,8 @@ public:
 
     [[nodiscard]] const SilhouetteModels& models() const { return models_; }
     /// R32UI with twice the layer's size: z and number of the surface, packed as in
-    /// warp_surface.glsl, or 0 without a surface. The shadow catcher appears only where there is no
-    /// object, even if it is nearer than the object.
+    /// warp_surface.glsl, or 0 without a surface. Objects hide the shadow catcher, even if the
+    /// catcher is nearer.
     [[nodiscard]] const gpu::Texture& surface() const { return surface_; }
     [[nodiscard]] std::size_t triangles() const { return models_.triangles(); }
 

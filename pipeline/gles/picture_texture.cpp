@@ -11,8 +11,8 @@
 namespace mfar::gpu {
 namespace {
 
-// Largest number of imported camera buffers. A camera has fewer buffers at a time, but it gets new
-// ones when it is reopened.
+// Largest number of imported camera buffers. A camera has fewer buffers, but it gets new ones when
+// it is opened again.
 constexpr std::size_t kMostImported = 16;
 constexpr GLuint64 kLongestRead = std::chrono::nanoseconds(kLongestGpuWait).count();
 

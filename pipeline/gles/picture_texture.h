@@ -32,11 +32,12 @@ public:
     void upload(const ImageView& view);
     /// Waits until the GPU no longer reads the memory of the last uploaded view.
     void finishReading();
-    /// Returns the reason of a failed import of camera memory, once for each failure.
+    /// Returns the reason if an import of camera memory has failed since the last call, otherwise
+    /// nullopt.
     [[nodiscard]] std::optional<std::string> takeImportFault();
 
-    /// The last uploaded picture: R8 for grey, otherwise RGBA8. Sampling it gives R, G and B, also
-    /// for BGRA.
+    /// The last uploaded picture: R8 for grey, otherwise RGBA8. Sampling gives R, G and B in this
+    /// order even if the picture was BGRA.
     [[nodiscard]] const Texture& texture() const { return picture_; }
 
 private:

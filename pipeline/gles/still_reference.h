@@ -12,8 +12,8 @@
 
 namespace mfar {
 
-/// The newest still, and a picture and luma that are computed from it once. They are reduced if the
-/// output has a much lower resolution than the still.
+/// The newest still, and the picture and luma that are computed from it once. Both are reduced if
+/// the output has a much lower resolution than the still.
 class StillReference {
 public:
     /// `output` is the size of the output picture, which shows the whole video picture. Stills are
@@ -24,7 +24,7 @@ public:
     /// the next. `tone` is applied to raised().
     void set(const ImageView& still, const StillTone& tone = {});
 
-    /// The rig with picture()'s resolution as resolution of the still camera.
+    /// The rig, but with a still camera of the resolution of picture().
     [[nodiscard]] const StereoRig& rig() const { return rig_; }
     [[nodiscard]] const gpu::Texture& whole() const { return picture_.texture(); }
     [[nodiscard]] const gpu::Texture& picture() const {

@@ -12,8 +12,8 @@ public:
     explicit TextureLayer(Transfers* transfers = nullptr)
         : layer_{Field<std::uint32_t>({}, transfers), Field<float>({}, transfers), {}} {}
 
-    /// The textures (RGBA8 and R32F) must stay valid as long as the result, which is valid until
-    /// the next call.
+    /// Returns the textures (RGBA8 and R32F) as a LayerPicture, which is valid until the next call.
+    /// The textures must remain valid as long.
     LayerPicture& show(const gpu::Texture& colour, const gpu::Texture& depth,
                        const PixelRect& bounds) {
         layer_.colour.writtenOnDevice(colour_.emplace(colour), colour.size());

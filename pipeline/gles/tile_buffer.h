@@ -19,10 +19,10 @@ public:
     [[nodiscard]] bool holds(const TileWork& work) const;
 
     [[nodiscard]] const TileWork& work() const { return work_; }
-    /// A uvec2 header and one uvec2 per tile, row-major. Header: how the frame is drawn (0: only
-    /// changed tiles; 1: the whole frame; 2: the whole frame is enlarged, and detail is drawn in a
-    /// list of tiles), and the number of changed tiles. Tile: 1 if it changed, and 1 if it is
-    /// matched.
+    /// A uvec2 header, then one uvec2 per tile, row-major. Header x: 0 if only changed tiles are
+    /// drawn, 1 if the whole frame is drawn, 2 if the whole frame is enlarged and detail is drawn
+    /// in a list of tiles. Header y: number of changed tiles. Tile x: 1 if it changed. Tile y: 1 if
+    /// it is matched.
     [[nodiscard]] const gpu::Buffer& buffer() const { return buffer_; }
 
 private:

@@ -51,8 +51,8 @@ void TileLists::find(const Field& field, const TileBuffer& tiles) {
               {gpu::storage(1, field.cells), gpu::storage(2, flags_)}, groupsOf(tiles_));
     for (int l = 0; l < static_cast<int>(levels_.size()); ++l) {
         const Level& level = levels_[l];
-        // The search in a group reads the adjacent groups of the next coarser pyramid level, which
-        // in turn read their adjacent groups.
+        // The search in a group reads the adjacent groups of the next coarser pyramid level, so the
+        // margin grows from level to level [tiles].
         const int margin = (2 << l) - 2;
         list_.run({.tileColumns = tiles_.width,
                    .tileRows = tiles_.height,

@@ -25,17 +25,18 @@ public:
     void find(const Field& field, const TileBuffer& tiles);
     void clear();
 
-    /// Packed positions of groups of 4x4 cells. The list of a pyramid level begins at first(level).
+    /// Positions of groups of 4x4 cells, packed by tiles.glsl. The list of a pyramid level begins
+    /// at index first(level).
     [[nodiscard]] const gpu::Buffer& lists() const { return lists_; }
     [[nodiscard]] int first(int level) const { return levels_[level].first; }
     /// Commands of the indirect dispatches: 16 bytes for each pyramid level, finest level first.
     [[nodiscard]] const gpu::Buffer& commands() const { return commands_; }
 
-    /// Number of tiles that were listed before the last find() or clear(), without waiting for the
-    /// GPU.
+    /// Number of tiles that were listed until the last find() or clear() replaced the lists. Does
+    /// not wait for the GPU.
     [[nodiscard]] int countBefore() const { return countBefore_; }
     [[nodiscard]] int count() const;
-    /// Returns for each tile, row-major, true if it is listed. Waits for the GPU.
+    /// Returns a flag for each tile, row-major: true if the tile is listed. Waits for the GPU.
     [[nodiscard]] std::vector<bool> read() const;
 
 private:

@@ -23,9 +23,9 @@ struct TilePass {
     gpu::DrawPass<params::DrawTiles> whole, tiles;
 };
 
-/// Programs that draw the output in mode Detail: `enlarged` shows only the enlarged video, the
-/// others also the still's detail. `plain` is for plain tiles. `define` is empty or one line of
-/// GLSL for all of them.
+/// Programs that draw the output in mode Detail. `enlarged` draws only the enlarged video. The
+/// others add the still's detail: `whole` to the whole frame, `tiles` to listed tiles, and `plain`
+/// to listed tiles of class Trusted. `define` is empty or one line of GLSL for all programs.
 struct DetailPasses {
     explicit DetailPasses(const std::string& define = "")
         : enlarged("composite_upscale.frag", define.c_str()),

@@ -11,9 +11,8 @@ namespace mfar {
 /// Rg32F texture with the normalised ray (x/z, y/z) of each pixel.
 [[nodiscard]] gpu::Texture rayTexture(const CameraModel& camera);
 
-/// The traced picture that is warped, as textures. See TracedPicture for their contents. picture()
-/// and depth() are the traced RGBA8 and R32F pictures. colour() is RGBA8, surface() is Rgba32F, and
-/// packed() is R32UI.
+/// The members of a TracedPicture as textures: picture() is RGBA8, depth() is R32F, colour() is
+/// RGBA8, surface() is Rgba32F, and packed() is R32UI.
 class TracedTextures {
 public:
     void upload(const TracedPicture& traced);

@@ -15,19 +15,19 @@
 
 namespace mfar {
 
-/// The look-up of the warp (paper, eq. 5). For each surface that ModelSilhouette has drawn at the
-/// current pose, it looks up the colour in the traced picture or, if that does not show the
-/// surface, in the re-rendered pictures. A draw call processes simple pixels. A compute shader
-/// processes a list of all others, for example edges.
+/// Looks up the colours of a warped picture (paper, eq. 5). ModelSilhouette has drawn the surfaces
+/// that are visible at the current pose. Their colours come from the traced picture or, if that
+/// does not show the surface, from the re-rendered pictures. A draw call processes simple pixels. A
+/// compute shader processes a list of all others, for example edges.
 class ViewLookUp {
 public:
     explicit ViewLookUp(const LensProjection& layer);
 
     struct Input {
         const gpu::Texture& silhouette;
-        const SilhouetteModels& models;  ///< at the present poses
+        const SilhouetteModels& models;  ///< the objects at their current poses
         const TracedTextures& traced;
-        const TracedPicture& picture;  ///< the picture in `traced`
+        const TracedPicture& picture;  ///< the picture that was uploaded to `traced`
         const RerenderedPictures& rerendered;
         const RerenderedTextures& rerenderedTextures;
     };
@@ -39,12 +39,12 @@ public:
              const HoleFiller& holes);
     void clear(const PixelRect& where) const;
 
-    /// RGBA8 premultiplied, and R32F.
+    /// colour() is RGBA8, premultiplied. depth() is R32F: z [m], or 0 without a surface.
     [[nodiscard]] const gpu::Texture& colour() const { return colour_; }
     [[nodiscard]] const gpu::Texture& depth() const { return depth_; }
     /// State of each pixel, RGBA8. R: number of the surface with unknown colour. G: share of the
-    /// pixel with unknown colour. B: 1 if no picture shows this surface. A: number of a surface
-    /// that fills the whole pixel with a known colour.
+    /// pixel with unknown colour. B: 1 if this surface fills the pixel and no picture shows it. A:
+    /// number of the surface that fills the whole pixel with a known colour.
     [[nodiscard]] const gpu::Texture& state() const { return state_; }
 
 private:
@@ -60,13 +60,14 @@ private:
     gpu::Texture rays_, colour_, depth_, state_;
     gpu::Framebuffer target_;
     gpu::Buffer commands_, list_;
-    /// The passes that look surfaces up.
+    /// The passes that look up the surfaces' colours. `plain` draws the simple pixels, `rest`
+    /// computes the listed others.
     struct Passes {
         gpu::DrawPass<Params> plain;
         gpu::ComputePass<Params> rest;
     };
-    /// Passes for moving objects, and the motions: three rows of a transform for each view and
-    /// surface number.
+    /// Passes for moving objects. `views` has three texels for each view and surface number: the
+    /// rows of the transform from the layer's camera to the view.
     struct Motion {
         Passes passes;
         gpu::Texture views;

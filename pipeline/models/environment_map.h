@@ -37,7 +37,8 @@ inline constexpr std::size_t kEnvironmentMemory = std::size_t{1} << 30U;
 
 /// Returns the direction in the world of a point (u, v) in [0, 1]^2 of an Environment.
 [[nodiscard]] Eigen::Vector3f environmentDirection(float u, float v);
-/// Calls `radiance` with the direction in the world of each pixel's centre.
+/// Returns an environment of `size` texels. `radiance` returns the value of a texel for the
+/// direction of its centre in the world.
 [[nodiscard]] Environment
 environmentOf(Size size, const std::function<Eigen::Vector3f(const Eigen::Vector3f&)>& radiance);
 

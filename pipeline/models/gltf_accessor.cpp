@@ -77,8 +77,8 @@ float floatAt(const std::uint8_t* p, int componentType, bool normalized) {
     }
 }
 
-/// `wanted` has the type and number of the elements. Returns it with the bytes and the stride
-/// filled in. If `stride` is 0, the elements are tightly packed.
+/// Completes `wanted`, which has the type and number of the elements, with their bytes and stride.
+/// If `stride` is 0, the elements are tightly packed.
 ElementView elementsIn(const GltfDocument& document, int bufferView, std::uint64_t offset,
                        std::size_t stride, ElementView wanted, std::string_view place) {
     const std::size_t one = bytesOf(wanted.componentType) * wanted.components;
@@ -99,8 +99,8 @@ ElementView elementsIn(const GltfDocument& document, int bufferView, std::uint64
     return wanted;
 }
 
-/// Throws if the elements do not have `components` components, or if there are no elements or more
-/// than `most`.
+/// Returns the accessor with this index. Throws ModelError if its elements do not have `components`
+/// components, or if it has no elements or more than `most`.
 const Accessor& checkedAccessor(const GltfDocument& document, int index, int components,
                                 std::size_t most, std::string_view place) {
     const Accessor& accessor = document.at(document.gltf.accessors, index, place);

@@ -22,9 +22,9 @@ struct GltfDocument {
 
     /// Returns "name: place: what" on one line.
     [[nodiscard]] std::string sentence(std::string_view place, std::string_view what) const;
-    /// Throws ModelError with this sentence.
+    /// Throws ModelError with the message sentence(place, what).
     [[noreturn]] void refuse(std::string_view place, std::string_view what) const;
-    /// Refuses an index that is out of range.
+    /// Returns list[index]. Refuses an index that is out of range.
     template <class T>
     [[nodiscard]] const T& at(const std::vector<T>& list, int index, std::string_view place) const {
         if (index < 0 || static_cast<std::size_t>(index) >= list.size())

@@ -35,8 +35,8 @@ json parseBounded(std::string_view text, std::size_t most) {
     }
 }
 
-/// Returns the number of bytes (or the index) at a key, or `missing` without the key. Refuses
-/// floating-point numbers, because they could be too large.
+/// Returns the number of bytes (or the index) under `key`, or `missing` if the object has no such
+/// key. Refuses floating-point numbers, because they could be too large.
 std::uint64_t bytesAt(const json& object, const char* key, std::uint64_t missing,
                       std::string_view place) {
     const auto it = object.find(key);

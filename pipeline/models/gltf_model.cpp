@@ -48,10 +48,12 @@ Eigen::Affine3d transformOf(const GltfDocument& document, const tinygltf::Node& 
     return T;
 }
 
-constexpr std::size_t kMostParts = 16;  // a note contains this number, too
+constexpr std::size_t kMostParts = 16;  // also stated in the text of a note in placeOf()
 
-/// Position of a node: T_joint_node, and the joints above it. Coordinates in a joint are scaled by
-/// `scale`, so that the joints are rigid.
+/// Pose of a node relative to the model. `joints` are the moving nodes above it, the outermost
+/// first. `T` is T_joint_node for the last joint, or T_model_node without joints. Joints are rigid:
+/// the scale of all nodes above the last joint is `scale`, by which coordinates in the joint are
+/// multiplied.
 struct NodePlace {
     Eigen::Affine3d T = upright();
     std::vector<RigidPath::Joint> joints;
@@ -59,8 +61,8 @@ struct NodePlace {
     int part = 0;
 };
 
-/// Returns the transform as a rigid one after a scaling by `scale`. Empty if it scales the axes
-/// unequally or mirrors.
+/// Splits T into a scaling by `scale` and a rigid transform, which is returned. Empty if T scales
+/// the axes unequally or mirrors.
 std::optional<RigidTransform> rigidPart(const Eigen::Affine3d& T, double& scale) {
     constexpr double kUnequal = 1e-4;
     const Eigen::Matrix3d& M = T.linear();
@@ -132,9 +134,9 @@ private:
         double scale = 1;
         const std::optional<RigidTransform> above = rigidPart(parent.T, scale);
         if (!above || model_.paths.size() == kMostParts) {
-            motion_.note(place, above ? "the node rests, because 16 other nodes move"
-                                      : "the node rests, because a parent scales it unequally or "
-                                        "mirrors it");
+            motion_.note(place, above ? "the node does not move: at most 16 nodes can move"
+                                      : "the node does not move, because a parent scales it "
+                                        "unequally or mirrors it");
             return out;
         }
         out.scale = parent.scale * scale;

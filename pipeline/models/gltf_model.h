@@ -49,10 +49,9 @@ struct ModelLimits {
 /// KHR_texture_transform, KHR_materials_emissive_strength. Alpha mode BLEND is treated as a mask
 /// with cutoff 0.5. Translations and rotations of nodes in the first animation, which repeats.
 /// Ignored: points and lines, vertex colours, occlusion textures, cameras, lights, and extensions
-/// that are not required; also, each with a sentence in Model::notes, other animations, changing
-/// scales, skins and morph targets.
-/// Throws ModelError for everything else, and if the model exceeds `limits`. Source: Khronos, glTF
-/// 2.0 Specification, 2.0.1.
+/// that are not required. Ignored with a sentence in Model::notes: other animations, changing
+/// scales, skins and morph targets. Throws ModelError for everything else, and if the model exceeds
+/// `limits`. Source: Khronos, glTF 2.0 Specification, 2.0.1.
 [[nodiscard]] Model loadGltf(const std::filesystem::path& file, const ModelLimits& limits = {});
 
 /// Reads the bytes of a glTF file. `name` is its name in error messages. The model may refer to

@@ -12,10 +12,11 @@ namespace mfar {
 namespace {
 
 constexpr double kLeastQuaternion = 1e-6;
-constexpr float kLongest = 1e6F;   // last time of an animation [s]
-constexpr float kFarthest = 1e6F;  // translation along each axis [m], or its change per second
+constexpr float kLongest = 1e6F;   // upper limit of the times of an animation [s]
+constexpr float kFarthest = 1e6F;  // upper limit of translations [m] and of their tangents [m/s]
 
-/// Returns a sentence for each kind of motion that is never shown, with the first place.
+/// Returns a sentence for each type of motion that is never shown, with its first position in the
+/// document.
 std::vector<std::string> stillParts(const GltfDocument& document) {
     std::vector<std::string> out;
     const tinygltf::Model& gltf = document.gltf;
@@ -58,7 +59,7 @@ void GltfMotion::readChannel(const tinygltf::Animation& animation, std::size_t c
     if (from.target_node < 0) return;  // the target belongs to an unknown extension
     const bool turns = from.target_path == "rotation";
     if (!turns && from.target_path != "translation") {
-        note(place, from.target_path == "scale" ? "scales do not change over time"
+        note(place, from.target_path == "scale" ? "changes of the scale are not played"
                                                 : "only translations and rotations are played");
         return;
     }

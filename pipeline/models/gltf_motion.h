@@ -9,8 +9,8 @@
 
 namespace mfar {
 
-/// The motion of a document's nodes: translations and rotations of its first animation. Everything
-/// else that moves is left out, with a sentence in notes(). Invalid keyframes are refused.
+/// The motion of a document's nodes: translations and rotations of its first animation. All other
+/// motion is left out, with a sentence in notes(). Invalid keyframes are refused.
 class GltfMotion {
 public:
     explicit GltfMotion(const GltfDocument& document);
@@ -18,11 +18,13 @@ public:
     struct Tracks {
         MotionTrack translation, rotation;
     };
-    /// Returns null if the node does not move by itself.
+    /// Returns the motion of the node with this index, or null if the node does not move relative
+    /// to its parent.
     [[nodiscard]] const Tracks* of(int node) const;
-    [[nodiscard]] double length() const { return length_; }  ///< [s]
+    [[nodiscard]] double length() const { return length_; }  ///< length of the animation [s]
 
-    /// Adds a sentence about something that is not shown, unless there is one of this kind.
+    /// Adds a sentence about something that is not shown, unless notes() has one with the same
+    /// `what`.
     void note(const std::string& place, const char* what);
     [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
 

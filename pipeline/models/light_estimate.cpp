@@ -20,10 +20,10 @@ constexpr Size kMap{32, 16};
 constexpr float kY0 = 0.282095F, kY1 = 0.488603F;
 
 /// Returns the weights of the prior for the nine coefficients, of degrees 0, 1 and 2. Each weight
-/// is the variance A divided by the variance B.
-/// A: variance of the seen light about a sum of nine harmonics (assumed: objects of about 0.25 sr
-/// with half or twice the brightness). B: variance of the coefficient between scenes (assumed:
-/// standard deviations of 3, 1.5 and 0.7 times the mean light for the three degrees).
+/// is A / B. A is the variance of the seen light about a sum of nine harmonics (assumed: objects of
+/// about 0.25 sr with half or twice the brightness). B is the variance of the coefficient between
+/// scenes (assumed: standard deviations of 3, 1.5 and 0.7 times the mean light for the three
+/// degrees).
 Eigen::Vector<double, 9> priorInformation() {
     Eigen::Vector<double, 9> out;
     out << 0.007, 0.03, 0.03, 0.03, 0.13, 0.13, 0.13, 0.13, 0.13;

@@ -7,7 +7,7 @@ namespace {
 
 // Files, JSON, textures and meshes can each use a quarter of the memory for reading a model.
 constexpr std::size_t kParts = 4;
-// Memory for a JSON value, first in the tree of nlohmann::json and then in that of tinygltf.
+// Memory for a JSON value, first in the tree of nlohmann::json and then in the tree of tinygltf.
 constexpr std::size_t kBytesPerJsonValue = 500;
 constexpr std::size_t kBytesPerTexel = 4;
 constexpr std::size_t kBytesPerVertex =

@@ -9,7 +9,7 @@ namespace mfar {
 /// blue glaze with a gilded band at the shoulder.
 [[nodiscard]] PaintedPoint glazeAt(float u, float height);
 
-/// `place` is a point [m] of a log of walnut whose axis is x.
+/// Returns the look of walnut at `place`, a point [m] of a log whose axis is x.
 [[nodiscard]] PaintedPoint walnutAt(const Eigen::Vector3f& place);
 
 /// Returns the depth of the twisted flutes at an angle [rad] and a height [m], from 0 outside the

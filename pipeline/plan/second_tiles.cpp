@@ -49,8 +49,8 @@ SecondTiles::SecondTiles(Size tiles) : work_(TileWork::everything(tiles)) {
     candidates_.reserve(count);
     showed_.resize(count);
     rest_.resize(count);
-    // TileWork must say that the whole frame is drawn, because each frame matches other tiles with
-    // the second still.
+    // With Draw::Tiles, steps keep the last results of unchanged tiles. But other tiles are chosen
+    // for the second still in each frame, so nothing can be kept.
     work_.draw = TileWork::Draw::WholeEnlarged;
 }
 

@@ -32,17 +32,17 @@ public:
 
     explicit SecondTiles(Size tiles);
 
-    /// Chooses at most `most` tiles that the frame draws and matches but the newest still does not
-    /// show. Tiles with much structure, and tiles that the second still showed before, are
-    /// preferred. `measured` must belong to the same frame. The result is valid until the next
-    /// call.
+    /// Chooses at most `most` of the tiles that are drawn and matched in this frame, but that the
+    /// newest still does not show. Tiles with much structure, and tiles that the second still
+    /// showed before, are preferred. `measured` must belong to the same frame. The result is valid
+    /// until the next call.
     const TileWork& choose(const TileWork& work, std::span<const TileMeasure> measured,
                            const Match& newest, int most);
     void judge(const Match& newest, Rows<const WeighedCell> second);
     /// Must be called when the second still or the newest still is replaced.
     void forget();
 
-    /// Number of tiles in which the frame of the last choose() is matched with the newest still.
+    /// Number of tiles that the frame of the last choose() draws and matches with the newest still.
     [[nodiscard]] int matched() const { return matched_; }
     [[nodiscard]] int shownByNewest() const { return shownByNewest_; }
     /// Number of chosen tiles that the second still improved, counted by the last judge().
@@ -57,7 +57,8 @@ private:
     TileWork work_;
     std::vector<Candidate> candidates_;
     std::vector<bool> showed_;
-    // Per tile: number of coming frames in which it is not matched with the second still.
+    // For each tile: number of frames, from now on, in which it is not matched with the second
+    // still.
     std::vector<std::uint8_t> rest_;
     int matched_ = 0, shownByNewest_ = 0, gained_ = 0;
 };

@@ -8,12 +8,13 @@ namespace mfar {
 namespace {
 
 constexpr int kTileBlock = 8;
-// kSpread: standard deviation of the sum of squares in a tile, as a fraction of the mean of such
-// sums. A difference is significant if it exceeds kSignificant standard deviations.
+// kSpread: standard deviation of the mean square of noise in one tile, as a fraction of its
+// expected value. An excess of TileEnergy::means is significant above kSignificant standard
+// deviations.
 constexpr double kSpread = 0.27;
 constexpr double kSignificant = 5;
-// Drifts below this fraction of the noise are not detected: the error of rounding to 8 bits is not
-// white noise, and can look like such a drift.
+// Lower limit of the excess that counts as a drift, as a fraction of the noise. Rounding to 8 bits
+// is not white noise and can cause smaller excesses.
 constexpr double kLeast = 0.03;
 
 constexpr int kStructureBins = 84;  // a bin is a quarter of an octave

@@ -10,14 +10,14 @@
 
 namespace mfar {
 
-/// Sums over the tiles that are not marked as changed.
+/// Number of tiles that are not marked as changed, and sums of their TileMeasure values.
 struct TileEnergy {
     int tiles = 0;
     double pixels = 0, means = 0, bends = 0;
 
     void add(const TileMeasure& tile);
-    /// True if the differences of the 2x2 means are larger than `grain` times the noise of the
-    /// pixels. This finds changes that are too weak to be found in one tile, such as a moving
+    /// True if `means` exceeds `grain` * `pixels`, its value for noise alone, by a significant
+    /// amount. This finds changes that are too weak to be found in one tile, such as a moving
     /// smooth slope of brightness.
     [[nodiscard]] bool drifted(double grain) const;
 };
@@ -33,12 +33,12 @@ void markBeside(std::span<TileMeasure> tiles, int columns);
 
 /// Chooses the tiles that are matched with the still: tiles whose structure exceeds the noise, and
 /// their neighbours, because the weight of a cell depends on pixels beyond its tile. If there are
-/// too many, those with the most structure are chosen. Tiles of the last choice are preferred, so
-/// that noise does not make detail appear and vanish.
+/// more tiles than `most`, the tiles with the most structure are chosen. Tiles of the last choice
+/// are preferred, so that noise does not make detail appear and vanish.
 class StructuredTiles {
 public:
     /// `none` is the largest structure that noise alone causes. If it is negative, every tile has
-    /// structure. `most` is the largest number of tiles.
+    /// structure. `most` is the upper limit of the number of chosen tiles.
     void choose(std::span<const TileMeasure> tiles, int columns, double none, int most);
     [[nodiscard]] bool operator[](std::size_t tile) const { return chosen_[tile]; }
     [[nodiscard]] int count() const;

@@ -11,9 +11,9 @@ namespace mfar {
 /// Measurements that decide whether a tile differs from the video with which it was last drawn.
 struct TileMeasure {
     /// True if the tile certainly changed: the mean difference or the mean absolute difference of a
-    /// cell exceeds the noise, or the mean and slopes of the difference over the whole tile exceed
-    /// it. The colour channel with the largest difference counts. markDrifted() also sets
-    /// `changed`.
+    /// cell exceeds the noise, or mean and slopes of the difference over the whole tile exceed the
+    /// noise. The colour channel with the largest difference counts. markDrifted() can set
+    /// `changed` later.
     bool changed = false;
     /// One bit for each cell, row-major: 1 if the cell's own differences exceed the thresholds of
     /// ChangeBounds.
@@ -38,9 +38,9 @@ struct ChangeBounds {
     float grain;
 };
 
-/// Measures every tile, row-major. Values are in 0..1.1e6. Both pictures must have the same size.
-/// If `workers` is null, the caller's thread does all work. The result does not depend on the
-/// number of threads.
+/// Measures every tile. `out` is row-major; its values are in [0, 1.1e6]. Both pictures must have
+/// the same size. If `workers` is null, the caller's thread does all work. The result does not
+/// depend on the number of threads.
 void measureTiles(const RgbPlanes& now, const RgbPlanes& drawn, const ChangeBounds& bounds,
                   Workers* workers, std::vector<TileMeasure>& out);
 

@@ -22,8 +22,8 @@ constexpr double kListedShare = 0.27;
 // Smallest structure of a matched tile, as a multiple of the noise variance of a 2x2 mean. Noise
 // alone gives 13 (16 means minus three degrees of freedom of the plane). The second term is the
 // signal for which superres_weigh.comp gives detail a tenth of its weight. The variance of this
-// signal is 0.44 times the noise variance of a pixel, that is, 4 * 0.44 times that of a 2x2 mean.
-// It is summed over 16 means.
+// signal is 0.44 times the noise variance of a pixel, that is, 4 * 0.44 times the noise variance of
+// a 2x2 mean. It is summed over 16 means.
 constexpr double kStructure = 13 + 16 * 4 * 0.44;
 constexpr double kRoundingVariance = 1.0 / 12;  // variance of 8-bit rounding [grey levels^2]
 // The grain estimate moves in each frame by one of these fractions of its difference to the

@@ -25,7 +25,7 @@ namespace mfar {
 /// moves, nothing is drawn.
 class WorkPlan {
 public:
-    /// `workers` compare the tiles. Null: the caller's thread does.
+    /// `workers` are the threads that compare the tiles. Null: only the caller's thread does.
     explicit WorkPlan(Size video, std::shared_ptr<Workers> workers = nullptr);
 
     /// Compares `now` with `drawn`, both of the video's size. If `force` is true, every tile counts
@@ -47,8 +47,8 @@ public:
     /// once. With 0, any changed tile is enough.
     void drawWholeFrom(double share) { wholeShare_ = share; }
     /// From now on, only tiles with structure above the noise, and their neighbours, are matched
-    /// with the still. Other tiles are only enlarged. At most the share `mostShare`, (0, 1], of all
-    /// tiles is matched; tiles with the most structure are preferred. By default all tiles are
+    /// with the still; all other tiles are only enlarged. `mostShare`, (0, 1], limits the share of
+    /// matched tiles; tiles with the most structure are preferred. By default, all tiles are
     /// matched.
     void matchStructured(double mostShare) { matchedShare_ = mostShare; }
     void matchEverything() { matchedShare_ = 0; }
@@ -57,7 +57,7 @@ public:
     [[nodiscard]] const std::vector<TileMeasure>& measured() const { return measured_; }
     [[nodiscard]] Size tileCount() const { return work_.tiles; }
     /// Standard deviation of the video's noise [grey levels], measured in the quietest tiles of
-    /// earlier frames. Before the first frame it is that of 8-bit rounding.
+    /// earlier frames. Before the first frame it is the standard deviation of 8-bit rounding.
     [[nodiscard]] double noise() const { return noise_; }
     /// Noise variance of 2x2 means, divided by a quarter of a pixel's noise variance. It is 1 for
     /// white noise, and larger if the sensor has smoothed the noise. It is measured in unchanged

@@ -70,11 +70,12 @@ double meanLuminance(const TracedScene& scene, std::uint32_t mesh, std::uint32_t
 
 struct EmissiveTriangles::Weighed {
     Triangle triangle;
-    std::uint32_t place;  ///< on a curve through space
+    std::uint32_t place;  ///< Morton code of its position, see placeOnCurve()
     double luminance, power;
 };
 
-// Sorted along a curve through space, triangles that follow each other are near each other.
+// The triangles are sorted along a curve through space. Then similar random numbers select
+// triangles that are near each other.
 EmissiveTriangles::EmissiveTriangles(const TracedScene& scene)
     : scene_(&scene), densities_(scene.meshes()) {
     const Eigen::AlignedBox3f& box = scene.objects().box();
@@ -128,7 +129,8 @@ float EmissiveTriangles::density(const Ray& ray, const RayHit& hit) const {
                                         : density({hit.mesh, hit.triangle}, ray.direction, hit.t);
 }
 
-// If the triangle is seen from its edge, its points cannot be drawn: the density would be infinite.
+// Returns the probability density of sampling this direction, per solid angle. For a triangle seen
+// edge-on it would be infinite; 0 is returned then.
 float EmissiveTriangles::density(const Triangle& triangle, const Eigen::Vector3f& direction,
                                  float distance) const {
     const auto [a, b, c] = scene_->corners(triangle.mesh, triangle.index);

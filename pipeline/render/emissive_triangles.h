@@ -8,7 +8,7 @@
 
 namespace mfar {
 
-/// The triangles of a scene's objects that emit light. A triangle is drawn with a probability
+/// The triangles of a scene's objects that emit light. A triangle is selected with a probability
 /// proportional to its power (area times luminance of its mean emission), and a point on it
 /// uniformly by area. Backs of single-sided triangles do not emit.
 class EmissiveTriangles {
@@ -17,22 +17,22 @@ public:
     /// The scene must outlive this object.
     explicit EmissiveTriangles(const TracedScene& scene);
 
-    /// True if no triangle can be drawn.
+    /// True if no triangle emits light.
     [[nodiscard]] bool dark() const { return table_.empty(); }
 
     /// A point on an emissive triangle as seen from another point.
     struct Sample {
         Ray ray;            ///< towards the point, unit length; ends a little behind it
-        RayHit point;       ///< the drawn point, as the ray's hit
-        float density = 0;  ///< probability density of the direction [1/sr]; 0: no point was drawn
+        RayHit point;       ///< the sampled point, as the ray's hit
+        float density = 0;  ///< probability density of the direction [1/sr]; 0: no point was found
     };
-    /// Draws a point. `u` decides both the triangle and the point on it, so that well distributed
+    /// Samples a point. `u` decides both the triangle and the point on it, so that well distributed
     /// numbers give well distributed points on a lamp of few triangles. `fine` continues the bits
-    /// of u.x, which are too few for very many triangles. All are in [0, 1). Must not be called if
-    /// dark().
+    /// of u.x, which are too few for very many triangles. All numbers are in [0, 1). Must not be
+    /// called if dark().
     [[nodiscard]] Sample sample(const Eigen::Vector3f& from, const Eigen::Vector2f& u,
                                 float fine) const;
-    /// Probability density [1/sr] with which sample() draws the direction of `ray` by a point of
+    /// Probability density [1/sr] with which sample() gives the direction of `ray` and a point of
     /// the hit triangle. `ray` must have a direction of unit length and `hit` must be its hit.
     [[nodiscard]] float density(const Ray& ray, const RayHit& hit) const;
 

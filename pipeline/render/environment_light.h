@@ -27,7 +27,7 @@ public:
         Eigen::Vector3f radiance{0, 0, 0};
         float density = 0;
     };
-    /// Returns radiance() and density(). Takes less time than both.
+    /// Returns radiance() and density() of `direction`, in less time than the two functions take.
     [[nodiscard]] Seen seen(const Eigen::Vector3f& direction) const;
 
 private:

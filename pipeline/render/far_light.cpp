@@ -12,16 +12,17 @@ namespace mfar {
 namespace {
 
 constexpr float kFullSphere = 4 * std::numbers::pi_v<float>;
-// Intervals per side of the finest pyramid level. At the poles, an interval is 0.45 degrees.
+// Number of intervals per side of the finest pyramid level. At the poles, an interval is 0.45
+// degrees.
 constexpr int kFinest = 256;
 constexpr int kCoarsest = 8;
 constexpr int kDiffuseEdge = 16;
-// Intervals per side of the pyramid level from which irradiance is computed.
+// Number of intervals per side of the pyramid level from which irradiance is computed.
 constexpr int kIntegrated = 32;
 constexpr int kSamples = 64;
 
-/// Roughness and resolution of a table of mirrored light. For a smaller roughness than that of the
-/// first table, light is interpolated between this table and the unfiltered environment.
+/// Roughness and resolution of a table of mirrored light. Below the roughness of the first table,
+/// light is interpolated between this table and the unfiltered environment.
 struct MirrorLevel {
     float roughness;
     int edge;

@@ -26,7 +26,7 @@ constexpr auto kRanks = [] {
 }();
 
 constexpr float kGreyLevels = 255;
-constexpr float kEnough = 16;  // number of samples from which a pixel may stay unfiltered
+constexpr float kEnough = 16;  // with fewer samples, a pixel is always filtered
 // Assumed contrast [grey levels] between an object and the unknown background: half the range.
 constexpr float kEdgeContrast = 0.5F * kGreyLevels;
 
@@ -48,7 +48,8 @@ Number squared(Number value) {
     return value * value;
 }
 
-/// `mean` is the mean of `count` samples, `square` the mean of their squared luminances.
+/// Returns the standard error of the luminance of `mean`, the mean of `count` samples. `square` is
+/// the mean of their squared luminances. Returns 0 for fewer than two samples.
 float deviationOf(const Eigen::Vector3f& mean, float square, float count) {
     if (count < 2) return 0;
     return std::sqrt(std::max(0.0F, square - squared(luminanceOf(mean))) / (count - 1));
@@ -185,7 +186,8 @@ void Film::add(std::size_t pixel, const FilmSample& sample) {
     ++p.objectHits;
     p.radiance += sample.radiance.cast<double>();
     p.radianceSquares += squared(luminanceOf<double>(sample.radiance.cast<double>()));
-    // Light of other objects is ignored at an edge. It would be shown on the object at the centre.
+    // At an edge, samples of other objects are ignored: their light would be shown on the object at
+    // the pixel's centre.
     if (hasObjectAtCentre(p) && sample.hit.id != p.seen.hit.id) return;
     ++p.object.hits;
     const auto [diffuse, specular] = weightsOf(sample.paint);
@@ -246,7 +248,8 @@ SurfaceLight Film::farOf(const Pixel& p) {
                              ((sum.far + weight * centre.cast<double>()) / all).cast<float>())
                        : centre;
     };
-    // The centre's far light has no noise. It gets a larger weight while there are few samples.
+    // The far light at the pixel's centre has no noise, so it gets a larger weight while there are
+    // few samples.
     const double fewer = std::max(0.0, 1 - p.object.hits / kManyHits);
     const double trust = 1 + kTrustedCentre * fewer;
     auto [diffuse, specular] = weightsOf(p.seen.paint);
@@ -333,8 +336,8 @@ void Film::remember(std::size_t pixel, const LightPixel& light) {
     Pixel& p = begun(pixel);
     if (p.taken > 0 || p.carried.firstCount > 0) return;
     const Eigen::Vector3f first = light.first.matrix(), second = light.second.matrix();
-    // Around this pixel of the shadow catcher, objects change no light. So the pixel counts as
-    // unchanged, too.
+    // The filtered light of this pixel of the shadow catcher shows no change by objects, so the
+    // pixel counts as untouched.
     const bool untouched = light.id == kCatcherId && first.isZero(0);
     p.carried = {first,
                  second,

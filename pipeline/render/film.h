@@ -87,8 +87,9 @@ public:
     [[nodiscard]] std::uint64_t dropped() const;
 
     void add(std::size_t pixel, const FilmSample& sample);
-    /// Mean radiance over a pixel's samples that hit an object, and over those that hit the shadow
-    /// catcher (with and without objects). The shares are these samples' numbers, divided by all.
+    /// Mean radiance over a pixel's samples that hit an object, and over its samples that hit the
+    /// shadow catcher (with and without objects). The shares are the numbers of these two kinds of
+    /// samples, divided by the number of all samples.
     struct Means {
         Eigen::Vector3f object{0, 0, 0};
         Eigen::Vector3f with{0, 0, 0}, without{0, 0, 0};
@@ -100,11 +101,11 @@ public:
     [[nodiscard]] bool isSeen(std::size_t pixel) const { return at(pixel).isSeen; }
     [[nodiscard]] const SeenSurface& centre(std::size_t pixel) const { return at(pixel).seen; }
     [[nodiscard]] GlossWords gloss(std::size_t pixel) const;
-    /// Stores an earlier picture's light of the surface at the pixel's centre. Its weight is its
-    /// number of samples.
+    /// Stores light that an earlier picture measured on the surface at the pixel's centre. The
+    /// number of its samples is its weight.
     void carry(std::size_t pixel, const KnownLight& light) { begun(pixel).carried = light; }
-    /// Returns sampled and carried light of the surface at the pixel's centre. Samples of other
-    /// surfaces are ignored.
+    /// Returns the light of the surface at the pixel's centre, from this picture's samples and from
+    /// carry(). Samples of other surfaces are ignored.
     [[nodiscard]] KnownLight known(std::size_t pixel) const;
 
     /// True if the pixel shows only the real surface, and no object changes its light.
@@ -142,7 +143,7 @@ private:
     struct LightSum {
         Eigen::Vector3d light{0, 0, 0}, far{0, 0, 0};
         double weights = 0;
-        double squares = 0;  // sum of squared luminances of light / far, unweighted
+        double squares = 0;  // sum of squared luminances of light / far, without weights
 
         void add(double weight, const Eigen::Vector3f& light, const Eigen::Vector3f& far);
         [[nodiscard]] Eigen::Vector3f relative() const;
@@ -159,8 +160,8 @@ private:
         SeenSurface seen;
         FirstHit nearest, nearestCatcher;
         KnownLight carried;
-        /// `object` counts samples of the object at the pixel's centre. If no object is there, it
-        /// counts samples of all objects.
+        /// `object` sums the samples of the object at the pixel's centre. If no object is there, it
+        /// sums the samples of all objects.
         LightSums catcher, object;
         Eigen::Vector3d radiance{0, 0, 0};
         double radianceSquares = 0;
@@ -209,7 +210,7 @@ private:
     };
     void addBlock(Block& block);
 
-    /// Blocks of memory, which are given back at the end.
+    /// Blocks of memory, which the destructor gives back.
     struct Held {
         std::shared_ptr<FilmMemory> memory;
         std::vector<std::byte*> blocks;

@@ -10,13 +10,13 @@
 namespace mfar {
 
 /// Memory of films, in blocks of one size. Films share it, so that a new picture gets the blocks of
-/// an old one. It grows by the blocks that are in use at once and never shrinks. All functions may
-/// be called by several threads at the same time.
+/// an old picture. It grows when take() or provide() needs more blocks, and never shrinks. All
+/// functions may be called by several threads at the same time.
 class FilmMemory {
 public:
     explicit FilmMemory(std::size_t blockBytes) : blockBytes_(blockBytes) {}
 
-    /// A block with any content. Throws std::bad_alloc.
+    /// Returns a block with undefined content. Throws std::bad_alloc.
     [[nodiscard]] std::byte* take();
     void giveBack(std::span<std::byte* const> blocks);
 

@@ -10,9 +10,9 @@ namespace mfar {
 namespace {
 
 constexpr float kNearest = 1e-3F;
-// A pixel shows the surface of the given point if it keeps two limits. kOffPlane is the largest
-// distance of its surface point from the given point's tangent plane, relative to depth. kSameBend
-// is the least cosine between both normals.
+// Limits for a pixel to show the same surface as a given point. kOffPlane is the largest distance
+// of the pixel's surface point from the tangent plane of the given point, relative to depth.
+// kSameBend is the smallest cosine of the angle between both normals.
 constexpr float kOffPlane = 0.01F, kSameBend = 0.9F;
 constexpr float kLeastWeight = 0.1F;
 // The weight of a specular lobe of width alpha falls to 1/e when the eye moves by the angle
@@ -93,7 +93,7 @@ KnownLight LightHistory::at(const SeenSurface& seen, const Eigen::Vector3f& poin
     if (!(out.firstCount > 0)) return out;
     const MovedLight::Change change = moved_->at(seen, point, eye);
     out.firstCount = stillWorth(out.firstCount, change.diffuse);
-    // The second light of the shadow catcher does not depend on objects.
+    // KnownLight::second of the shadow catcher is the light without objects, so it does not change.
     if (seen.hit.id != kCatcherId) out.secondCount = stillWorth(out.secondCount, change.specular);
     return out;
 }

@@ -16,8 +16,9 @@ namespace mfar {
 /// at the same time. The film must not change meanwhile and must outlive this object.
 class LightHistory {
 public:
-    /// `mostSamples` limits the weight of the light at a point [samples]. `lens` must belong to
-    /// `view`. `moved` describes the motion of objects since the earlier picture.
+    /// `film` and `view` are of the earlier picture; `lens` must belong to `view`. `mostSamples`
+    /// limits the weight of the light at a point [samples]. `moved` describes the motion of objects
+    /// since the earlier picture.
     LightHistory(const Film& film, const RenderView& view, std::shared_ptr<const LensRays> lens,
                  float mostSamples, std::optional<MovedLight> moved = {});
 

@@ -15,8 +15,8 @@ constexpr float kLeastAlpha = 1e-3F;
 constexpr int kAngles = 32, kRoughnesses = 32;
 constexpr std::uint32_t kAlbedoSamples = 256;
 
-/// Tables over roughness and sqrt(mu). The square root puts more nodes where the albedo changes
-/// fast.
+/// Tables over roughness and sqrt(mu), where mu is the cosine of the direction to the normal. The
+/// square root puts more nodes at small mu, where the albedo changes fast.
 struct AlbedoTables {
     std::array<std::array<SpecularAlbedo, kAngles>, kRoughnesses> at;
     std::array<SpecularAlbedo, kRoughnesses> mean;

@@ -44,9 +44,9 @@ struct SpecularAlbedo {
 /// for a mirror.
 [[nodiscard]] float alphaOf(float roughness);
 
-/// Reflected share of light for a direction with cosine `mu` to the normal, and the cosine-weighted
-/// mean over all directions. Both functions read tables that the first call computes. The error is
-/// below 0.01.
+/// specularAlbedo() returns the reflected share of light for a direction with cosine `mu` to the
+/// normal. meanSpecularAlbedo() returns its cosine-weighted mean over all directions. Both
+/// functions read tables that the first call computes. The error is below 0.01.
 [[nodiscard]] SpecularAlbedo specularAlbedo(float roughness, float mu);
 [[nodiscard]] SpecularAlbedo meanSpecularAlbedo(float roughness);
 

@@ -11,7 +11,7 @@ namespace {
 
 // Smaller motions count as no motion [rad], [m].
 constexpr double kLeastTurn = 1e-5, kLeastWay = 1e-6;
-// Standard deviation of a single sample, relative to the light. Real values are around it.
+// Assumed standard deviation of a single sample, relative to the light.
 constexpr float kNoise = 0.5F;
 // Light that a moved object itself receives changes by this share if the object moves by its radius
 // or turns by a radian.
@@ -24,7 +24,7 @@ constexpr float kLeastLight = 1e-6F;
 
 struct MovedLight::Sight {
     Eigen::Vector3f towards{0, 0, 1};
-    float sine = 1;  ///< of the ball's angular radius
+    float sine = 1;  ///< sine of the ball's angular radius
 
     Sight(const Eigen::Vector3f& point, const Eigen::Vector3f& centre, float radius) {
         const Eigen::Vector3f way = centre - point;

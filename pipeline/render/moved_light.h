@@ -14,30 +14,33 @@
 
 namespace mfar {
 
-/// Tells how far the motion of objects may have changed the light on a surface since an earlier
-/// picture. A moved object stands for its bounding ball, which blocks the distant light behind it
-/// and may glow. So the changes are estimates, and rather too large than too small.
+/// Estimates how much the motion of objects may have changed the light on a surface since an
+/// earlier picture. A moved object is approximated by its bounding ball, which blocks the distant
+/// light behind it and can glow. The estimates are rather too large than too small.
 class MovedLight {
 public:
     struct Object {
         std::uint8_t id = 0;
-        ObjectBall own;  ///< in the object's frame
+        ObjectBall own;  ///< bounding ball in the object's frame
         RigidTransform T_world_before, T_world_now;
         float glow = 0;  ///< luminance of its strongest emission
     };
     /// Objects that have not moved may be left out. `sun` and `far` must outlive this object.
     MovedLight(std::span<const Object> objects, const SunLight& sun, const FarLight& far);
 
-    /// Moves a point of an object, its normal and the viewer's position to where they were on the
-    /// object before.
+    /// Undoes the motion of object `id` since the earlier picture: applies T_world_before *
+    /// T_world_now^-1 to the point, the normal and the viewer's position `eye`. Changes nothing if
+    /// the object did not move.
     void follow(std::uint8_t id, Eigen::Vector3f& point, Eigen::Vector3f& normal,
                 Eigen::Vector3f& eye) const;
 
-    /// Shares of the light on a surface that may have changed, from 0 on; 1: all of it.
+    /// Change of the light on a surface as a share of this light. 0: unchanged; 1 or more: all of
+    /// it may have changed.
     struct Change {
         float diffuse = 0, specular = 0;
     };
-    /// `point` and `eye` are in the world, at their places now.
+    /// `point` and `eye` are the present positions of the surface point and of the viewer in the
+    /// world.
     [[nodiscard]] Change at(const SeenSurface& seen, const Eigen::Vector3f& point,
                             const Eigen::Vector3f& eye) const;
     /// Change of the diffuse light on a surface that is not part of a moved object.
@@ -64,8 +67,8 @@ private:
     std::vector<Moved> moved_;
 };
 
-/// Number of independent samples that are worth as much as `count` samples of a light of which the
-/// share `change` may have changed since.
+/// Returns the number of new samples that are as accurate as `count` old samples, if the share
+/// `change` of the light may have changed since.
 [[nodiscard]] float stillWorth(float count, float change);
 
 }  // namespace mfar

@@ -17,9 +17,10 @@ constexpr int kSpreadReach = 2, kSpreadStep = 4;
 constexpr float kSurely = 4;
 // A difference of more than this many standard errors is not noise.
 constexpr float kTolerance = 2.5F;
-// A sample of the shadow catcher shows either no change or a large one. So with few samples, the
-// lit and the shaded pixels of a penumbra would not be averaged, and it would have spots. There the
-// levels up to this distance, which is that of sparse samples, tolerate more.
+// A sample of the shadow catcher shows either no change or a large one. With few samples, the lit
+// and the shaded pixels of a penumbra would not be averaged, and the penumbra would have spots. So
+// filter levels with steps up to kSparseStep, the distance of sparse samples [px], use
+// kSparseTolerance instead of kTolerance on the shadow catcher.
 constexpr int kSparseStep = 4;
 constexpr float kSparseTolerance = 5;
 constexpr int kBefore = 2;               // number of stages before the first level

@@ -17,14 +17,14 @@ namespace mfar {
 /// Variances are of the luminance; a negative variance is unknown. Counts are numbers of samples.
 struct LightPixel {
     Eigen::Array3f first{0, 0, 0}, second{0, 0, 0};
-    /// With fewer samples, the variance counts as unknown.
+    /// Lower limit of the number of samples. With fewer samples, the variance counts as unknown.
     static constexpr float kFew = 4;
     float firstVariance = 0, secondVariance = 0;
     float firstCount = 0, secondCount = 0;
     Eigen::Array3f normal{0, 0, 0};  ///< surface normal, unit length
     float depth = 0;                 ///< [m] along the optical axis
     std::uint8_t id = 0;             ///< surface id; 0: several surfaces or none
-    /// If true, the filter does not change this pixel, but its neighbours use its light.
+    /// True: the filter does not change this pixel, but still uses its light for its neighbours.
     bool kept = false;
 };
 
@@ -61,8 +61,8 @@ private:
     void unpack(std::size_t pixel, int set);
     void filterRow(int level, int y);
 
-    // The levels work on arrays, one for each value. The arrays of light exist twice: a level reads
-    // one set and writes the other.
+    // The filter's levels work on arrays, one for each value. There are two sets of the arrays of
+    // light: a level reads one set and writes the other set.
     static constexpr int kFirst = 0, kSecond = 3, kFirstVariance = 6, kSecondVariance = 7,
                          kFirstCount = 8, kSecondCount = 9, kOfSet = 10;
     static constexpr int kNormal = 2 * kOfSet, kDepth = kNormal + 3, kId = kNormal + 4,

@@ -13,8 +13,8 @@ namespace {
 constexpr std::uint32_t kSunPair = 0, kEnvironmentPair = 1, kScatterPair = 2, kRoulettePair = 3;
 constexpr std::uint32_t kPairsOfVertex = 4;
 constexpr std::uint32_t kPairsOfPath = kPairsOfVertex * 64;
-// The pairs of emissive triangles come after those of both walks of a sample, so that a scene
-// without emission uses the same numbers as if there were no emission at all.
+// Random pairs for emissive triangles have indices above those of both walks of a sample. So a
+// scene gets the same random numbers for everything else, with or without emissive triangles.
 constexpr std::uint32_t kEmitterPair = 2 * kPairsOfPath, kFineEmitterPair = kEmitterPair + 1;
 constexpr float kLeastFarShare = 0.05F, kLeastFar = 1e-6F;
 // Largest angular radius [rad] of a sun whose light is computed without a ray.
@@ -246,7 +246,8 @@ PathIntegrator::OfObject PathIntegrator::ofObject(const RayHit& hit,
                                                   const PixelSampler& sampler) const {
     const Vertex vertex(scene_.objectPoint(hit, direction), -direction.normalized());
     World all{scene_, emitters_, true};
-    // Both walks share the lights' samples, so that each needs one ray.
+    // Both walks use the same light samples, so that only one shadow ray is traced for each light
+    // sample.
     Lights lights = sampledLights(sampler, kCameraPairs);
     Sent sent, known;
     const auto add = [&](Lobes lobes) {

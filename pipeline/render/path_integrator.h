@@ -96,18 +96,18 @@ private:
     /// Follows a reflected ray from a walk's vertex, and adds the distant light at its end. Returns
     /// true if it reaches a surface, which is then `walk.reached`.
     [[nodiscard]] bool scatter(const Vertex& vertex, Walk& walk) const;
-    /// `number` is the index of the sample in its pixel, `known` an approximation of
-    /// parts.direct.unblocked without a ray.
+    /// Returns the light of all parts. `number` is the index of the sample in its pixel. `known` is
+    /// an approximation of parts.direct.unblocked that needs no ray.
     [[nodiscard]] static Sent sum(const Parts& parts, const Sent& known, std::uint32_t number);
-    /// Weight in multiple importance sampling. `taken` is the density of the strategy that drew the
-    /// sample, `other` the other strategy's density.
+    /// Weight in multiple importance sampling. `taken` is the density of the strategy that
+    /// generated the sample; `other` is the density of the other strategy for it.
     using Weight = float (*)(float taken, float other);
     /// A sample of the sun or the environment. `far` is FarLight's approximation of its radiance.
     struct SampledLight {
         LightSample light;
         Eigen::Vector3f far{0, 0, 0};
         Weight weight = nullptr;
-        std::optional<bool> reaches;  ///< nothing blocks it; empty: not yet tested
+        std::optional<bool> reaches;  ///< true: nothing blocks it; empty: not yet tested
     };
     [[nodiscard]] Lights sampledLights(const PixelSampler& sampler, std::uint32_t pair) const;
     [[nodiscard]] static Arrived direct(const Vertex& vertex, Lobes lobes, Lights& lights,
@@ -126,13 +126,15 @@ private:
     [[nodiscard]] Sent known(const Vertex& vertex, Lobes lobes, bool withSun) const;
     [[nodiscard]] SurfaceLight far(const Sent& known, const Paint& paint) const;
     [[nodiscard]] Sent knownSky(const Vertex& vertex, Lobes lobes) const;
-    /// Assumes a narrow sun. The error grows with the sun's width.
+    /// Approximates the light of the sun without a ray. Assumes a narrow sun; the error grows with
+    /// the sun's width.
     [[nodiscard]] Sent knownSun(const Vertex& vertex, Lobes lobes) const;
     [[nodiscard]] Escaped escaped(const Eigen::Vector3f& direction, float density) const;
     /// Returns the factor (at most 1) that limits `light` to the firefly clamp. It is 1 for light
     /// on the first surface (`depth` 1).
     [[nodiscard]] float kept(const Eigen::Vector3f& light, int depth) const;
-    /// Russian roulette. The light of a path that survives is divided by its chance.
+    /// Russian roulette: returns false if the path ends at random. The light of a path that
+    /// survives is divided by its probability to survive.
     [[nodiscard]] bool survives(Carried& carried, int depth, const PixelSampler& sampler,
                                 std::uint32_t pair) const;
     [[nodiscard]] Sent sent(const Carried& carried, const Eigen::Vector3f& light, int depth) const;

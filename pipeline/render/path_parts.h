@@ -8,8 +8,8 @@
 // Parts of PathIntegrator that only path_integrator.cpp uses.
 namespace mfar {
 
-// A path that carries at least this share of the light always survives. Ending such paths at random
-// would add much noise, also with a good sampler.
+// Russian roulette never ends a path that carries at least this share of the light. Ending such
+// paths would add much noise, even with well distributed random numbers.
 inline constexpr float kSurvives = 0.25F;
 
 /// Balance heuristic for one sample from each of two densities (Veach 1997, equation 9.8). The
@@ -39,9 +39,9 @@ struct PathIntegrator::World {
         return !scene.catcher().empty() && scene.catcher().blocked(ray);
     }
 
-    /// True if nothing hides the sampled point. The ray must hit the sampled triangle itself. So of
-    /// two triangles in the same place, only the one that other rays hit gives light, and the holes
-    /// of an alpha mask give none.
+    /// True if nothing hides the sampled point: the first hit of the ray must be the sampled
+    /// triangle. If two triangles coincide, only the one that first() returns gives light, as for
+    /// the rays of next(). Holes of an alpha mask give no light.
     bool sees(const EmissiveTriangles::Sample& sample) {
         Ray ray = sample.ray;
         const RayHit hit = scene.objects().first(ray);
@@ -52,8 +52,8 @@ struct PathIntegrator::World {
         return true;
     }
 
-    /// Returns the point that a ray hits. `density` is the one of the ray's direction. The point's
-    /// emission is multiplied by its weight in multiple importance sampling.
+    /// Returns the point that a ray hits. `density` is the probability density of the ray's
+    /// direction. The point's emission is multiplied by its weight in multiple importance sampling.
     std::optional<SurfacePoint> next(Ray ray, float density) {
         RayHit object;
         if (objects && !scene.objects().empty()) object = scene.objects().first(ray);
@@ -81,7 +81,7 @@ struct PathIntegrator::Vertex {
         : point(p), wo(towards), frame(frameAround(p.shading)),
           scatter(p.look, frame.transpose() * towards) {}
 
-    /// True if the triangle faces `direction`. The shading normal may face another side.
+    /// True if the triangle faces `direction`. The shading normal is not tested.
     [[nodiscard]] bool faces(const Eigen::Vector3f& direction) const {
         return point.geometric.dot(direction) > 0;
     }
@@ -119,7 +119,7 @@ struct PathIntegrator::Walk {
     int depth = 1;       ///< number of surfaces so far
     Carried carried{};
     Parts out{};
-    std::optional<Vertex> reached{};  ///< the last surface after the first
+    std::optional<Vertex> reached{};  ///< the surface that scatter() reached last
 
     [[nodiscard]] bool isFirst() const { return depth == 1; }
     [[nodiscard]] Lobes lobesHere() const { return isFirst() ? lobes : Lobes::Both; }

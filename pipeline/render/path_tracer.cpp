@@ -25,8 +25,8 @@ namespace {
 constexpr std::size_t kBatch = 64;
 constexpr float kLeastMean = 0.1F;
 
-/// A sample of a pixel, or the ray through the pixel's centre. This ray is traced before the
-/// samples.
+/// A sample of a pixel, or the ray through the pixel's centre, which is traced before the first
+/// sample.
 struct CameraSample {
     std::uint32_t pixel = 0, number = 0;
     bool centre = false;
@@ -111,9 +111,9 @@ struct PathTracer::Parts {
     TracedScene scene;
     std::shared_ptr<const DistantLight> light;
     PathIntegrator integrator;
-    float reach;  ///< of shadows and light on the shadow catcher [object radii]
+    float reach;  ///< radius of shadows and light on the shadow catcher [object radii]
     std::shared_ptr<const MirrorLight> mirrors;
-    std::vector<MovedLight::Object> moving;  ///< without poses
+    std::vector<MovedLight::Object> moving;  ///< moving objects; their poses are not set
     mutable std::mutex lensMutex;
     mutable std::shared_ptr<const LensRays> lens;
 };
@@ -189,7 +189,7 @@ private:
         SeenSurface seen;
         if (object.found())
             // Smoothing the normal takes time, and the first picture (without a history) must be
-            // ready soon. There, lookAgain() smooths the normal at the first sample.
+            // ready soon. For that picture, lookAgain() smooths the normal at the first sample.
             seen = surfaceOf(pixel, ray, object, history_ != nullptr);
         else if (real.found())
             seen = {{real.t, kCatcherId}, scene.catcherPoint(real, ray.direction).shading, {}, 1};

@@ -39,8 +39,8 @@ public:
     void trace(const RenderView& view, std::span<const std::uint32_t> pixels, int samples,
                Film& film, const LightHistory* history = nullptr) const;
 
-    /// Gives trace() access to the light in the film of an earlier picture of the same objects, at
-    /// these poses if any of them moves.
+    /// Returns an argument for trace() with the light in the film of an earlier picture of the same
+    /// objects. `poses` are the objects' poses in that picture; empty if no object moves.
     [[nodiscard]] LightHistory historyOf(const Film& film, const RenderView& view,
                                          float mostSamples,
                                          std::span<const RigidTransform> poses = {}) const;

@@ -6,7 +6,7 @@
 namespace mfar {
 namespace {
 
-// The film's pixels are requested from memory this number of pixels before they are read.
+// Number of pixels by which Film::prefetch() runs ahead of reading.
 constexpr int kAhead = 4;
 
 }  // namespace

@@ -147,7 +147,7 @@ RayScene::RayScene(std::shared_ptr<RTCDeviceTy> device) : device_(std::move(devi
     scene_.reset(rtcNewScene(device_.get()));
     check(device_.get(), "creating a scene");
     packetWidth_ = packetWidthOf(device_.get());
-    // Without this flag, rays may pass between triangles that share an edge.
+    // Without this flag, rays can pass between triangles that share an edge.
     rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
 }
 

@@ -48,16 +48,17 @@ class RayScene {
 public:
     /// Throws std::runtime_error if Embree is unavailable. `buildThreads` must be at least 1.
     explicit RayScene(int buildThreads = 1);
-    /// Creates an empty scene that may place `other`.
+    /// Creates an empty scene on the same Embree device as `other`, so that place() can put one of
+    /// both scenes into the other.
     [[nodiscard]] static RayScene beside(const RayScene& other) { return RayScene(other.device_); }
 
     /// Copies the mesh and returns its index. Coordinates must be finite and indices in range.
     std::uint32_t add(std::span<const Eigen::Vector3f> positions,
                       std::span<const std::array<std::uint32_t, 3>> triangles,
                       const HoleTest& holes = {});
-    /// Adds all meshes of a committed scene at a pose, and returns the index of the first. They
-    /// need no time for building. `part` must be created beside this scene and must have no placed
-    /// parts. Single meshes must be added before.
+    /// Adds all meshes of a committed scene at a pose, and returns the index of the first mesh.
+    /// Their search structure is used again, not built. `part` must have no placed parts and must
+    /// share the device of this scene, see beside(). All calls of add() must come before.
     std::uint32_t place(const RayScene& part, const RigidTransform& T_scene_part);
     void commit();
 

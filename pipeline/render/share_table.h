@@ -6,8 +6,8 @@
 
 namespace mfar {
 
-/// Draws indices with given probabilities. Similar random numbers draw indices that are near each
-/// other, so that well distributed numbers stay well distributed.
+/// Selects random indices with given probabilities. Similar random numbers select indices that are
+/// near each other, so that well distributed numbers give well distributed indices.
 class ShareTable {
 public:
     ShareTable() = default;
@@ -20,8 +20,8 @@ public:
         std::uint32_t index;
         float rest;
     };
-    /// `u` is in [0, 1). It needs many more bits than the number of indices has. An index of weight
-    /// 0 is never drawn. The table must not be empty.
+    /// Selects an index by the random number `u` in [0, 1), which needs many more bits than the
+    /// number of indices has. An index of weight 0 is never selected. The table must not be empty.
     [[nodiscard]] Drawn draw(double u) const;
 
 private:

@@ -27,14 +27,15 @@ struct ScatterSample {
     float density = 0;  ///< probability density of wi [1/sr]; 0: the sample scatters no light
 };
 
-/// Parts of a reflection. `Mirrored` is the lobe around the mirrored direction, `Broad` the rest.
+/// Parts of a reflection. `Mirrored` is the lobe around the mirrored direction; `Broad` is all
+/// other reflection.
 enum class Lobes { Both, Broad, Mirrored };
 
-/// Shares of light that a surface sends to the eye. `mirrored` is for light in the mirrored lobe,
-/// the others are for uniform light from the hemisphere.
+/// Shares of light that a surface sends to the eye. `mirrored` is for light in the mirrored lobe;
+/// `white` and `manyfold` are for uniform light from the hemisphere.
 struct Reflectance {
     float white = 1;
-    /// Share that several microfacets reflect, one after the other.
+    /// Share of the light that is reflected by several microfacets, one after the other.
     Eigen::Vector3f manyfold{0, 0, 0};
     Eigen::Vector3f mirrored{0, 0, 0};
 };

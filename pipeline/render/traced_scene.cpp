@@ -29,7 +29,7 @@ T interpolated(const std::vector<T>& values, const std::array<std::uint32_t, 3>&
            values[corners[2]] * hit.v;
 }
 
-/// The result's length is twice the triangle's area.
+/// Returns a vector along the triangle's normal. Its length is twice the triangle's area.
 Eigen::Vector3f crossed(const std::vector<Eigen::Vector3f>& positions,
                         const std::array<std::uint32_t, 3>& corners) {
     const Eigen::Vector3f& a = positions[corners[0]];

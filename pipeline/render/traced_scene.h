@@ -75,7 +75,7 @@ public:
     [[nodiscard]] bool isEven(const RayHit& hit, float width) const;
     [[nodiscard]] SurfacePoint objectPoint(const RayHit& hit,
                                            const Eigen::Vector3f& direction) const;
-    /// Leaves out look and emission, which take most of objectPoint()'s time.
+    /// Returns objectPoint() without look and emission, which take most of its time.
     [[nodiscard]] SurfacePoint bareObjectPoint(const RayHit& hit,
                                                const Eigen::Vector3f& direction) const;
     [[nodiscard]] SurfacePoint catcherPoint(const RayHit& hit,
@@ -100,9 +100,9 @@ private:
     };
 
     using MeshList = std::vector<std::shared_ptr<const TracedMesh>>;
-    /// Meshes that keep their places to each other, with a search structure that moving objects
-    /// need not build again. `object`: an index of Scene::objects if the part moves; its meshes are
-    /// then in coordinates of the object.
+    /// Meshes that do not move relative to each other, with a search structure that need not be
+    /// built again when objects move. If the part moves, `object` is its index in Scene::objects,
+    /// and its meshes are in coordinates of the object.
     struct Part {
         std::optional<std::size_t> object;
         RayScene rays;

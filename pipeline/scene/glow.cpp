@@ -16,8 +16,8 @@ namespace {
 
 constexpr double kVisible = 0.005;
 
-/// Returns the sum of area times radiance of the model's triangles, without emission textures,
-/// which can only make it smaller [W/sr].
+/// Returns the sum of area times radiance of the model's triangles [W/sr]. It ignores emission
+/// textures, so it is an upper limit.
 double intensityOf(const SceneObject& object) {
     double sum = 0;
     for (const Mesh& mesh : meshesOf(object)) {
@@ -59,8 +59,8 @@ double glowReach(const Scene& scene) {
         intensity += intensityOf(object);
     if (!(intensity > 0)) return 1;
     const double seen = std::sqrt(intensity / (kVisible * irradianceOf(scene.lighting)));
-    // Shadows are expected up to half a diagonal around the objects' box: a diagonal from its
-    // centre.
+    // Shadows are expected up to half a diagonal outside the objects' box, which is about one
+    // diagonal from its centre.
     const double reach = seen / boundsOf(scene).diagonal().norm();
     return reach >= 1 ? std::min(reach, kMostGlowReach) : 1;
 }

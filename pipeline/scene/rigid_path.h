@@ -16,22 +16,24 @@ struct MotionTrack {
     Between between = Between::Linear;
     std::vector<double> times;  ///< [s], increasing; empty: the value does not change
     /// One value for each time: a translation (x, y, z, 0) [m] or a unit quaternion (x, y, z, w).
-    /// CubicSpline has three: the tangent [1/s] before the time, the value, and the tangent after.
+    /// CubicSpline has three entries for each time: tangent before the time [1/s], value, and
+    /// tangent after the time [1/s].
     std::vector<Eigen::Vector4d> values;
 
-    /// The first value holds before the first time, the last value after the last time.
+    /// Returns the first value before the first time, and the last value after the last time.
     [[nodiscard]] Eigen::Vector3d translationAt(double seconds) const;
-    /// Linear turns at a constant rate on the shorter way; CubicSpline is normalised.
+    /// Between::Linear gives a rotation at a constant rate by the smaller angle. A quaternion from
+    /// Between::CubicSpline is normalised.
     [[nodiscard]] Eigen::Quaterniond rotationAt(double seconds) const;
     [[nodiscard]] MotionTrack scaled(double scale) const;
 };
 
-/// The pose of a rigid part that moves on a closed loop in time: a chain of joints, from the
-/// outermost to the part's own.
+/// The pose of a rigid part over time; the motion repeats. The part hangs on a chain of moving
+/// joints, the outermost first, the part's own joint last.
 struct RigidPath {
     struct Joint {
-        RigidTransform T_parent_joint;  ///< does not change; parent: the joint before
-        RigidTransform rest;            ///< values of tracks without keyframes
+        RigidTransform T_parent_joint;  ///< constant offset from the joint before
+        RigidTransform rest;            ///< translation and rotation of tracks without keyframes
         MotionTrack translation, rotation;
     };
     std::vector<Joint> joints;

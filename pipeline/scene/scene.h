@@ -50,8 +50,8 @@ struct Mesh {
                                             ///< -1
     std::vector<std::array<std::uint32_t, 3>> triangles;
     int material = 0;
-    /// 0: rigid with the model. Otherwise the mesh moves as Model::paths[part - 1], and its
-    /// coordinates are those of the path's last joint.
+    /// 0: the mesh does not move in the model. Otherwise it moves along Model::paths[part - 1], and
+    /// its coordinates are relative to the path's last joint.
     int part = 0;
 };
 
@@ -59,7 +59,7 @@ struct Mesh {
 /// numbers are finite and all indices are in range.
 struct Model {
     std::vector<Mesh> meshes;
-    std::vector<RigidPath> paths;  ///< of the moving parts
+    std::vector<RigidPath> paths;  ///< motion of the moving parts, see Mesh::part
     std::vector<Material> materials;
     std::vector<SurfaceTexture> textures;
     /// Sentences about parts of the model's file that are not shown: "file: place: fact".
@@ -74,8 +74,8 @@ struct Environment {
     std::vector<Eigen::Vector3f> radiance;
 };
 
-/// A distant light source that looks like a disc. `towards` is a unit vector in the world,
-/// `irradiance` that of a surface that faces the sun. `angularRadius` is in radians.
+/// A distant light source that looks like a disc. `towards` is a unit vector in the world.
+/// `irradiance` is the irradiance on a surface that faces the sun. `angularRadius` is in radians.
 struct Sun {
     Eigen::Vector3f towards{0.40562F, -0.30421F, 0.86194F};
     Eigen::Vector3f irradiance{1, 1, 1};

@@ -5,7 +5,7 @@
 namespace mfar {
 namespace {
 
-/// Number of poses of a path whose bounds are joined.
+/// Number of poses, evenly spaced in time, from which the bounds of a moving object are computed.
 constexpr int kPoses = 64;
 
 /// Returns the bounds of the object at all times, from the corners of its bounds at rest.

@@ -15,17 +15,18 @@ struct ObjectBall {
     double radius = 0;
 };
 
-/// Returns the ball in the object's own frame, but in metres of the world; empty without vertices.
+/// Returns the bounding ball in the object's own frame, but with the object's scale applied [m].
+/// Empty if the object has no vertices.
 [[nodiscard]] std::optional<ObjectBall> ownBall(const SceneObject& object);
 /// Returns one ball in the world for each object that has vertices, at its present pose.
 [[nodiscard]] std::vector<ObjectBall> objectBalls(const Scene& scene);
 
-/// Returns the bounds of the object in the given frame; of a moving object, its bounds at any time.
+/// Returns the bounds of the object in the given frame. They contain a moving object at all times.
 [[nodiscard]] Eigen::AlignedBox3d boundsIn(const RigidTransform& T_frame_world,
                                            const SceneObject& object);
 
-/// Returns the bounds of all objects in world coordinates, at any time. They are empty if the scene
-/// has no vertex.
+/// Returns the bounds of all objects in world coordinates. They contain moving objects at all
+/// times, and are empty if the scene has no vertex.
 [[nodiscard]] Eigen::AlignedBox3d boundsOf(const Scene& scene);
 
 }  // namespace mfar

@@ -12,16 +12,16 @@
 
 namespace mfar {
 
-/// An object from the configuration file. It shows `model`, or `shape` (without its T_world_object)
-/// if `model` is null.
+/// An object from the configuration file. It shows `model`, or `shape` if `model` is null. The
+/// member T_world_object of `shape` is not used.
 struct PlacedObject {
     std::shared_ptr<const Model> model;
     std::string modelName;  ///< "showpiece" or a file name, for messages; empty without a model
     VirtualObject shape;
     float scale = 1;  ///< scale of the model, above 0; not used for `shape`
     RigidTransform T_anchor_object;
-    /// T_anchor_object refers to this tag: origin in the tag's centre, x right and y up in the
-    /// tag's print, z out of the print. Not set: it refers to the world of the tag map.
+    /// The anchor of T_anchor_object is this tag: origin in the tag's centre, x right and y up in
+    /// the tag's print, z out of the print. If not set, the anchor is the world of the tag map.
     std::optional<TagKey> tag;
 };
 

@@ -13,19 +13,18 @@ namespace mfar::simd {
 /// Flow x, y [px] of a cell of 4x4 pixels, followed by two unused entries.
 using CellVector = std::array<float, 4>;
 
-/// Maps points of a frame to the still. A point is first moved by s * motion.move (see
-/// EpipolarLens), then rotated. The result is (nowhere, nowhere) for a point behind the still
-/// camera, and for a point whose x or y is beyond +-nowhere.
+/// Parameters of the projection of a frame's points into the still, which is drawn as the video
+/// camera would show it. The ray of a point with inverse depth s changes from r to R (r + s (t - r
+/// t.z)), see EpipolarLens. R is `motion.turn`, t is `motion.move`.
 struct FlowEnds {
-    Lens lens;
+    Lens lens;  ///< lens of the video camera
     Motion motion;
-    /// nearPlane: smallest valid z of a ray (x, y, 1) after the rotation. nowhere: coordinate of
-    /// points outside the still [px].
-    float nearPlane;
-    float nowhere;
+    float nearPlane;  ///< smallest valid z of the changed ray; a point with less is invalid
+    float nowhere;    ///< x and y [px] of invalid points, and of points with a larger |x| or |y|
 };
 
-/// A row of cells: the rays through their centres, and the pixel coordinates of the centres.
+/// A row of cells: rays (x, y, 1) through the cells' centres, and the pixel coordinates of these
+/// centres.
 struct CellRow {
     const float *raysX, *raysY;
     const float* middlesX;
@@ -33,49 +32,50 @@ struct CellRow {
     std::size_t count;
 };
 
-/// Writes the inverse depth of each cell: the median of its four central pixels (mean of the middle
-/// two values). `upper`, `lower`: second and third pixel row of the cells, from the first cell's
-/// first pixel on.
+/// Computes the inverse depth of each cell from its four central pixels. The result is the mean of
+/// the two middle values. `upper`, `lower`: second and third pixel row of the cells, from the first
+/// cell's first pixel on.
 void cellDepths(const float* upper, const float* lower, std::size_t count, float* out);
 
+/// Computes the flow of each cell from its inverse depth `s`.
 void cellFlow(const FlowEnds& ends, const CellRow& row, const float* s, CellVector* flow);
 
-/// Finds the cell of another picture to which each cell's flow points. `j`: row of the cells.
-/// `cells`: size of the other picture in cells. `landing`: row-major index of the cell that was
-/// found, or -1 outside the picture.
+/// Finds the cell of another picture to which each cell's flow points. `flow`: row `j` of cells.
+/// `cells`: size of both pictures in cells. `landing`: row-major index of the cell that was found,
+/// or -1 if the flow points outside the picture.
 void cellLandings(const CellVector* flow, int j, Size cells, std::int32_t* landing);
 
-/// cellsHidden() computes how far each cell lies behind the nearest surface that lands on the same
-/// cell of the other picture [px of parallax]. The distance is (nearest[landing] - s) *
-/// pixelsPerUnit - slope, limited to [0, nowhere]. It is `nowhere` if `landing` is -1. `nearest`:
-/// largest inverse depth that lands on each cell of the other picture. `slope`: parallax [px] that
-/// two cells of one slanted surface can have. The result is written to the first entry of `out`.
+/// Parameters of cellsHidden(), which tests if a nearer surface hides a cell in the other picture.
+/// The first entry of `out` tells how far the cell lies behind that surface [px of parallax]:
+/// (nearest[landing] - s) * pixelsPerUnit - slope, limited to [0, nowhere]. It is `nowhere` for a
+/// cell with landing -1. `nearest[k]`: largest s of all cells with landing k. `slope`: parallax
+/// [px] that two cells of one slanted surface can have.
 struct HiddenRule {
     float pixelsPerUnit, slope, nowhere;
 };
 void cellsHidden(const std::int32_t* landing, const float* nearest, const float* s,
                  const HiddenRule& rule, std::size_t count, CellVector* out);
 
-/// Adjusts the inverse depth `s` of each cell to its measured `flow`. The new `s` moves the cell's
-/// point along its epipolar line to the position nearest to `flow`. `start`: flow of the old `s`.
-/// `step`: change of s that moves a point by about a pixel. Cells whose point moves by less than
-/// `leastWay` [px] per `step` remain unchanged.
+/// Adjusts the inverse depth `s` of each cell to its measured `flow`. The new `s` puts the cell's
+/// point on its epipolar line, as near as possible to the end of `flow`. `start`: flow of the old
+/// `s`. `step`: change of `s` that moves a point by about a pixel. A cell keeps its `s` if its
+/// point moves by less than `leastWay` [px] per `step`.
 void alignCells(const FlowEnds& ends, const CellRow& row, const CellVector* flow,
                 const CellVector* start, float step, float leastWay, float* s);
 
 struct CellMotion {
-    /// Lens of the frames' camera, scaled to pixels as large as cells, and motion from the last
-    /// frame's camera to the next frame's. lastZ, nextZ: z of both camera centres, relative to the
-    /// still camera [units]. perUnit: converts inverse depth to the units of the next frame.
-    Lens lens;
-    Motion motion;
+    Lens lens;      ///< lens of the frames' camera, for a picture with one pixel per cell
+    Motion motion;  ///< from the last frame's camera to the next frame's camera
+    /// z of the last and of the next camera centre, relative to the still camera, along the optical
+    /// axis of the same frame [units of length].
     float lastZ, nextZ;
-    float perUnit;
-    float nearPlane;
+    float perUnit;    ///< factor that converts s from the last frame's unit to the next frame's
+    float nearPlane;  ///< a moved point is valid if its z times its old s exceeds this
 };
-/// Finds the cells of the next frame that show the points of the last frame's cells. `cells`: size
-/// of the next frame in cells. `landing`: index of the next frame's cell, or -1 if none shows the
-/// point. `moved`: the point's inverse depth in the next frame.
+/// Finds the cells of the next frame that show the points of the last frame's cells. `s`: inverse
+/// depths of the points. `cells`: size of the next frame in cells. `landing`: row-major index of
+/// the next frame's cell, or -1 if none shows the point. `moved`: s of the point for the next
+/// frame.
 void predictCells(const CellMotion& motion, const float* raysX, const float* raysY, const float* s,
                   std::size_t count, Size cells, std::int32_t* landing, float* moved);
 

@@ -14,7 +14,8 @@ namespace mfar::simd {
     return {(cells.width + kLongest - 1) / kLongest * kLongest, cells.height};
 }
 
-/// One value per cell. Each row has margins for copies of its border, see repeatBorder().
+/// One value per cell. Each row has margins, to which repeatBorder() copies the row's first and
+/// last value.
 class CellPlane {
 public:
     explicit CellPlane(Size cells)
@@ -37,8 +38,9 @@ private:
     AlignedRows<float> rows_;
 };
 
-/// Splits a row of cells into the longest runs whose tiles are all matched or all unmatched. Calls
-/// body(matched, first, last) for each run.
+/// Joins adjacent tiles of a tile row that are all matched or all unmatched (TileWork). Calls
+/// body(matched, first, last) for each such group, which contains the columns [first, last) of
+/// cells.
 template <class Body>
 void forRuns(const TileWork& work, int tileRow, int cellsPerTile, int cells, const Body& body) {
     for (int tile = 0; tile < work.tiles.width;) {

@@ -8,9 +8,10 @@
 
 namespace mfar::simd {
 
-/// Enlarges rows of a field of cells to the width of a picture. Values are interpolated linearly
-/// between the cells' centres, and are constant beyond the outermost centres. The last four rows
-/// are kept. Count: number of channels per cell.
+/// The class CellRows enlarges rows of cells to the width of a picture. Values are interpolated
+/// linearly between the cells' centres, and are constant beyond the outermost centres. Four
+/// successive enlarged rows are kept, so that they are computed only once. Count: number of
+/// channels per cell.
 template <class Cell, std::size_t Count>
 class CellRows {
 public:
@@ -27,7 +28,7 @@ public:
         end_ = end;
         rows_.fill(-1);
     }
-    /// Returns row y of the field, enlarged. `channelsOf` converts a cell to finite numbers.
+    /// Returns the enlarged row y of cells. `channelsOf` must convert a cell to finite numbers.
     template <class ChannelsOf>
     [[nodiscard]] Wide row(int y, const ChannelsOf& channelsOf) {
         const int slot = y % kKept, first = slot * static_cast<int>(Count);

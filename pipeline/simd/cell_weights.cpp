@@ -41,8 +41,9 @@ HWY_INLINE V Smoothed(const RowsAround& rows, int x) {
     return hn::Mul(hn::MulAdd(Const(2), Vertical(rows, x), sides), Const(1.0F / 16));
 }
 
-/// Returns the squared change of one component of the flow across the cell. The change is measured
-/// horizontally and vertically, between neighbours that are 8 px apart.
+/// Returns the squared difference between the left and the right neighbour of a cell, plus that
+/// between the upper and the lower neighbour, in one component of the flow [px^2]. The neighbours
+/// are 8 px apart.
 HWY_INLINE V Bend(const RowsAround& flow, int x) {
     const D d;
     const V dx = hn::Sub(hn::LoadU(d, flow.here + x + 1), hn::LoadU(d, flow.here + x - 1));
@@ -50,7 +51,8 @@ HWY_INLINE V Bend(const RowsAround& flow, int x) {
     return hn::MulAdd(dx, dx, hn::Mul(dy, dy));
 }
 
-/// Returns the squared second difference of one component of the flow at the cell.
+/// Returns the squared horizontal second difference plus the squared vertical second difference of
+/// one component of the flow [px^2].
 HWY_INLINE V Tear(const RowsAround& flow, int x) {
     const D d;
     const V here = hn::Add(hn::LoadU(d, flow.here + x), hn::LoadU(d, flow.here + x));
@@ -106,7 +108,7 @@ HWY_INLINE Weight WeightOf(const WeighRow& row, int x, V low, V lowStill, V conf
     const V tear = hn::Sqrt(hn::Add(Tear(row.flowX, x), Tear(row.flowY, x)));
     const V whole = hn::Sub(Const(1), SmoothStep(params::kSmoothStep, params::kTornStep, tear));
     const V weight = hn::Mul(hn::Mul(gain, trust), hn::Mul(confidence, whole));
-    // A cell whose flow is NaN does not count: `bend` is NaN, so bend == bend is false.
+    // A cell whose flow is NaN gets weight 0: `bend` is NaN, so bend == bend is false.
     const auto counts = hn::And(hn::Gt(weight, Const(params::kSmallestWeight)), hn::Eq(bend, bend));
     const V signal = hn::Mul(hn::NegMulAdd(Const(2), noise, video), perVideo);
     const auto textured =

@@ -6,26 +6,26 @@
 
 namespace mfar::simd {
 
-/// A row of cells and the rows above and below. Each row repeats its border by one cell on both
-/// sides. Its memory extends to a multiple of 16 cells.
+/// A row of cells and the rows above and below. Each row has one more cell on both sides, which
+/// repeats the outermost cell. A row's memory extends to a multiple of 16 cells.
 struct RowsAround {
     const float *above, *here, *below;
 };
 
-/// Input and results of weighCells() for a row. Flow is in video px. Covariance and variances are
-/// those of PatchSums.
+/// Input and results of weighCells() for a row of `count` cells. flowX, flowY: flow [video px].
+/// lookX, lookY: LookUpCell::x and y. Covariance and variances: see PatchSums.
 struct WeighRow {
     int count;
     RowsAround flowX, flowY;
     RowsAround covariance, varianceVideo, varianceStill;
     const float *confidence, *lookX, *lookY;
-    /// Two rows of statistics at half resolution. `near` is the row that contains the cells.
-    /// `other` is the row above or below it, whichever is closer to the cells.
+    /// Two rows of patch statistics at half resolution. `near` is the row that contains the cells.
+    /// `other` is the row above or below `near`, whichever is closer to the cells.
     struct Half {
         const float *near, *other;
     };
     Half halfCovariance, halfVarianceStill;
-    /// Results; written up to a multiple of 16 cells.
+    /// Results, with room for a multiple of 16 cells: the kernel also writes entries after `count`.
     WeighedCell* weighed;
     LookUpCell* lookUps;
     TrustCell* trust;

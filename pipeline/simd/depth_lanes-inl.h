@@ -1,4 +1,4 @@
-// Functions for vectors of inverse depth. This header is included once per instruction set.
+// SIMD functions for pixels with inverse depth. This header is included once per instruction set.
 #include "base/image_view.h"
 #include "pipeline/simd/lanes-inl.h"
 
@@ -51,7 +51,8 @@ struct Turn {
     const float* r;
 };
 
-/// The pixels that contain points, computed as in EpipolarLens::pixelAt().
+/// The column and row of the pixel that contains each point, as in EpipolarLens::pixelAt(). Both
+/// are 0 for points outside the picture, where `inside` is false.
 template <class D, class V = hn::Vec<D>>
 struct PixelOf {
     hn::Vec<hn::RebindToSigned<D>> column, row;

@@ -15,57 +15,59 @@ struct Motion {
     std::array<float, 3> move;
 };
 
-/// Finds the pixels at which another camera shows points with inverse depth `s` on rays r. The
-/// other camera's ray is R (r + s (t - r t.z)), see EpipolarLens. R is `motion.turn`, t is
-/// `motion.move`. `landing`: row-major pixel index, or -1 outside the picture.
+/// Finds the pixels at which another camera shows points. A point with inverse depth `s` on the ray
+/// r = (raysX, raysY, 1) becomes the other camera's ray R (r + s (t - r t.z)), see EpipolarLens. R
+/// is `motion.turn`, t is `motion.move`. `landing`: row-major index of the pixel, or -1 if the
+/// point is not in the other picture of `size`.
 void landRow(const Lens& lens, Size size, const Motion& motion, const float* raysX,
              const float* raysY, const float* s, std::size_t count, std::int32_t* landing);
 
-/// The scene's points at a row of pixels: rays through the pixels' centres, and offsets (x, y) of
-/// the points from these centres [px]. A point is known if its variance is finite.
+/// Points of the scene, one for each pixel of a row. raysX, raysY: rays through the pixels'
+/// centres. x, y: offsets of the points from these centres [px]. A point is known if its variance
+/// is finite.
 struct DepthPoints {
     const float *raysX, *raysY;
     const float *x, *y;
     const float *inverseDepth, *variance;
 };
 struct MovedPoints {
-    /// Row-major index of the pixel that shows the point (-1: invalid point), and offset of the
-    /// point from that pixel's centre [px].
-    std::int32_t* pixel;
-    float *x, *y;
+    std::int32_t* pixel;  ///< row-major index of the pixel that shows the point; -1: invalid point
+    float *x, *y;         ///< offset of the point from that pixel's centre [px]
     float *inverseDepth, *variance;
 };
 struct MoveRule {
-    float pixelX, pixelY;  ///< change of a ray (x, y, 1) per pixel
+    float pixelX, pixelY;  ///< change of a ray's x per column, and of its y per row
     float leastDepth;      ///< smallest valid ratio (depth after the motion) / (depth before it)
-    float growth;          ///< ratio (variance that the motion adds) / (inverse depth)^2
+    float growth;          ///< variance that the motion adds, divided by (inverse depth)^2
 };
-/// Moves points, given as (x, y, 1, inverseDepth) in homogeneous coordinates. Extends `bounds` to
-/// the pixels on which the points land.
+/// Moves points by `motion` and projects them into a picture of `size`. A point on the ray (x, y,
+/// 1) has the homogeneous coordinates (x, y, 1, inverseDepth). `bounds` grows to contain the pixels
+/// of all valid moved points.
 void moveRow(const Lens& lens, Size size, const Motion& motion, const MoveRule& rule,
              const DepthPoints& from, std::size_t count, const MovedPoints& to, PixelRect& bounds);
 
 struct SearchedRow {
     const float *raysX, *raysY, *s;
-    const std::int32_t* landing;
-    const float* nearest;  ///< largest s that lands on each pixel of the other picture
+    const std::int32_t* landing;  ///< result of landRow()
+    const float* nearest;         ///< nearest[k]: largest s of all points with landing k
 };
 struct MeasureRule {
-    std::array<float, 3> t;  ///< translation of points [units], see landRow()
-    float slack;             ///< largest difference of s [1/unit] within one surface
-    float leastDepth;        ///< smallest valid 1 - s t.z, the ratio of the depths in both cameras
-    float error;             ///< standard deviation of a match, as a change of a ray (x, y, 1)
-    float perUnit;           ///< converts s [1/unit] to inverse depth [1/m]
+    std::array<float, 3> t;  ///< translation of points [units of length], see landRow()
+    float slack;             ///< a point with s < nearest - slack is hidden [1/unit of length]
+    float leastDepth;        ///< smallest valid depth in this camera / depth in the other camera
+    float error;             ///< standard deviation of a match's position [focal lengths]
+    float perUnit;           ///< converts s [1/unit of length] to inverse depth [1/m]
 };
-/// Computes the inverse depth s / (1 - s t.z) of each pixel, and its variance. A pixel gets inverse
-/// depth 0 and infinite variance in two cases: the other picture does not show its point, or a
-/// change of s does not move the point in the other picture.
+/// Computes the inverse depth s / (1 - s t.z) [1/m] of each pixel, and its variance. An invalid
+/// pixel gets inverse depth 0 and infinite variance. A pixel is valid if the other picture shows
+/// its point, 1 - s t.z exceeds `leastDepth`, and a change of s moves the point in that picture.
 void measureRow(const SearchedRow& row, const MeasureRule& rule, std::size_t count,
                 float* inverseDepth, float* variance);
 
-/// takeCells() replaces the inverse depth `own` of a pixel by the one interpolated bilinearly from
-/// the cells around it, if both differ by less than `same`. It processes pixels [first, first +
-/// count) of row y. `cells`: one inverse depth per 4x4 pixels, row-major.
+/// Input of takeCells(), one inverse depth per cell, row-major. takeCells() processes the pixels
+/// [first, first + count) of row y. It interpolates the cells' inverse depths bilinearly. A pixel
+/// gets the interpolated value if it differs from the pixel's `own` value by less than `same`, else
+/// `own`.
 struct CellField {
     const float* cells;
     Size size;

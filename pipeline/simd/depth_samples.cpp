@@ -24,7 +24,7 @@ struct Prepare {
         const V zero = hn::Zero(d);
         const V inverse = hn::LoadU(d, from.inverse + x), given = hn::LoadU(d, from.sigma + x);
         const V sigma = from.squared ? hn::Sqrt(given) : given;
-        // Every comparison with NaN is false, so a sample with NaN is unknown.
+        // A sample with NaN is unknown, because every comparison with NaN is false.
         const auto near = hn::And(hn::Gt(inverse, hn::Set(d, params::kLeastInverseDepth)),
                                   hn::Lt(inverse, hn::Set(d, params::kMostInverseDepth)));
         const auto sharp = hn::And(hn::Gt(sigma, hn::Set(d, params::kLeastDepthSigma)),

@@ -29,7 +29,8 @@ struct Positions {
     hn::Vec<F> fx, fy;
 };
 
-/// Computes the positions at which consecutive vectors of output pixels read the still.
+/// The class LookUp computes the positions at which output pixels read the still, one vector of
+/// pixels after another.
 class LookUp {
 public:
     LookUp(const LookUpRows& rows, Size size, int begin)
@@ -57,14 +58,15 @@ private:
     hn::Vec<F> stepX_, startX_, startY_, lastX_, lastY_, pixels_;
 };
 
-/// Interpolates bilinearly between 2x2 pixels. A lane of `texels` holds their four bytes, from the
-/// highest to the lowest: lower right, upper right, lower left, upper left. The result is
-/// multiplied by 256.
+/// Interpolates bilinearly between 2x2 pixels; the result is multiplied by 256. A lane of `texels`
+/// holds the four pixels as bytes, from the highest to the lowest: lower right, upper right, lower
+/// left, upper left.
 HWY_INLINE hn::Vec<F> MeanOfFour(hn::Vec<U> texels, const Positions& at) {
     const F df;
     const I di;
     const U du;
-    // A lane computes both columns at once, in 16 bits each, because 255 * 256 fits into 16 bits.
+    // Each lane computes the left and the right column at once, in 16 bits each. This is enough for
+    // the largest value, 255 * 256.
     const auto scaled = hn::NearestInt(hn::Mul(at.fy, hn::Set(df, 256.0F)));
     const auto lower = hn::BitCast(du, scaled);
     const auto upper = hn::Sub(hn::Set(du, 256), lower);

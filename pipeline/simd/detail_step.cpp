@@ -8,13 +8,13 @@ namespace mfar::simd {
 namespace {
 
 constexpr int kGrain = 32;
-// Whole frames are drawn in strips of about this width [px], so that intermediate rows stay in the
-// first-level cache. Widths are multiples of kStripStep.
+// If a whole frame is drawn, it is split into strips of about this width [px], so that intermediate
+// rows stay in the first-level cache. A strip's width is a multiple of kStripStep.
 constexpr int kStripWidth = 576;
 constexpr int kStripStep = 64;
 
-/// Returns the first output pixel whose centre lies in each tile, along one axis. The last entry is
-/// the output's size.
+/// Returns, for each tile along one axis, the first output pixel whose centre lies in the tile.
+/// One more entry contains the output's size.
 std::vector<int> tileStarts(int tiles, int video, int output) {
     std::vector<int> out;
     for (int i = 0; i < tiles; ++i) {
@@ -36,8 +36,9 @@ struct DetailStep::Frame {
     const DetailInput& in;
     DetailOptions options;
     Rows<std::uint32_t> out;
-    // `warps`: the still's detail is added; `blends`: the still's picture is blended in (never
-    // both). `linear`: the video is enlarged linearly.
+    // `warps`: true if the still's detail is added to the video. `blends`: true if the still's
+    // picture is blended over the video; `warps` is then false. `linear`: true if the video is
+    // enlarged linearly, false if by Keys' cubic.
     bool warps, blends, linear;
     const FilterBank* bank;
     BlendPicture picture;
@@ -74,8 +75,8 @@ DetailStep::Show DetailStep::showOf(const Frame& frame, int column, int row) con
     if (work.draw != TileWork::Draw::Whole) return upscaled ? Show::Video : Show::Detail;
     const PixelRect& in = work.detailTiles;
     if (!(column >= in.x0 && column < in.x1 && row >= in.y0 && row < in.y1)) return Show::Video;
-    // An unmatched tile has the class Upscaled, too, but is not necessarily free of the still:
-    // weights are interpolated between its cells and those of a matched neighbouring tile.
+    // Unmatched tiles also have the class Upscaled, but the still can have a weight in them: at the
+    // border of a matched tile, weights are interpolated between the cells of both tiles.
     const bool weightless =
         upscaled && tile.matched != 0 && frame.options.mode == SuperResMode::Detail;
     return weightless ? Show::Video : Show::Detail;

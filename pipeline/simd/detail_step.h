@@ -25,24 +25,24 @@ struct DetailOptions {
     SuperResMode mode;
     bool cubic;
     bool upscaledTiles, plainTiles;
-    /// Learned filters that enlarge the matched tiles in mode Detail. Their residual is multiplied
-    /// by one minus the weight of the still's detail. Null: tiles are sharpened instead.
+    /// Learned filters that enlarge the matched tiles in mode Detail, see detailRow(). If null,
+    /// tiles are sharpened instead.
     const FilterBank* learned = nullptr;
 };
 
 struct DetailInput {
     const RgbPlanes& video;
     const TileWork& work;
-    // The still's luma or, in mode Blend, its RGBA8 picture. If neither has data, the video is only
-    // enlarged.
+    // Mode Blend uses `picture` (RGBA8), the other modes use `still` (luma). If the one that is
+    // used has no data, the video is only enlarged.
     StillPairs still{};
     Rows<const std::uint32_t> picture{};
     // These fields have one entry per 4x4 video pixels. They are read only if there is a still.
     Rows<const WeighedCell> weighed;
     Rows<const LookUpCell> lookUps;
     Rows<const TrustCell> trust;
-    /// A second still, shown where its weight exceeds the first still's. It is used only in mode
-    /// Detail, and only if `still` has data.
+    /// A second still, which is shown where its weight exceeds the first still's weight. It is used
+    /// only in mode Detail, and only if both stills have data.
     struct Second {
         StillPairs still{};
         Rows<const WeighedCell> weighed{};
@@ -53,17 +53,18 @@ struct DetailInput {
 };
 
 /// Draws the high-resolution picture from video, still and flow on the CPU. The result differs from
-/// the GLES engine's DetailPainter by at most a grey level, except near the border of a drawn tile.
-/// There, sharpening also reads the neighbouring tile. The GLES engine may have sharpened that tile
-/// from an older frame; here, it is always sharpened from this frame. Memory is allocated only in
+/// the GLES engine's DetailPainter by at most a grey level, except near the border of a drawn tile:
+/// drawing the tile also reads sharpened pixels of the neighbouring tile. In the GLES engine, they
+/// can be from an older frame; here, they are always from this frame. Memory is allocated only in
 /// the constructor.
 class DetailStep {
 public:
     /// `stillRig`: see StillPreparation::rig(). `output`: size of the whole enlarged video.
     DetailStep(const StereoRig& stillRig, Size output, std::shared_ptr<Workers> workers);
 
-    /// Draws the tiles for which TileWork::draws() is true. `out` is an RGBA8 picture (R in the
-    /// lowest byte, alpha 255) of the output's size. Other tiles keep their pixels.
+    /// Draws the tiles for which TileWork::draws() is true; `out` keeps its pixels in the other
+    /// tiles. `out` must be an RGBA8 picture of the output's size. R is in the lowest byte; drawn
+    /// pixels get alpha 255.
     TileSummary draw(const DetailInput& in, const DetailOptions& options, Rows<std::uint32_t> out);
     [[nodiscard]] const std::vector<TileClass>& classes() const { return classes_.classes(); }
 
@@ -103,8 +104,8 @@ private:
     LearnedTaps learnedTaps_;
     LookUpTaps lookUpTaps_;
     WarpedStillTaps warpedTaps_;
-    std::vector<int> columnsAt_, rowsAt_;  // first output column and row of each tile; the last
-                                           // entry is the output's width or height
+    // First output column and row of each tile. The last entry is the output's width or height.
+    std::vector<int> columnsAt_, rowsAt_;
     TileClasses classes_;
     std::vector<Show> shows_;
     ScratchSlots<Scratch> scratch_;

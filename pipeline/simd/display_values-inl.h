@@ -21,7 +21,8 @@ HWY_INLINE hw::Vec<D> LinearOf(D d, hw::Vec<D> byte) {
     return hw::Mul(x, hw::MulAdd(x, inner, hw::Set(d, 0.012522878F)));
 }
 
-/// Returns the display level [0, 255] of a linear value, which is clamped to [0, 1]. Not rounded.
+/// Returns the display level [0, 255] of a linear value, without rounding it to a whole number. The
+/// linear value is first clamped to [0, 1].
 template <class D>
 HWY_INLINE hw::Vec<D> SrgbLevel(D d, hw::Vec<D> linear) {
     const auto x = hw::Min(hw::Max(linear, hw::Zero(d)), hw::Set(d, 1));

@@ -17,9 +17,9 @@ struct Points {
     V x, y;
 };
 
-/// Applies radial and tangential distortion to rays (x, y), whose squared radius is q; the result
-/// is in focal lengths. `Model` has k1, k2, k3, p1 and p2. Source: Brown, Close-range camera
-/// calibration, 1971.
+/// Applies radial and tangential distortion to rays (x, y, 1); the result is in focal lengths. `q`
+/// must be x^2 + y^2. `Model` must have the members k1, k2, k3, p1 and p2. Source: Brown,
+/// Close-range camera calibration, 1971.
 template <class D, class Model, class V = hn::Vec<D>>
 HWY_INLINE Points<V> distorted(D d, const Model& lens, V x, V y, V q) {
     const auto set = [d](float v) HWY_ATTR { return hn::Set(d, v); };

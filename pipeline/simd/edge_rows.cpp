@@ -105,7 +105,7 @@ void VotePixels(const Voters& voters, const VoteRule& rule, const PixelRect& whe
     const auto first = [](int from) { return (from + kVoterStep - 1) / kVoterStep; };
     for (OpenPixel& pixel : pixels) {
         const int x = pixel.x;
-        // The window, converted from pixels to indices of voters.
+        // The voters at most rule.radius pixels away, as indices of Voters.
         const PixelRect window{first(std::max(x - rule.radius, where.x0)),
                                first(std::max(y - rule.radius, where.y0)),
                                first(std::min(x + rule.radius + 1, where.x1)),

@@ -9,10 +9,10 @@
 
 namespace mfar::simd {
 
-/// openRow() writes 1 at pixels that are invalid or near an edge of inverse depth, else 0. A pixel
-/// is near an edge if the largest minus the smallest inverse depth around it exceeds `jump` times
-/// the largest plus `sigmas` standard deviations. `low`, `high`: results of rangeAlongRow() for
-/// `rows` consecutive rows, which are `pitch` entries apart.
+/// Parameters of openRow(), which writes 1 at pixels without a valid depth or near a depth edge,
+/// else 0. An edge is near if largest - smallest > jump * largest + sigmas * (the pixel's standard
+/// deviation). The largest and the smallest inverse depth are those around the pixel: `low` and
+/// `high` are results of rangeAlongRow() for `rows` consecutive rows, `pitch` entries apart.
 struct EdgeRule {
     float jump, sigmas;
 };
@@ -20,31 +20,32 @@ void openRow(const float* low, const float* high, std::ptrdiff_t pitch, int rows
              const float* inverseDepth, const float* variance, std::size_t width,
              const EdgeRule& rule, std::uint8_t* out);
 
-/// Voters are the pixels in every kVoterStep-th column and row. A pixel with negative inverse depth
-/// does not vote. 64 readable bytes follow each row.
+/// Depth and colour of every kVoterStep-th pixel in every kVoterStep-th row. Around a depth edge,
+/// votePixels() decides from these voters on which side a pixel lies. A voter with negative inverse
+/// depth is ignored. 64 readable bytes follow each row.
 inline constexpr int kVoterStep = 2;
 struct Voters {
     Rows<const float> inverseDepth, variance, red, green, blue;
 };
 
-/// A pixel whose depth votePixels() decides. It belongs to the surface whose voters have a similar
-/// colour.
+/// A pixel whose depth votePixels() decides, and its colour [grey levels].
 struct OpenPixel {
     int x = 0;
     float red = 0, green = 0, blue = 0;
-    float inverseDepth = 0, variance = 0;  ///< result, valid if `decided`
+    float inverseDepth = 0, variance = 0;  ///< result; valid only if `decided` is true
     bool decided = false;
 };
 
 struct VoteRule {
-    int radius;         ///< radius of the voters' window [px]
+    int radius;         ///< largest distance of a voter along each axis [px]
     float likeness;     ///< colour difference at which a voter's weight is 1/2 [grey levels]
-    float leastWeight;  ///< smallest sum of weights that decides a pixel; a weight is at most 1
+    float leastWeight;  ///< a pixel is decided if a group of voters has at least this total weight
 };
 
-/// Decides the depth of pixels of row y from the voters around them within `where`. The voters form
-/// a near and a far group, split at the middle of their range of inverse depth. The pixel takes the
-/// mean inverse depth of the group with the larger sum of weights.
+/// Decides the depth of pixels of row y from the voters around them within `where`. The middle of
+/// the voters' range of inverse depth divides them into a near and a far group. A voter's weight is
+/// at most 1, and the larger the more its colour resembles the pixel's. The pixel gets the weighted
+/// mean inverse depth and variance of the group with the larger total weight.
 void votePixels(const Voters& voters, const VoteRule& rule, const PixelRect& where, int y,
                 std::span<OpenPixel> pixels);
 

@@ -7,15 +7,16 @@
 namespace mfar::simd {
 namespace {
 
-constexpr int kLeastContrast = 3;  // contrast level below which a pixel does not look blurred
+constexpr int kLeastContrast = 3;  // pixels with a lower contrast level do not look blurred
 
 std::uint8_t channel(std::uint32_t colour, unsigned c) {
     return static_cast<std::uint8_t>(colour >> 8 * c);
 }
 
-/// Computes the contrast level of a row's pixels: the largest difference of a colour channel within
-/// 3x3 pixels. Outside of objects, the layer's colour is 0. So at an object's outline, the contrast
-/// level depends only on the object's brightness, not on the real background.
+/// The class Contrasts computes a contrast level in [0, kLevels) for each pixel of a row. The level
+/// is proportional to the largest difference of a colour channel within 3x3 pixels. Outside of
+/// objects, the layer's colour is 0. So at an object's outline, the level depends only on the
+/// object's brightness, not on the real background.
 class Contrasts {
 public:
     explicit Contrasts(const PixelRect& where)

@@ -14,24 +14,25 @@ namespace mfar::simd {
 /// version of the GLES engine's EdgeRefiner.
 class EdgeSharpener {
 public:
-    static constexpr int kLevels = 64;
+    static constexpr int kLevels = 64;  ///< number of contrast levels
 
-    /// `share`, `fadeFrames`: see WarpOptions. `most`: largest number of listed pixels; exceeded
-    /// only if more pixels have the highest contrast level.
+    /// `share`: see WarpOptions::sharpenShare. `most`: largest number of listed pixels; it is
+    /// exceeded only if more pixels than this have the highest contrast level.
     EdgeSharpener(Size layer, double share, int most, int fadeFrames);
 
-    /// Lists the pixels with the highest contrast within `where`, given the `colour` and `state` of
-    /// ViewLookUp. Discards the previous list and its rendered colours.
+    /// Lists the pixels with the highest contrast within `where`. `colour`, `state`: pictures of
+    /// ViewLookUp. The previous list and its rendered colours are discarded.
     void list(Rows<const std::uint32_t> colour, Rows<const std::uint32_t> state,
               const PixelRect& where);
-    /// Returns the row-major indices of the listed pixels, ascending. Returns nothing if the list
-    /// was already taken.
+    /// Returns the row-major indices of the listed pixels, ascending. Returns nullopt if there is
+    /// no list or take() has already returned it.
     std::optional<std::vector<std::uint32_t>> take();
     /// Stores the rendered colours of pixels that take() returned; ignores other pixels.
     void answer(const HoleAnswer& answer);
-    /// Blends the rendered colours into `colour`, which must show the same view as the listed
-    /// picture. Their weight rises from frame to frame.
+    /// Blends the rendered colours into `colour`, which must show the same view as the picture
+    /// given to list(). The weight of the rendered colours rises to 1 within `fadeFrames` calls.
     void show(Rows<std::uint32_t> colour);
+    /// Discards the list and its rendered colours.
     void drop();
 
 private:
@@ -43,10 +44,10 @@ private:
     double share_, step_;
     std::size_t most_;
     bool isListed_ = false;
-    std::vector<std::array<std::uint32_t, 2>>
-        listed_;  // index and colour of each listed pixel, ascending
+    // Index and colour of each listed pixel, in ascending order of the indices.
+    std::vector<std::array<std::uint32_t, 2>> listed_;
     std::vector<Entry> entries_;
-    double shown_ = 0;  // weight of the rendered colours; 0: there are none
+    double shown_ = 0;  // weight of the rendered colours; 0 if there are none
 };
 
 }  // namespace mfar::simd

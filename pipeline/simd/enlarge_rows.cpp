@@ -26,8 +26,10 @@ using U8 = hn::Rebind<std::uint8_t, I16>;
 constexpr std::int16_t fixed15(double value) {
     return static_cast<std::int16_t>(value * 32768 + (value < 0 ? -0.5 : 0.5));
 }
-// Weights of the colours in luma. Applied to bytes times 128, they give luma in 1/64 grey level.
-// The sum of the weights is exactly one half, so that grey stays grey.
+// Half the weights of red, green and blue in luma, as 15-bit fractions. A byte is multiplied by 128
+// (the largest power of two with which it fits into int16) and by half its weight. The sum of the
+// three products is the luma in units of 1/64 grey level. The halved weights add up to exactly 1/2,
+// so that the luma of grey is exact.
 constexpr std::int16_t kRed = fixed15(0.299 / 2), kBlue = fixed15(0.114 / 2);
 constexpr std::int16_t kGreen = 16384 - kRed - kBlue;
 
@@ -63,8 +65,8 @@ HWY_INLINE hn::Vec<F> Step(hn::Vec<F> value, float from, float weight = 1) {
     return hn::IfThenElseZero(hn::Ge(value, hn::Set(F(), from)), hn::Set(F(), weight));
 }
 
-/// Returns the bin of an angle, see Symmetry. `cosine`, `sine`: those of twice the angle,
-/// multiplied by a common factor.
+/// Returns the bin of an angle, see Symmetry. `cosine`, `sine`: cosine and sine of twice the angle,
+/// multiplied by the same positive number.
 template <int kBins>
 HWY_INLINE hn::Vec<F> AngleBin(hn::Vec<F> cosine, hn::Vec<F> sine) {
     static_assert(kBins == 8 || kBins == 16);
@@ -115,8 +117,9 @@ HWY_INLINE hn::Vec<F> SumOfFive(const float* at) {
 HWY_INLINE hn::Vec<F> GradientClass(hn::Vec<F> xx, hn::Vec<F> xy, hn::Vec<F> yy) {
     using C = GradientClasses;
     const F d;
-    // Scale of twiceLargest, which is twice the largest eigenvalue. An eigenvalue is a sum, over 25
-    // pixels, of squared differences [1/8 grey level] over a distance of two pixels.
+    // Converts a squared strength [(grey levels / px)^2] to the unit of twiceLargest, which is
+    // twice the largest eigenvalue. An eigenvalue is a sum over 25 pixels. Its terms are squared
+    // differences [1/8 grey level] of values that are two pixels apart.
     constexpr float kScale = 2.0F * 25 * (2 * kLumaScale) * (2 * kLumaScale);
     const auto sum = hn::Add(xx, yy), cosine = hn::Sub(xx, yy), sine = hn::Add(xy, xy);
     const auto spread = hn::Sqrt(hn::MulAdd(cosine, cosine, hn::Mul(sine, sine)));

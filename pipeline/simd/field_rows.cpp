@@ -20,9 +20,9 @@ HWY_INLINE void order(V& a, V& b) {
     a = low;
 }
 
-/// Returns the median of nine values. First, three columns are sorted. The result is the median of
-/// three values: the largest low value, the median of the middle values, and the smallest high
-/// value.
+/// Returns the median of nine values, which are three rows of three. Each column of three values is
+/// sorted first. The result is the median of three values: the largest of the low values, the
+/// median of the middle values, and the smallest of the high values.
 template <class V>
 HWY_INLINE V middleOfNine(V (&v)[9]) {
     for (int c = 0; c < 3; ++c) {
@@ -62,8 +62,9 @@ void MedianRow(const float* above, const float* here, const float* below, std::s
 
 void RangeAlongRow(const float* values, const float* variance, std::size_t width, int radius,
                    float* low, float* high) {
-    // A run of values with its neighbours. Entries beyond the row hold values that are never the
-    // smallest or the largest.
+    // The row is processed in pieces of kRun columns. `lows` and `highs` contain the values of a
+    // piece, with `radius` more values on both sides. Beyond the ends of the row, their entries are
+    // never the smallest or the largest.
     constexpr std::size_t kRun = 256, kAll = kRun + 2 * kMostRange;
     HWY_ALIGN float lows[kAll], highs[kAll];
     const auto beside = static_cast<std::size_t>(radius);

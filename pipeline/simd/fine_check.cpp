@@ -14,8 +14,8 @@ namespace {
 using params::kFineStep;
 static_assert(kCellsPerTile % kFineStep == 0);
 constexpr int kBlock = 2;
-constexpr int kFirst = (kCell - 2) / 2;  // first compared row of a cell
-constexpr int kRoom = 64;                // vectors access up to this number of pixels after a row
+constexpr int kFirst = (kCell - 2) / 2;  // first of the two pixel rows of a cell that are compared
+constexpr int kRoom = 64;                // number of pixels after a row that vectors can access
 
 }  // namespace
 
@@ -96,7 +96,8 @@ void FineCheck::sum(const Frame& frame, Scratch& scratch, int row) {
         }
     }
     for (CellPlane* plane : {&ofVideo_, &ofBoth_, &ofStill_}) {
-        // The gaps between spans are cleared, because vectors write beyond the cells of each span.
+        // Clears the cells outside the spans. Vectors have written to some of them, because they
+        // can be longer than the rest of a span.
         int done = 0;
         for (const auto& [begin, end] : scratch.cells) {
             if (!isWhole) break;

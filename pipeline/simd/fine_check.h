@@ -17,15 +17,16 @@
 
 namespace mfar::simd {
 
-/// Checks for each cell whether the still shows the finest detail of the video. CPU version of
-/// superres_fine.comp and superres_confirm.comp. Allocates memory only in the constructor.
+/// Computes factors that reduce the weight of cells in which the still does not show the video's
+/// finest detail, see params::kFineRoom. CPU version of superres_fine.comp and
+/// superres_confirm.comp. Allocates memory only in the constructor.
 class FineCheck {
 public:
     FineCheck(const StereoRig& stillRig, std::shared_ptr<Workers> workers);
 
-    /// Returns one factor for the weight of each cell, [0, 1]; valid until the next run. Cells of
-    /// unmatched tiles and incomplete cells are not measured; their neighbours determine their
-    /// factor.
+    /// Returns for each cell the factor of its weight, [0, 1]. The result is valid until the next
+    /// call. Cells of unmatched tiles and incomplete cells at the border are not measured. Their
+    /// factor depends only on the neighbouring cells.
     Rows<const float> run(const RgbPlanes& video, const StillPairs& still,
                           Rows<const LookUpCell> lookUps, const TileWork& work,
                           const FineMatch& match);

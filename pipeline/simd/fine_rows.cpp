@@ -28,8 +28,8 @@ HWY_INLINE Quads QuadsOf(const std::int16_t* row, int cell) {
     return out;
 }
 
-/// Writes the sum of each pixel's four samples to the upper row. The sum is the samples' mean in
-/// 1/128 grey level, and fits into 16 bits.
+/// Writes to the upper row the sum of each pixel's 2x2 samples [1/32 grey level]. It equals their
+/// mean in 1/128 grey level, which fits into 16 bits.
 HWY_INLINE void SumSamples(std::int16_t* upper, const std::int16_t* lower, int begin, int end) {
     const I16 d;
     const int lanes = static_cast<int>(hn::Lanes(d));
@@ -102,7 +102,7 @@ void FineShareRow(const FineSumsNear& sums, const FineMatch& match, int count, f
         const auto unexplained = hn::Sub(video, hn::Div(hn::Mul(both, both), still));
         const auto allowed = hn::MulAdd(share, video, noise);
         const auto kept = hn::Div(allowed, hn::Max(unexplained, hn::Set(d, params::kFineLeast)));
-        // A cell with NaN keeps its whole weight.
+        // If `kept` is NaN, the comparison is false, and the cell keeps its whole weight.
         hn::StoreU(hn::IfThenElse(hn::Lt(kept, one), kept, one), d, to + x);
     }
 }

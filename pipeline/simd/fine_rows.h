@@ -22,8 +22,9 @@ struct FineSums {
 void fineSumsRow(const std::array<const std::int16_t*, 2>& video,
                  const std::array<std::int16_t*, 4>& still, int begin, int end, const FineSums& to);
 
-/// FineSums of the sampled rows above and below a row of cells. If the row itself is sampled, both
-/// are that row. Each row repeats its border by one cell on both sides.
+/// FineSums of the sampled rows above and below a row of cells. If the row itself is sampled,
+/// `above` and `below` are the row itself. Each row has one more cell on both sides, which repeats
+/// the outermost cell.
 struct FineSumsNear {
     struct Pair {
         const float *above, *below;
@@ -31,8 +32,8 @@ struct FineSumsNear {
     Pair video, both, still;
 };
 
-/// Computes a factor for the weight of each cell, [0, 1], from FineSums averaged over three columns
-/// of cells; see params::kFineRoom.
+/// Computes for each cell the factor of its weight, [0, 1]; see params::kFineRoom. FineSums are
+/// averaged over three columns and two rows of cells.
 void fineShareRow(const FineSumsNear& sums, const FineMatch& match, int count, float* to);
 
 }  // namespace mfar::simd

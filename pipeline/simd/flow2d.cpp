@@ -10,8 +10,8 @@
 namespace mfar::simd {
 namespace {
 
-// Number of finest pyramid levels at which only the needed tiles are searched. Coarser levels have
-// few cells, so all of them are searched.
+// The kMaskedLevels finest pyramid levels are searched only in the needed tiles. Coarser levels
+// have few cells, so all of them are searched.
 constexpr int kMaskedLevels = 2;
 
 std::vector<Size> cellsOfLevels(Size video, int levels) {
@@ -49,7 +49,8 @@ void forTileRuns(int columns, int cellsPerTile, const Key& keyOf, const Run& run
     }
 }
 
-/// Cells that are not searched take the flow vectors of the coarser pyramid level.
+/// Copies flow vectors of the coarser pyramid level to the cells [first, end), which are not
+/// searched.
 void enlargeCells(const FlowPlanes& coarse, const FlowPlanes& fine, int row, int first, int end) {
     for (int column = first; column < end; ++column) {
         const std::ptrdiff_t from = row / 2 * coarse.pitch + column / 2;
@@ -94,9 +95,9 @@ void Flow2d::chooseTiles(const TileWork& work, bool keepsUnchanged, int margin) 
     widen(fine_, 1, between_, next_);
 }
 
-// Marks the tiles in which the backward field is needed. The two-way error is interpolated between
-// the backward cells around the end of a forward vector. Clean-up and propagation read three more
-// cells on each side.
+// Marks the tiles of the still in which the backward flow is needed: around the end of each wanted
+// forward vector, where the two-way error is interpolated between backward cells. Clean-up and
+// propagation read three more cells on each side.
 void Flow2d::chooseBackward() {
     std::ranges::fill(ends_.flags, std::uint8_t{0});
     for (int y = 0; y < videoCells_.height; ++y)
@@ -249,8 +250,8 @@ void Flow2d::refine(const Luma& luma, const TileWork& work, Cells forward, Cells
     errorsGiven_ = true;
     searched_.clear();
     if (work.matched == 0) return;
-    // Number of tiles around each needed tile whose vectors are needed, too. The choice of searched
-    // tiles depends on neighbouring tiles, and the clean-up reads their vectors.
+    // Vectors are needed in this margin around the wanted tiles [tiles]. The clean-up reads
+    // neighbouring vectors, and TileSearch also needs them to choose the searched tiles.
     constexpr int kMargin = 2;
     chooseTiles(work, !work.drawsWhole(), kMargin);
     const FlowPlanes field = forwards_.stages[0].areas[0].planes();
@@ -268,9 +269,10 @@ void Flow2d::refine(const Luma& luma, const TileWork& work, Cells forward, Cells
     cleanUpForward(work, false);
 }
 
-// There is no propagation, because not all neighbours of a listed group are listed. The vectors
-// found on epipolar lines are candidates at every pyramid level. At the finest level, they are kept
-// unless another vector fits better.
+// Searches the listed groups of cells from coarse to fine. There is no propagation, because not all
+// neighbours of a listed group are listed. The vectors found on epipolar lines are candidates at
+// every pyramid level. At the finest level, they are kept unless another vector fits clearly
+// better.
 void Flow2d::searchListed(const Way& way) {
     const FlowPlanes lines = forwards_.stages[0].areas[0].planes();
     for (int level = static_cast<int>(forwards_.stages.size()) - 1; level >= 0; --level) {

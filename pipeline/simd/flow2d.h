@@ -19,19 +19,20 @@ namespace mfar::simd {
 /// engine's Flow2d, with the same pyramids.
 ///
 /// Work whose result is not read is skipped. At the two finest pyramid levels, unmatched tiles are
-/// searched only where neighbouring tiles use their vectors. The same applies to unchanged tiles,
-/// if only changed tiles are drawn. Cells of the still are searched only where forward vectors end.
+/// searched only where neighbouring tiles read their vectors. The same applies to unchanged tiles,
+/// if only changed tiles are drawn. Cells of the still are searched only where flow vectors from
+/// the video end.
 class Flow2d {
 public:
     /// Throws std::invalid_argument if an option is out of range.
     Flow2d(Size video, const Flow2dOptions& options, std::shared_ptr<Workers> workers);
 
-    /// Sets the options that can change between frames, from the next run on; ignores the others
-    /// (see flow_options.h). Throws std::invalid_argument if an option is out of range.
+    /// Sets the options for the next calls of run() and refine(). Ignores `levels`, which cannot
+    /// change between frames. Throws std::invalid_argument if an option is out of range.
     void setOptions(const Flow2dOptions& options) { options_ = changed(options_, options); }
 
-    /// Luma pyramids of video and still, both of the video's size. `words` contains their pixels,
-    /// in the layout of luma_layout.h.
+    /// Luma pyramids of video and still, both of the video's size. `words` contains the pixels of
+    /// all levels, as luma_layout.h defines.
     struct Luma {
         const std::vector<LumaLevel>& video;
         const std::vector<LumaLevel>& still;
@@ -42,9 +43,10 @@ public:
     /// still.
     void run(const Luma& luma, const TileWork& work, bool usePrior);
 
-    /// Computes the forward field from `forward`, one vector per cell with an error of a fraction
-    /// of a pixel. `errors`: known two-way errors [px] (eq. 2 of the paper), in each cell's first
-    /// entry. Tiles with wrong vectors are searched in two dimensions, from coarse to fine.
+    /// Computes the flow from video to still, starting from the vectors `forward` of the epipolar
+    /// search, whose error is a fraction of a pixel. Tiles in which these vectors do not match (see
+    /// TileSearch) are searched in two dimensions, from coarse to fine. `errors`: two-way errors
+    /// [px] (eq. 2 of the paper) of `forward`, in each cell's first entry.
     using Cells = std::span<const std::array<float, 4>>;
     void refine(const Luma& luma, const TileWork& work, Cells forward, Cells errors);
 
@@ -53,7 +55,8 @@ public:
     /// Flow from still to video, at pyramid level backwardLevel(); valid after run().
     [[nodiscard]] Rows<const FlowCell> backward() const { return rowsOf(backward_, stillCells_); }
     [[nodiscard]] int backwardLevel() const { return backwardLevel_; }
-    /// True after refine(): errors() contains the two-way errors of the video's cells.
+    /// True after refine(), where errors() contains the two-way errors of the video's cells. False
+    /// after run(), which does not compute them.
     [[nodiscard]] bool errorsGiven() const { return errorsGiven_; }
     [[nodiscard]] Rows<const ErrorCell> errors() const { return rowsOf(errors_, videoCells_); }
 
@@ -62,7 +65,8 @@ public:
     [[nodiscard]] int searchedCount() const { return searched_.count(); }
 
 private:
-    /// Flow of one pyramid level in one direction. Propagation reads one area and writes the other.
+    /// Flow of one pyramid level in one direction. A round of propagation reads one of the `areas`
+    /// and writes the other.
     struct Stage {
         FlowField areas[2];
         explicit Stage(Size cells) : areas{FlowField(cells), FlowField(cells)} {}
@@ -112,10 +116,11 @@ private:
     std::vector<ErrorCell> errors_;
     bool errorsGiven_ = false;
     bool wantsAll_ = false;
-    TileMask wanted_;             // tiles whose results are read
-    TileMask fine_, next_;        // tiles searched at the finest pyramid level, and at the next one
-    TileMask ends_, endsAround_;  // tiles where forward vectors of wanted_ end; these tiles with a
-                                  // margin
+    TileMask wanted_;       // tiles whose results are read
+    TileMask fine_, next_;  // tiles searched at pyramid level 0 (the finest), and at level 1
+    // ends_: tiles of the still in which flow vectors of wanted_ end. endsAround_: the same tiles
+    // and a margin around them.
+    TileMask ends_, endsAround_;
     TileMask between_;
     TileSearch searched_;
 };

@@ -11,11 +11,13 @@ namespace mfar::simd::HWY_NAMESPACE {
 namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// SIMD vectors are at most as long as the margins of the flow fields.
+// A SIMD vector is at most as long as the margins of the flow fields. So a vector that begins in a
+// row's last cells ends within the margin.
 using Cells = hn::CappedTag<float, kFieldMargin>;
 using Vec = hn::Vec<Cells>;
 
-/// A plane through one component of the flow: its value at the cell [px], and its change per cell.
+/// A plane fitted to one component of the flow around a cell: its value at the cell [px], and its
+/// change from one cell to the next [px].
 struct Plane {
     Vec value, dx, dy;
 };
@@ -26,8 +28,9 @@ HWY_INLINE void order(Vec& a, Vec& b) {
     a = low;
 }
 
-/// Returns the 3x3 median. First, each column is sorted. The result is the median of three values:
-/// the largest low value, the median of the middle values, and the smallest high value.
+/// Returns the median of 3x3 cells. Each column of three values is sorted first. The result is the
+/// median of three values: the largest of the low values, the median of the middle values, and the
+/// smallest of the high values.
 HWY_INLINE Vec medianAt(const float* plane, std::ptrdiff_t pitch) {
     const Cells d;
     Vec low[3], middle[3], high[3];
@@ -50,9 +53,9 @@ HWY_INLINE Vec medianAt(const float* plane, std::ptrdiff_t pitch) {
     return centre;
 }
 
-/// Weighted sums over the neighbours in one row. A neighbour has weight w and column offset i; x
-/// and y are the differences of its flow from the planes. `wii` is the sum of w i i, `xi` the sum
-/// of w x i.
+/// Weighted sums over a cell's neighbours in one row. A neighbour has the weight w and the column
+/// offset i. Its flow minus the planes is (x, y). For example, `wii` is the sum of w i i, and `xi`
+/// is the sum of w x i.
 struct RowSums {
     Vec w, wi, wii, x, xi, y, yi;
 };
@@ -84,7 +87,8 @@ HWY_INLINE RowSums sumRow(const CleanUpStep& step, std::ptrdiff_t at, const Plan
     return s;
 }
 
-/// The sums of RowSums over all rows of neighbours, also with the row offset j.
+/// Weighted sums over a cell's neighbours in all rows, named as in RowSums. A neighbour also has
+/// the row offset j.
 struct PlaneSums {
     Vec w, wi, wj, wii, wij, wjj, x, xi, xj, y, yi, yj;
 };
@@ -119,14 +123,15 @@ HWY_INLINE Vec crossed(Vec a, Vec b, Vec c, Vec d) {
     return hn::Sub(hn::Mul(a, b), hn::Mul(c, d));
 }
 
-/// Fits planes through the neighbours. A neighbour's weight depends on its reliability and on its
-/// distance from the previous planes, so neighbours beyond a depth edge have no influence.
+/// Fits the planes `x` and `y` again to the flow of the neighbours. A neighbour's weight depends on
+/// its reliability and on the distance of its flow from the previous planes. So neighbours beyond a
+/// depth edge have no influence.
 HWY_INLINE void fitPlanes(const CleanUpStep& step, std::ptrdiff_t at, float reach, Plane& x,
                           Plane& y) {
     const Cells d;
     const PlaneSums s = sumNeighbours(step, at, x, y, reach);
-    // The slopes are damped in the normal equations, because a single neighbour does not define a
-    // plane.
+    // The slopes are damped in the normal equations, because a single neighbour does not determine
+    // them.
     const Vec damp = hn::MulAdd(hn::Set(d, params::kSlopeDampingPerWeight), s.w,
                                 hn::Set(d, params::kSlopeDamping));
     const Vec ww = hn::Add(s.w, hn::Set(d, 1e-6F));
@@ -141,8 +146,8 @@ HWY_INLINE void fitPlanes(const CleanUpStep& step, std::ptrdiff_t at, float reac
         const auto by = [&](Vec a, Vec b, Vec c) HWY_ATTR {
             return hn::MulAdd(a, u0, hn::MulAdd(b, ui, hn::Mul(c, uj)));
         };
-        // Planes of unsolvable cells stay unchanged. `scale` is 0 there, but that is not enough:
-        // the sums of such cells can contain NaN, and 0 * NaN is NaN.
+        // If the equations have no solution, the planes stay unchanged. `scale` = 0 is not enough
+        // for this: the sums can contain NaN, and 0 * NaN is NaN.
         const auto moved = [&](Vec v, Vec change) HWY_ATTR {
             return hn::IfThenElse(solvable, hn::MulAdd(scale, change, v), v);
         };

@@ -4,8 +4,8 @@
 
 namespace mfar::simd {
 
-/// The flow vectors of one pyramid level's cells, with margins for the clean-up. Initially, all
-/// vectors are zero.
+/// The flow of one pyramid level's cells, with margins that cleanUpCells() reads. Initially, all
+/// values are zero.
 class FlowField {
 public:
     explicit FlowField(Size cells)

@@ -12,7 +12,7 @@ std::uint32_t rounded(float value) {
     return static_cast<std::uint32_t>(above);
 }
 
-constexpr int kCrackLevels = 2;  // without push-pull, cracks are filled from this number of levels
+constexpr int kCrackLevels = 2;  // number of pyramid levels that fill cracks without push-pull
 constexpr std::uint32_t kAnyObject = 254;
 constexpr int kBlockShift = HolePyramid::kLevels;
 constexpr std::size_t kHolesAtATime = 32;
@@ -82,8 +82,8 @@ void HolePyramid::fill(const Layer& layer, std::span<Hole> holes, bool pushPull)
         body(0, count);
 }
 
-/// Marks the blocks that the filling of `holes` needs. At each pyramid level, it reads texels of
-/// the hole's own block and of the neighbouring blocks.
+/// Marks the blocks in which fillHole() reads texels: at each pyramid level, the block that
+/// contains the hole, and the neighbouring blocks.
 void HolePyramid::markBlocks(const PixelRect& where, std::span<const Hole> holes) {
     blocks_ = {where.x0 >> kBlockShift, where.y0 >> kBlockShift,
                ((where.x1 - 1) >> kBlockShift) + 1, ((where.y1 - 1) >> kBlockShift) + 1};
@@ -99,7 +99,8 @@ void HolePyramid::markBlocks(const PixelRect& where, std::span<const Hole> holes
     }
 }
 
-/// Merges four parts of an area. The result has full weight if at least half of the area is known.
+/// Merges four texels into one texel of the next coarser level. Its object and its catcher get full
+/// weight (255) if they cover at least half of the texel.
 HolePyramid::Area HolePyramid::merged(const std::array<Area, 4>& parts) {
     Area out;
     Mixture best, catcher;
@@ -184,8 +185,8 @@ void HolePyramid::pull(const Layer& layer, int level) {
         rows(0, r.y1 - r.y0);
 }
 
-/// Adds the bilinear value of one pyramid level at a pixel. Its weight is the part of the pixel
-/// that finer levels left uncovered.
+/// Adds the colour of one pyramid level at a pixel, interpolated bilinearly. The colour's weight is
+/// the part of the pixel that finer levels left uncovered.
 void HolePyramid::addLevel(int level, int x, int y, std::uint32_t id, Sum& sum) const {
     const float scale = 1.0F / static_cast<float>(2 << level);
     const float u = (static_cast<float>(x) + 0.5F) * scale - 0.5F;
@@ -229,9 +230,9 @@ bool isCrack(const HolePyramid::Layer& layer, int x, int y, std::uint32_t id) {
 
 }  // namespace
 
-/// Fills a hole with colours of its own object. If none is known, because the object has just
-/// appeared from behind others, uses the colours of all surrounding objects. Without a colour, the
-/// object would look transparent.
+/// Fills a hole with colours of its own object. An object that has just appeared from behind others
+/// has no known colour. Then the colours of all surrounding objects are used, because the object
+/// would look transparent without a colour.
 void HolePyramid::fillHole(const Layer& layer, Hole& hole, bool pushPull) const {
     const int x = static_cast<int>(hole.pixel) % width_, y = static_cast<int>(hole.pixel) / width_;
     const std::uint32_t state = layer.state[y][x], id = state & 255U;

@@ -14,28 +14,30 @@
 namespace mfar::simd {
 
 /// Fills holes, which are pixels without a rendered sample, from their surroundings by push-pull
-/// (Gortler et al. 1996, section 3.5). Objects and the shadow below them are filled separately, so
-/// that neither leaks into the other. CPU version of the GLES engine's HoleFiller; the pyramid is
-/// computed only where it is read.
+/// (Gortler et al. 1996, section 3.5). Virtual objects and the shadow catcher are filled
+/// separately, so that neither colour leaks into the other. CPU version of the GLES engine's
+/// HoleFiller. The pyramid is computed only where it is read.
 class HolePyramid {
 public:
     static constexpr int kLevels = 6;
 
     HolePyramid(Size layer, std::shared_ptr<Workers> workers);
 
+    /// Pictures of ViewLookUp. `where`: the part of them that is drawn.
     struct Layer {
         Rows<std::uint32_t> colour;  ///< fill() overwrites the holes
         Rows<const std::uint32_t> state;
         PixelRect where;
     };
-    /// `holes`: the layer's holes, ascending. A hole is a crack if it is at an edge, or if most of
-    /// its neighbours show the same surface; then its isEdge becomes true. Cracks are always
-    /// filled, other holes only with `pushPull`.
+    /// `holes`: the layer's holes, ascending. A hole is a crack if its isEdge is true, or if at
+    /// least five of its eight neighbours show the same surface. Cracks are always filled, and
+    /// their isEdge is set to true. `pushPull`: true if the other holes are filled, too.
     void fill(const Layer& layer, std::span<Hole> holes, bool pushPull);
 
 private:
-    /// A texel of a pyramid level: number and colour of its largest object, and colour of the
-    /// shadow catcher. Colours are premultiplied RGBA8; weights are in 1/255.
+    /// A texel of a pyramid level: number (`id`) and colour (`object`) of the object with the
+    /// largest weight, and colour of the shadow catcher. Colours are premultiplied RGBA8; weights
+    /// are in 1/255.
     struct Area {
         std::uint32_t object = 0, catcher = 0;
         std::uint8_t id = 0, objectWeight = 0, catcherWeight = 0;
@@ -62,8 +64,7 @@ private:
     std::shared_ptr<Workers> workers_;
     std::array<Level, kLevels> levels_;
     int levelCount_ = kLevels;
-    PixelRect blocks_;  // bounds of the layer's drawn part [blocks of 64x64
-                        // pixels]
+    PixelRect blocks_;  // the drawn part of the layer [blocks of 64x64 px]
     std::vector<std::uint8_t> blockWanted_;
 };
 

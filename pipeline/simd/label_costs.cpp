@@ -19,12 +19,13 @@ constexpr std::size_t kRun = 64;
 
 using DLabels = hn::CappedTag<std::int32_t, kLabels>;
 
-/// Segments of epipolar lines on the still's canvas [px], one for each pixel of a run. A segment
-/// has kSteps steps, from label to label.
+/// Segments of epipolar lines on the still's canvas [px], one for each of up to kRun pixels. A
+/// segment contains the points of kLabels successive labels, so it has kSteps steps.
 struct Segments {
     HWY_ALIGN float fromX[kRun], fromY[kRun], wayX[kRun], wayY[kRun];
-    /// Start and step in fixed point [1/kFixed px], measured from the pixels' edges. Used only if
-    /// `isInside`: both ends of the segment are in the picture.
+    /// Start (x, y) and step (dx, dy) of a segment in fixed point [1/kFixed px]. Here, pixel k
+    /// covers [k, k + 1). They are used only if `isInside` is not 0: both ends of the segment are
+    /// in the picture.
     HWY_ALIGN std::int32_t x[kRun], y[kRun], dx[kRun], dy[kRun], isInside[kRun];
 };
 
@@ -57,7 +58,8 @@ HWY_INLINE void keepSegments(D d, std::size_t i, const Points<hn::Vec<D>>& from,
     hn::StoreU(hn::BitCast(dInt, hn::VecFromMask(d, isInside)), dInt, out.isInside + i);
 }
 
-/// Stores segments, shifted sideways by one pixel. The sign of `side` selects the side.
+/// Stores in `out` the segments `of`, shifted by one pixel at a right angle to their direction.
+/// `side` is 1 or -1 and selects the side. A segment of length 0 is not shifted.
 template <class D>
 HWY_INLINE void keepBeside(D d, std::size_t i, const Segments& of, float side, Size size,
                            Segments& out) {
@@ -70,8 +72,9 @@ HWY_INLINE void keepBeside(D d, std::size_t i, const Segments& of, float side, S
     keepSegments(d, i, from, {hn::Add(from.x, wayX), hn::Add(from.y, wayY)}, size, out);
 }
 
-/// Stores the costs of one vector of a pixel's labels: the Hamming distances between the pixel's
-/// census `own` and the still's census `seen`.
+/// Stores the matching costs of a vector of labels of one pixel: the Hamming distances between the
+/// pixel's census `own` and the still's census `seen`. The cost is kUnseenCost where `seen` is
+/// negative.
 template <class V>
 HWY_INLINE void storeDifferences(DLabels d, V own, V seen, std::uint8_t* out) {
     const hn::RebindToUnsigned<DLabels> dBits;

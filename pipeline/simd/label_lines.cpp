@@ -11,7 +11,9 @@ namespace mfar::simd::HWY_NAMESPACE {
 
 static_assert(sizeof(Valley) == 8);
 
-constexpr float kLeastWay = 0.1F;  // smallest useful squared length of one label's step [px^2]
+// Least squared distance of the points of two successive labels [px^2] at which labelPlaces() uses
+// the still's pixels. Points with less distance get the result of labelVertices().
+constexpr float kLeastWay = 0.1F;
 
 template <class D>
 struct Valleys {
@@ -46,7 +48,8 @@ HWY_INLINE V vertices(D d, const Valleys<D>& valleys) {
     return hn::IfThenElse(isPlain, valleys.label, hn::Add(valleys.label, part));
 }
 
-/// Finds the still's pixels nearest to the points of labels. Labels are counted from the best one.
+/// Finds the still's pixels nearest to points of the epipolar line. A point belongs to a label; the
+/// labels are counted from the best label, which is 0.
 template <class D>
 struct NearestPixels {
     using V = hn::Vec<D>;
@@ -69,8 +72,9 @@ struct NearestPixels {
         const V along = hn::Mul(hn::Sub(x, best.x), way.x);
         return {x, y, hn::Mul(hn::MulAdd(hn::Sub(y, best.y), way.y, along), perSquare)};
     }
-    /// Returns the next pixel on one side that differs from `own`. `near`, `far`: additional costs
-    /// of the next label and of the one after it.
+    /// Finds the next pixel that differs from `own` on one side (-1 or 1), and returns its foot and
+    /// its additional cost. `near`, `far`: additional costs of the next label and of the label
+    /// after it. The cost is kUnknown if `own` is the nearest pixel of both labels.
     HWY_INLINE Side beside(const Pixel& own, float side, V near, V far) const {
         const Pixel one = at(side), two = at(2 * side);
         const auto isNext = [&](const Pixel& p)
@@ -82,8 +86,8 @@ struct NearestPixels {
 };
 
 /// Returns the position of the cost minimum in each Valley, as an offset from the best label
-/// [labels]. Labels with the same nearest pixel count as one label, which lies at the point of the
-/// epipolar line that is nearest to this pixel.
+/// [labels]. Labels with the same nearest pixel count as one label, whose position is the pixel's
+/// `foot`. The result is the best label's foot if the cost of a neighbour is unknown.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V bottoms(D d, const Valleys<D>& valleys, const NearestPixels<D>& pixels) {
     const auto own = pixels.at(0);

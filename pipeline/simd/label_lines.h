@@ -9,13 +9,13 @@
 
 namespace mfar::simd {
 
-/// A label is an inverse depth, counted in steps: s = perLabel * label, see EpipolarLens.
-/// LabelLines projects a frame's pixels with given labels to the still's canvas: the still, drawn
-/// with the lens and the orientation of the frame's camera (TurnedPicture).
+/// Parameters that map labels to points of epipolar lines. A label is a number that stands for the
+/// inverse depth s = perLabel * label, see EpipolarLens. The lines are on the still's canvas, which
+/// is the still drawn with the lens and the orientation of the frame's camera (TurnedPicture).
 struct LabelLines {
     Lens lens;
     float tx, ty, tz;        ///< translation of points, in the axes of the frame's camera
-    float originX, originY;  ///< pixel of `lens` at the canvas's pixel (0, 0)
+    float originX, originY;  ///< position of the canvas's pixel (0, 0) in the picture of `lens`
     float perLabel;
 };
 
@@ -31,23 +31,24 @@ struct CensusPicture {
 };
 
 /// Computes the matching costs of a row's pixels, whose census is `own`. Each pixel has kLabels *
-/// vectors labels, from its `base` on; costs are ordered by pixel, then by label. A cost is the
-/// Hamming distance to the census of the still's nearest pixel, or half of the number of bits if
-/// the still has no pixel there. With `slack`, it is the smallest of this cost and of the costs one
-/// pixel to either side of the epipolar line. The line is treated as straight within a vector of
-/// labels.
+/// `vectors` labels, the first of which is its `base`; costs are ordered by pixel, then by label. A
+/// cost is the Hamming distance to the census of the still's nearest pixel, or half of the number
+/// of bits if the still has no pixel there. With `slack`, a cost is the smallest of three: on the
+/// epipolar line, and one pixel to either side of it. Within kLabels labels, the line is treated as
+/// straight.
 void labelCosts(const LabelLines& lines, const LabelRow& row, const std::int16_t* base,
                 const std::uint32_t* own, const CensusPicture& still, int vectors, bool slack,
                 std::uint8_t* out);
 
-/// Computes the best label of each pixel, with a fractional part. A label's cost is that of the
-/// nearest still pixel, which is up to 0.7 px away from the label's point on the epipolar line. So
-/// the fraction is measured between the points of the line that are nearest to these pixels.
+/// Computes the best label of each pixel with a fractional part. A label's cost was measured at the
+/// nearest pixel of the still, up to 0.7 px away from the label's point on the epipolar line. So
+/// the minimum is interpolated between the points of the line that are nearest to these pixels.
 void labelPlaces(const LabelLines& lines, const LabelRow& row, const Valley* valleys, float* out);
 
-/// Computes the labels of cost minima, with a fractional part. The minimum is where two straight
-/// lines meet that run through the costs of the best label and its two neighbours. (A parabola
-/// would prefer whole labels with such costs.)
+/// Computes the label of each Valley's cost minimum with a fractional part. The minimum is where
+/// two straight lines with opposite slopes meet, which pass through the costs of the best label and
+/// of its two neighbours. (With these costs, a parabola would prefer whole labels.) The result is
+/// the best label itself if a neighbour's cost is unknown.
 void labelVertices(const Valley* valleys, std::size_t count, float* out);
 
 }  // namespace mfar::simd

@@ -17,9 +17,9 @@ HWY_BEFORE_NAMESPACE();
 namespace mfar::simd::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Calls body(tag, i) for vectors that cover `count` values. The last vector may overlap the
-/// previous one, so the body must not change its input. If a vector has more lanes than there are
-/// values, the values are processed one by one.
+/// Calls body(tag, i) for vectors that together contain the values 0 to `count` - 1; `i` is a
+/// vector's first value. The last vector can overlap the previous one, so the body must not change
+/// its input. If a vector has more than `count` lanes, the values are processed one by one.
 template <class D, class Body>
 HWY_INLINE void forLanes(D d, std::size_t count, const Body& body) {
     const std::size_t lanes = hn::Lanes(d);
@@ -41,7 +41,7 @@ HWY_INLINE Points<V> projected(D d, const Lens& lens, V x, V y) {
     const auto set = [d](float v) HWY_ATTR { return hn::Set(d, v); };
     V q = hn::MulAdd(x, x, hn::Mul(y, y));
     const V rim = set(lens.rim2);
-    // q <= rim is false for NaN, so NaN rays also take this branch and stay NaN.
+    // Rays with NaN also take this branch, because q <= rim is false for NaN. They stay NaN.
     if (!hn::AllTrue(d, hn::Le(q, rim))) {
         const V c = hn::Sqrt(hn::Div(rim, hn::Max(q, rim)));
         x = hn::Mul(x, c);

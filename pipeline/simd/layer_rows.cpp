@@ -25,8 +25,9 @@ HWY_INLINE void Along(int count, const Body& body) {
         body(one, x);
 }
 
-/// Loads the entries of a row at ascending columns. If the layer is not larger than the output, one
-/// vector of the row contains all of them and is permuted. Otherwise they are gathered.
+/// Loads the entries of a row at the ascending columns `at`. If the layer is not larger than the
+/// output, one vector of the row contains all these entries and is permuted. Otherwise the entries
+/// are gathered.
 template <class D>
 HWY_INLINE hn::Vec<D> Look(D d, const hn::TFromD<D>* row, const std::int32_t* at,
                            const LayerColumns& columns) {
@@ -35,7 +36,7 @@ HWY_INLINE hn::Vec<D> Look(D d, const hn::TFromD<D>* row, const std::int32_t* at
     const int first = at[0];
     const auto column = hn::LoadU(di, at);
     if (at[lanes - 1] - first >= lanes) {
-        // Columns beyond the loaded part of the row are clamped; their pixels are not used.
+        // Columns beyond the loaded part of the row are clamped. Results for them are not used.
         const auto inside = hn::Min(column, hn::Set(di, columns.last));
         return hn::GatherIndex(d, row, hn::Sub(inside, hn::Set(di, columns.origin)));
     }
@@ -68,7 +69,8 @@ struct Depths {
             best = hn::IfThenElse(better, weight, best);
             depth = hn::IfThenElse(better, z, depth);
         };
-        // If weights are equal, the first one wins. The order is that of textureGather.
+        // If weights are equal, the first pixel wins. So the order must be that of textureGather,
+        // which virtual_layer.glsl uses.
         consider(below, columns.left, hn::Mul(toLeft, down));
         consider(below, columns.right, hn::Mul(toRight, down));
         consider(above, columns.right, hn::Mul(toRight, up));

@@ -4,18 +4,19 @@
 
 namespace mfar::simd {
 
-/// Number of readable entries that must follow a part of a layer's row, because vectors read them.
+/// Number of readable entries that must follow the loaded part of a layer's row, because vectors
+/// read them.
 inline constexpr int kLayerSpare = 64;
 
 struct LayerColumns {
-    const std::int32_t *left, *right;  ///< the layer's columns on either side of each output pixel,
-                                       ///< ascending
-    const std::uint32_t* share;        ///< weight of the right column, see twiceInAWord()
-    int origin, last;                  ///< columns of the first and last entry of the row's loaded
-                                       ///< part
+    /// Layer columns to the left and to the right of each output pixel, ascending.
+    const std::int32_t *left, *right;
+    const std::uint32_t* share;  ///< weight of the right column, see twiceInAWord()
+    int origin, last;            ///< first and last layer column of the row's loaded part
 };
 
-/// Colours interpolated between two rows of a layer: two channels per word [1/64 grey level].
+/// A row of colours, interpolated between two rows of a layer. A word contains two channels [1/64
+/// grey level].
 struct BlendedColours {
     std::uint32_t *redBlue, *greenAlpha;
 };
@@ -26,11 +27,12 @@ struct BlendedColours {
 /// Interpolates `count` RGBA8 colours between two rows. `share`: weight of the lower row, [0, 1].
 void blendLayerRows(const std::uint32_t* above, const std::uint32_t* below, float share, int count,
                     const BlendedColours& out);
+/// Interpolates a row between the layer's columns, and writes it as RGBA8.
 void enlargeColours(const BlendedColours& part, const LayerColumns& columns, int count,
                     std::uint32_t* out);
-/// Copies, for each output pixel, the z of one of the four surrounding layer pixels: of those that
-/// have a depth, the one closest to the output pixel (virtual_layer.glsl). Writes 0 if none has.
-/// `share`: weight of the row `below`.
+/// Writes for each output pixel the z of the closest layer pixel that has a depth, as
+/// virtual_layer.glsl does. Only the four layer pixels around the output pixel are considered; the
+/// result is 0 if none has a depth. `share`: weight of the row `below`.
 void enlargeDepths(const float* above, const float* below, float share, const LayerColumns& columns,
                    int count, float* out);
 

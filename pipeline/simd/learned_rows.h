@@ -20,17 +20,17 @@ struct LearnedTaps {
     RowTaps rows, columns;
 };
 
-/// The residual that the learned enlarger adds to Keys' cubic enlargement. Rows at the output's
-/// size are computed on request. Each thread has its own object.
+/// The class LearnedRows computes the residual that the learned enlarger adds to Keys' cubic
+/// enlargement, row by row at the output's size. Each thread has its own object.
 class LearnedRows {
 public:
     LearnedRows(Size picture, int outputWidth);
 
-    /// Starts with a new picture. Nothing is computed before cover(), whose columns must all be in
-    /// `pixels`.
+    /// Starts with a new picture. `pixels`: columns of the output; all later arguments of cover()
+    /// must be inside.
     void begin(const RgbPlanes& picture, const LearnedTaps& taps, const FilterBank& bank,
                const PixelSpan& pixels);
-    /// Limits later calls of row() to these columns of the output, which must be ascending.
+    /// Sets the columns of the output that later calls of row() compute. Initially, there are none.
     void cover(const PixelSpans& pixels);
     /// Returns the residual of the covered pixels of a row [1/32 grey level], valid until the next
     /// call.
@@ -47,8 +47,9 @@ private:
     const RgbPlanes* picture_ = nullptr;
     const LearnedTaps* taps_ = nullptr;
     const FilterBank* bank_ = nullptr;
-    PixelSpan within_{}, columns_{};  // within_: output pixels given to begin(); columns_: picture
-                                      // columns they need
+    // within_: output columns given to begin(). columns_: columns of the picture from which they
+    // are computed.
+    PixelSpan within_{}, columns_{};
     PixelSpans covered_;
     PixelSpans made_;
     std::array<int, 2> kept_{};

@@ -5,7 +5,8 @@
 namespace mfar::simd {
 namespace {
 
-// Largest valid coordinate [still px] and weight of a look-up. No still has a pixel farther away.
+// Largest valid offset [still px] and weight of a LookUpCell; larger values count as 0. No still is
+// so large that it needs a larger offset.
 constexpr float kFarthest = 1e5F, kMostWeight = 4;
 
 RowTaps cellTaps(int cells, int video, int output) {

@@ -7,7 +7,7 @@
 
 namespace mfar::simd {
 
-/// Tables that enlarge a field of look-ups to the output's size. All threads share them.
+/// Tables that enlarge a field of LookUpCells to the output's size. All threads share them.
 struct LookUpTaps {
     /// `stillRig`: its still camera has the resolution of the still that is read. `output`: size of
     /// the whole enlarged video.
@@ -18,18 +18,17 @@ struct LookUpTaps {
     float stepX, stepY;  ///< still pixels per output pixel
 };
 
-/// Enlarges look-up positions in the still, and weights of the still, to rows of the output. Each
-/// thread has its own object.
+/// Enlarges a field of LookUpCells to rows of the output. Each thread has its own object.
 class LookUpRowCache {
 public:
     LookUpRowCache(Size cells, int outputWidth) : cells_(cells.width, outputWidth) {}
 
     /// Starts with a new field. Only pixels [begin, end) of the output are computed. `confident`:
-    /// LookUpRows::share is the confidence instead of the weight.
+    /// LookUpRows::share is the confidence if true, the weight if false.
     void begin(Rows<const LookUpCell> field, const LookUpTaps& taps, bool confident, int begin,
                int end);
     /// Returns a row of the output, which is computed from two rows of cells. The result is valid
-    /// as long as later calls use rows of cells that are less than four rows away.
+    /// until a later call uses a row of cells that is at least four rows away from these two.
     [[nodiscard]] LookUpRows row(int y);
 
 private:

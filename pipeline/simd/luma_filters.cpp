@@ -47,8 +47,8 @@ void ThinRow(const std::uint8_t* in, std::size_t width, std::uint8_t* out) {
 
 void SmoothRow(const std::uint8_t* above, const std::uint8_t* here, const std::uint8_t* below,
                std::size_t width, int side, std::uint8_t* out) {
-    // Weighted sum of the three pixels in each column [1/256], with one more column at each end of
-    // a run.
+    // The row is processed in pieces of kRun columns. `column` contains the weighted sum of each
+    // column's three pixels [1/256 grey level], with one more column at both ends.
     constexpr std::size_t kRun = 256;
     HWY_ALIGN std::uint16_t column[kRun + 2];
     const auto s = static_cast<std::uint16_t>(side), c = static_cast<std::uint16_t>(256 - 2 * side);

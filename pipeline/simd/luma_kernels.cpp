@@ -13,7 +13,7 @@ namespace mfar::simd::HWY_NAMESPACE {
 namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Number of columns that are smoothed at once; their sums stay on the stack.
+// Number of columns that are smoothed at once; their intermediate values stay on the stack.
 constexpr int kStrip = 256;
 constexpr int kMostLanes = 16;
 using Floats = hn::CappedTag<float, kMostLanes>;

@@ -5,8 +5,8 @@
 
 namespace mfar::simd {
 
-/// Three rows from which a smoothed row is computed. For luma, only `red` is used; `green` and
-/// `blue` are null.
+/// Three rows from which a smoothed row is computed. If the picture contains only luma, `red`
+/// points to it, and `green` and `blue` are null.
 struct SmoothRows {
     struct Planes {
         const std::uint8_t *red, *green, *blue;
@@ -14,8 +14,9 @@ struct SmoothRows {
     Planes above, here, below;
 };
 
-/// Computes a row of the finest pyramid level with 3x3 taps, as luma_from_video.comp does. `side`:
-/// weight of each neighbour. Writes `width` pixels and reads no pixels beyond them.
+/// Computes a row of the finest pyramid level with three taps along each axis, as
+/// luma_from_video.comp does. `side`: weight of a neighbour. Writes `width` pixels and reads no
+/// pixels beyond them.
 void smoothLumaRow(const SmoothRows& rows, int width, float side, std::uint8_t* to);
 
 /// Computes a row of the next coarser pyramid level as means of 2x2 pixels. Reads 2 * width pixels
@@ -31,9 +32,9 @@ struct StillLens {
 
     bool operator==(const StillLens&) const = default;
 };
-/// Writes the positions of a row's video pixels in the still [still px]. A position is far outside
-/// if the pixel's ray points away from the still's view. Up to 15 entries more than `width` are
-/// written.
+/// Writes for each video pixel of row `y` its position in the still, without parallax [still px].
+/// The position is params::kFarOutside if the pixel's ray points away from the still camera. Up to
+/// 15 entries more than `width` are written.
 void stillPixelRow(const StillLens& lens, int y, int width, float* stillX, float* stillY);
 
 struct StillPicture {
@@ -41,8 +42,8 @@ struct StillPicture {
     std::ptrdiff_t pitch;
     int width, height;
 };
-/// Writes the mean of the still over the footprint [still px] of each video pixel of a row: 4x4
-/// bilinear taps, as in luma_from_still.comp.
+/// Writes for each video pixel of a row the mean of the still over a square of width `footprint`
+/// [still px] around (stillX, stillY). The mean has 4x4 bilinear taps, as in luma_from_still.comp.
 void footprintRow(const StillPicture& still, float footprint, const float* stillX,
                   const float* stillY, int width, std::uint8_t* to);
 

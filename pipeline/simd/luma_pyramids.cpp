@@ -113,7 +113,8 @@ void LumaPyramids::buildStill(Rows<const std::uint8_t> luma, const StereoRig& ri
     buildCoarse(still_);
 }
 
-// If the width of `fine` is odd, its last column is averaged with the margin, which repeats it.
+// If the width of `fine` is odd, its last column is averaged with the first margin column, which
+// contains the same values.
 void LumaPyramids::halve(const LumaLevel& fine, const LumaLevel& coarse, int first, int last) {
     for (int y = first; y < last; ++y) {
         halveLumaRow(rowOf(fine, 2 * y), rowOf(fine, std::min(2 * y + 1, fine.height - 1)),

@@ -15,10 +15,10 @@
 
 namespace mfar::simd {
 
-/// Luma pyramids of the video frame and of the still, for the flow search. The still is shown as
-/// the video camera would see it (rotation and both lenses applied, without parallax). Both are
-/// smoothed in the same way. The pixels are stored in the shaders' layout (luma_layout.h), so
-/// words() can be uploaded unchanged.
+/// Luma pyramids of the video frame and of the still, for the flow search. The still is drawn as
+/// the video camera would see it: rotation and both lenses are applied, but no parallax. Video and
+/// still are smoothed in the same way. The pixels are stored in the shaders' layout
+/// (luma_layout.h), so words() can be uploaded unchanged.
 class LumaPyramids {
 public:
     LumaPyramids(Size video, std::shared_ptr<Workers> workers);
@@ -28,7 +28,7 @@ public:
     void buildStill(Rows<const std::uint8_t> luma, const StereoRig& rig);
     /// For flow between two frames: builds the still's pyramid from the luma of the second frame.
     void buildSecond(Rows<const std::uint8_t> luma);
-    /// Builds the video's pyramid from the luma of a frame.
+    /// Builds the video's pyramid from the luma of a frame, without its colours.
     void buildFirst(Rows<const std::uint8_t> luma);
 
     [[nodiscard]] const std::vector<LumaLevel>& video() const { return video_; }

@@ -9,7 +9,7 @@ HWY_BEFORE_NAMESPACE();
 namespace mfar::simd::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// 0.299, 0.587 and 0.114 in 1/256; their sum is 256.
+// The weights 0.299, 0.587 and 0.114 of luma, times 256. Their sum is 256.
 constexpr std::uint16_t kRed = 77, kGreen = 150, kBlue = 29;
 
 void LumaRow(const std::uint8_t* texels, bool bgr, std::size_t pixels, std::uint8_t* luma) {

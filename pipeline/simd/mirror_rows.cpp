@@ -13,7 +13,7 @@ HWY_BEFORE_NAMESPACE();
 namespace mfar::simd::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Vectors have at most 8 lanes, because rows are padded with only 7 entries.
+// Vectors have at most 8 lanes, because only 7 more entries follow a row (see mirror_rows.h).
 using D = hn::CappedTag<float, 8>;
 using DU = hn::RebindToUnsigned<D>;
 using DI = hn::RebindToSigned<D>;
@@ -22,10 +22,11 @@ using VU = hn::Vec<DU>;
 using VI = hn::Vec<DI>;
 using V3 = Triples<V>;
 
-// The visible share of the sun is computed only if a pixel mirrors more light of the sun than this
-// factor times the light of the sky.
+// The visible share of the sun is measured only in pixels in which the mirrored sunlight exceeds
+// this factor times the mirrored light of the sky.
 constexpr float kLeastSun = 0.1F;
-// Largest value of the free bits of two light words, which hold the sun's share.
+// The 6 free bits of a pixel's two MirrorParts words store the sun's visible share in steps of
+// 1 / kMostSunShare.
 constexpr float kMostSunShare = 63;
 
 HWY_INLINE V F(float value) {
@@ -53,13 +54,14 @@ HWY_INLINE V3 Unpacked(VU words) {
             hn::Mul(scale, ByteOf<2 * kLightBits>(words))};
 }
 
-/// Returns light words with free bits 0. `light` must not be negative.
+/// Returns `light` as light words (see base/light_word.h) whose free bits are 0. Its components
+/// must not be negative.
 HWY_INLINE VU Packed(const V3& light) {
     const DU du;
     const DI di;
     const V most = hn::Min(hn::Max(light.x, hn::Max(light.y, light.z)), F(kMostLight));
-    // Without the factor, a value just below a power of two would be rounded up to nine bits. With
-    // it, such a value gets the next larger exponent.
+    // A value just below a power of two would be rounded to 256, which needs nine bits. The factor
+    // gives such a value the next larger exponent.
     const VU bits = hn::BitCast(du, hn::Mul(most, F(1.003F)));
     const VI above = hn::Sub(hn::BitCast(di, hn::ShiftRight<23>(bits)), hn::Set(di, 126));
     const VI exponent = hn::Max(above, hn::Set(di, -kLightBias));
@@ -134,8 +136,8 @@ HWY_INLINE V Fresnel(V facing, V cosine) {
     return hn::MulAdd(hn::Sub(F(1), facing), hn::Mul(hn::Mul(square, square), rest), facing);
 }
 
-/// Returns the sun's light in a GGX reflection lobe, divided by the sun's irradiance and by the
-/// surface's paint (see paint_rows.h).
+/// Returns the sunlight that a surface with GGX roughness mirrors to the eye. The value is divided
+/// by the sun's irradiance and by the surface's paint (see paint_rows.h).
 HWY_INLINE V SunShare(const MirrorInput& in, const V3& normal, const V3& wo, V cosO, V facing,
                       V alpha) {
     const V3 sun{F(in.sun[0]), F(in.sun[1]), F(in.sun[2])};
@@ -154,8 +156,8 @@ HWY_INLINE V SunShare(const MirrorInput& in, const V3& normal, const V3& wo, V c
     return hn::Mul(hn::Mul(density, seen), hn::Mul(held, paint));
 }
 
-/// The distant light that pixels mirror to an eye if no object hides it. `sun` is a multiple of the
-/// sun's irradiance.
+/// The light of sky and sun that pixels mirror to an eye if no object hides sky or sun. `sun` is
+/// divided by the sun's irradiance.
 struct FarParts {
     V3 sky;
     V sun;
@@ -209,8 +211,8 @@ HWY_INLINE void ForGloss(const MirrorRow& row, const MirrorInput& in, const Body
     }
 }
 
-/// The two words of each lane's entry. LoadPairs() and StorePairs() access no entries after the
-/// row: these belong to the next row, which another thread may change.
+/// The two words of an entry, for each lane. LoadPairs() and StorePairs() do not access entries
+/// after the row's last one, because another thread may be changing the next row.
 struct Pair {
     VU first, second;
 };
@@ -257,7 +259,7 @@ void SplitMirrored(const MirrorRow& row, const MirrorInput& in, const LightWords
         const V3 share{ShareOf(all.x, far.sky.x), ShareOf(all.y, far.sky.y),
                        ShareOf(all.z, far.sky.z)};
         const V ofSky = Luminance(far.sky), ofSun = Luminance(sun), ofAll = Luminance(all);
-        // If a pixel mirrors little sunlight, the sun's visible share is set to that of the sky.
+        // If a pixel mirrors little sunlight, the visible share of the sky is used for the sun too.
         const auto bright = hn::Gt(ofSun, hn::Mul(F(kLeastSun), ofSky));
         const V sunShare =
             hn::IfThenElse(bright, ShareOf(hn::Sub(ofAll, ofSky), ofSun), Luminance(share));

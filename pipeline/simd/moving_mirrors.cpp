@@ -8,7 +8,7 @@ namespace mfar::simd {
 namespace {
 
 constexpr int kMirrorRows = 8;
-constexpr std::size_t kSpare = 8;  // vectors read fewer than this number of entries after a picture
+constexpr std::size_t kSpare = 8;  // padding of a picture's arrays, which vectors read [entries]
 constexpr int kRoughnesses = 256;
 constexpr float kLeastAlpha = 1e-3F;
 
@@ -76,8 +76,8 @@ void MovingMirrors::prepareTables() {
             ++low;
         tableOf_[i] = static_cast<std::int32_t>(low);
         if (tables.size() < 2) continue;
-        // Below the roughness of the second table, the weight is proportional to the width of the
-        // reflection lobe, as in FarLight::mirrored().
+        // Between the first two tables, the second one's weight grows with the squared roughness,
+        // which is the width of the reflection lobe. FarLight::mirrored() does the same.
         const float from = tables[low].roughness, to = tables[low + 1].roughness;
         const float share =
             low == 0 ? roughness * roughness / (to * to) : (roughness - from) / (to - from);

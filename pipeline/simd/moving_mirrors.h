@@ -22,11 +22,11 @@ public:
     MovingMirrors(const CameraModel& layer, Rows<const float> rayX, Rows<const float> rayY,
                   std::shared_ptr<Workers> workers);
 
-    /// The traced picture must live until the next call.
+    /// `traced` must live until the next call of setTracedPicture().
     void setTracedPicture(const TracedPicture& traced);
-    /// Returns TracedPicture::light as seen from the position `eye` in the world. It is unchanged
-    /// if the gloss of the pixels is unknown, or if the traced picture's camera is not the layer's.
-    /// Valid until the next call.
+    /// Returns TracedPicture::light as seen from the position `eye` in the world, valid until the
+    /// next call. Returns it unchanged if the pixels' gloss is unknown, or if the traced picture
+    /// has another camera model than the layer.
     [[nodiscard]] std::span<const LightWords> lightFor(const Eigen::Vector3d& eye);
 
 private:

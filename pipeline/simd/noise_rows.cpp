@@ -12,8 +12,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace mfar::simd::HWY_NAMESPACE {
 
-// The kernel has a radius of one step. A radius of two takes twice the time and is not better
-// (measured at 1 to 64 samples).
+// Weights of the pixel and of its neighbours at a distance of NoiseRule::step. A second neighbour
+// on each side doubles the time and is not better (measured at 1 to 64 samples).
 constexpr std::array<float, 2> kSpline = {0.5F, 0.25F};
 
 /// Luminance of linear RGB (see base/luminance.h).
@@ -23,7 +23,8 @@ HWY_INLINE V luminance(D d, V r, V g, V b) {
                       hn::MulAdd(hn::Set(d, 0.7152F), g, hn::Mul(hn::Set(d, 0.0722F), b)));
 }
 
-/// The weighted mean of one part of the light, over neighbours that noise may explain.
+/// The weighted mean of a LightPart over a pixel's neighbours. The weight of a neighbour falls to 0
+/// as its luminance differs by more than noise explains.
 template <class D>
 class PartMean {
 public:
@@ -99,8 +100,9 @@ public:
             normal_[c] = hn::LoadU(d, surfaces.normal[c] + centre);
     }
 
-    /// Returns the eighth power of the cosine between both normals (1/2 at 24 degrees), or 0 if the
-    /// surfaces differ. `away` is the distance [px].
+    /// Returns the weight of the neighbours from index `i` on, `away` pixels away: the eighth power
+    /// of the cosine between both pixels' normals (1/2 at 24 degrees). It is 0 if they show
+    /// different surfaces.
     HWY_INLINE V weight(std::ptrdiff_t i, int away) const {
         const V depth = hn::LoadU(d_, surfaces_.depth + i), id = hn::LoadU(d_, surfaces_.id + i);
         const V slope = hn::Mul(hn::Set(d_, static_cast<float>(away)), slope_);
@@ -132,7 +134,8 @@ HWY_INLINE hn::Vec<D> squaredTolerance(D d, const NoiseRule& rule, hn::Vec<D> id
     return hn::Mul(tolerance, tolerance);
 }
 
-/// Calls use(index, weight) for the pixels around a vector of pixels that begins at column `x`.
+/// Calls use(index, weight) for a vector of pixels that begins at column `x`, and for each of the
+/// eight vectors of neighbours around it.
 template <class D, class Use>
 HWY_INLINE void forNeighbours(D d, const NoiseRow& row, int step, const SameSurface<D>& surface,
                               int x, const Use& use) {

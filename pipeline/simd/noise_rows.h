@@ -6,7 +6,8 @@
 
 namespace mfar::simd {
 
-/// One part of the light of a picture's pixels, in row-major arrays (see LightPixel).
+/// The first or second part of the light of a picture's pixels (see LightPixel), in row-major
+/// arrays.
 template <class Float>
 struct LightPart {
     std::array<Float*, 3> light;
@@ -21,19 +22,20 @@ struct LightSurfaces {
 };
 
 struct NoiseRule {
-    int step;  ///< distance of neighbours [px], at most kNoiseMargin
-    /// Largest difference that noise explains [standard errors]. `sparseTolerance` is the limit for
-    /// pixels of surface `sparseId` whose first part has fewer than `few` samples.
+    int step;  ///< distance between a pixel and its neighbours [px], at most kNoiseMargin
+    /// Largest difference between two pixels' luminances that noise explains [standard deviations
+    /// of the difference]. `sparseTolerance` replaces it at pixels of surface `sparseId` whose
+    /// first part has fewer than `few` samples.
     float tolerance, sparseTolerance, few, sparseId;
-    float leastVariance;  ///< added to the variance of each difference
-    float depthSlope;     ///< largest relative change of depth per pixel on one surface
+    float leastVariance;  ///< added to the variance of each luminance difference
+    float depthSlope;     ///< largest change of depth within a surface [fraction of depth per px]
 };
 
-/// Number of values before and after each array that may be read.
+/// filterNoiseRow() reads up to this number of values before and after each array.
 inline constexpr int kNoiseMargin = 8;
 
-/// Row `y` of the pixels `where` of a picture that is `width` pixels wide. `from` and `to` must be
-/// different arrays. All values in the arrays must be finite.
+/// Row `y` of a picture that is `width` pixels wide; only the columns in `where` are filtered.
+/// `from` and `to` must be different arrays. All values in the arrays must be finite.
 struct NoiseRow {
     LightSurfaces surfaces;
     std::array<LightPart<const float>, 2> from;
@@ -42,7 +44,7 @@ struct NoiseRow {
     int width, y;
 };
 
-/// Runs one level of NoiseFilter on a row.
+/// Filters a row with one level of the wavelets of NoiseFilter.
 void filterNoiseRow(const NoiseRow& row, const NoiseRule& rule);
 
 }  // namespace mfar::simd

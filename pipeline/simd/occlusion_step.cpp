@@ -9,15 +9,15 @@
 namespace mfar::simd {
 namespace {
 
-// Number of additional entries of Strip's arrays: vectors write beyond the strip's last pixel.
+// Number of entries after the last pixel in Strip's arrays. Vectors write into them.
 constexpr int kSpare = 64;
 
 Size withMargin(Size video) {
     return {video.width + 2 * kSampleMargin, video.height};
 }
 
-/// Returns the weights of the four samples around a pixel. `share`: distance of the pixel from the
-/// second sample; 1 is the distance between two samples.
+/// Returns the weights of the four depth samples around an output pixel along one axis. `share`:
+/// distance from the second sample to the pixel [sample spacings].
 std::array<float, 4> distanceWeights(float share) {
     std::array<float, 4> out{};
     for (int i = 0; i < 4; ++i) {
@@ -40,17 +40,17 @@ struct OcclusionStep::Task {
     const RgbPlanes& video;
     Rows<std::uint32_t> picture;
     PixelRect bounds;
-    int first, last;  // the pixels in `bounds` need columns [first, last) of the samples
+    int first, last;  // columns [first, last) of the video that the pixels in `bounds` read
 };
 
-/// Temporary values for `count` pixels of an output row, from column `x` on. Output rows between
-/// the same two rows of samples share `greatest` and `least`.
+/// Temporary values for `count` pixels of an output row, from column `x` on. All output rows
+/// between two video rows use the same `greatest` and `least`.
 struct OcclusionStep::Strip {
     int x = 0, count = 0;
     std::array<float, kVisibilityChunk + kSpare> greatest{}, least{}, z{}, inverse{};
     std::array<std::uint32_t, kVisibilityChunk + kSpare> colours{};
-    // For an enlarged layer: parts of the layer's rows above and below the strip, and the colours
-    // interpolated between these rows.
+    // Used only if the layer is enlarged: depths and colours of the layer's rows above and below
+    // the strip, and colours interpolated between these rows (redBlue, greenAlpha).
     std::array<float, kVisibilityChunk + kSpare> depthAbove{}, depthBelow{};
     std::array<std::uint32_t, kVisibilityChunk + kSpare> above{}, below{}, redBlue{}, greenAlpha{};
     std::array<std::uint8_t, kVisibilityChunk + kSpare> visibility{};
@@ -75,7 +75,7 @@ OcclusionStep::OcclusionStep(Size video, Size output, Size layer, const Composit
       greatest_({withMargin(video).width, video.height + 1}),
       least_({withMargin(video).width, video.height + 1}), visibility_(output) {
     validate(options);
-    // The layer's columns around a strip must also fit into Strip's arrays.
+    // Strip's arrays also store the layer's columns, so these limit the strip's length.
     const double columnsPerPixel = static_cast<double>(layer.width) / output.width;
     longestStrip_ =
         std::clamp(static_cast<int>((kVisibilityChunk - 2) / columnsPerPixel), 1, kVisibilityChunk);
@@ -103,8 +103,8 @@ void OcclusionStep::run(const LayerRowsView& layer, const RealDepth& real, const
     assert(layer.colour.size == layer_ && layer.depth.size == layer_);
     const PixelRect bounds = layerInOutput(layer.bounds, layer_, output_);
     if (bounds.empty()) return;
-    // The samples that the bounds need along one axis: two before and two after each pixel. Pixels
-    // beyond the border use the samples around the outermost one.
+    // Returns the video pixels that the output pixels in `bounds` read along one axis: two before
+    // and two after each of them. The range is limited to the video.
     const auto samples = [](int firstBase, int lastBase, int count) {
         return std::pair(std::max(std::min(firstBase, count - 1) - 1, 0),
                          std::min(std::max(lastBase, 0) + 2, count - 1) + 1);

@@ -20,14 +20,15 @@ namespace mfar::simd {
 /// but in host memory, which it does not own.
 struct LayerRowsView {
     Rows<const std::uint32_t> colour;  ///< RGBA8, premultiplied by coverage
-    Rows<const float>
-        depth;         ///< z along the camera's axis [m], reduced where a shadow is; 0: no surface
+    /// z along the camera's axis [m]; 0: no surface. In shadows, it is reduced by kShadowLift.
+    Rows<const float> depth;
     PixelRect bounds;  ///< bounds of the covered pixels; empty: nothing is drawn
 };
 
-/// Real depth at every video pixel. Does not own its memory.
+/// Depth of the real scene at every video pixel, in memory that others own.
 struct RealDepth {
-    /// Inverse depth and its standard deviation [1/m]; with `squared`, its variance.
+    /// `inverse`: inverse depth [1/m]. `sigma`: standard deviation of the inverse depth [1/m], or
+    /// its variance [1/m^2] if `squared` is true.
     Rows<const float> inverse;
     Rows<const float> sigma;
     bool squared = false;
@@ -39,9 +40,9 @@ struct RealDepth {
     }
 };
 
-/// Composites a virtual layer over the picture of the real scene, and hides what real things
-/// occlude. CPU version of the GLES engine's LayerComposite. Processes only pixels within the
-/// layer's bounds.
+/// Draws a virtual layer over the picture of the real scene, except where real surfaces occlude it.
+/// Processes only pixels within the layer's bounds. CPU version of the GLES engine's
+/// LayerComposite.
 class OcclusionStep {
 public:
     /// `layer`: size of the layers. Null workers: all work runs in the caller's thread. Throws
@@ -60,12 +61,13 @@ public:
     [[nodiscard]] bool hides(double inverseDepth, double sigma, double inverse) const {
         return options_.hides(inverseDepth, sigma, inverse);
     }
-    /// Visible part of the layer at each output pixel [1/255]; valid within the output pixels that
-    /// the last layer's bounds cover.
+    /// Visibility of the layer at each output pixel: 0 (occluded) to 255 (visible). Valid only in
+    /// output pixels within the bounds of the last layer.
     [[nodiscard]] Rows<const std::uint8_t> visibility() const { return visibility_.rows(); }
 
 private:
-    /// Positions of output pixels along one axis, as pixels of another picture: first + share.
+    /// Positions of output pixels along one axis of another picture. Output pixel i is at
+    /// first[i] + share[i] in pixels of this picture; share is in [0, 1).
     struct Between {
         Between(int pixels, int others);
         std::vector<std::int32_t> first;  ///< pixel before the position; -1 at the border

@@ -13,7 +13,8 @@ HWY_BEFORE_NAMESPACE();
 namespace mfar::simd::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Vectors have at most 8 lanes, because rows of quarters are padded for only 8 pixels.
+// Vectors have at most 8 lanes, because the rows of the grid (see PaintRow; two entries per pixel)
+// are padded for only 8 pixels.
 using D = hn::CappedTag<float, 8>;
 using DU = hn::RebindToUnsigned<D>;
 using DI = hn::RebindToSigned<D>;
@@ -142,8 +143,8 @@ HWY_INLINE void AddProbe(const PaintInput& in, const Level& level, V u, V v, flo
     AddTexel(in, hn::Add(lower, x.second), belowRight, sum);
 }
 
-/// The parallelogram that a pixel covers in a texture: its middle, and the steps along its two
-/// sides.
+/// The parallelogram that a part of a pixel covers in a texture, in texture coordinates: its middle
+/// (u, v), and its sides (ux, vx) and (uy, vy).
 struct Footprint {
     V u, v;
     V ux, vx, uy, vy;
@@ -178,8 +179,8 @@ HWY_INLINE Paint Sample(const PaintInput& in, VU triangle, V x, V y, float sprea
     const VU levels = WordOf(DU(), in.triangles, triangle, 10);
     const V texels = hn::Mul(LowHalf(size), HighHalf(size));
     const V area = hn::Mul(hn::Abs(hn::NegMulAdd(f.uy, f.vx, hn::Mul(f.ux, f.vy))), texels);
-    // Area [texels] of the parallelogram between the probes, which are two steps apart along each
-    // side.
+    // Area of the parallelogram whose corners are the four probes [texels]. The probes are two
+    // sides of `f` apart, so it has four times the area of `f`.
     const V apart = hn::Mul(area, F(4));
     const M finite = hn::Lt(apart, F(1e12F));
     const V held = hn::Max(hn::IfThenElse(finite, apart, F(1e12F)), F(1));
@@ -207,11 +208,11 @@ HWY_INLINE VU SrgbByte(V linear) {
     return Byte(SrgbLevel(D(), hn::Mul(linear, F(1.0F / 65025))));
 }
 
-/// The object that each pixel shows, in some of its quarters.
+/// The object that is painted in each pixel. It covers one or more of the pixel's quarters.
 struct Shown {
     M any;
     VU triangle;
-    V dx, dy;  ///< from the pixel's centre to the centre of the object's quarters [grid px]
+    V dx, dy;  ///< centre of the object's quarters, relative to the pixel's centre [grid px]
     Four<V> part;
     Four<VU> triangles;
 };
@@ -274,7 +275,8 @@ HWY_INLINE Shown Choose(const PaintRow& row, int x) {
         number = hn::IfThenElse(more, own, number);
         out.triangle = hn::IfThenElse(more, index, out.triangle);
     };
-    // The order is that of mostOf().
+    // mostOf() in rest_pixels.cpp offers the quarters in the same order, so that equal numbers of
+    // quarters give the same object.
     offer(s.c, ac, bc, cd, t.c);
     offer(s.d, ad, bd, cd, t.d);
     offer(s.b, ab, bc, bd, t.b);

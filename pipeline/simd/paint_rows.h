@@ -17,7 +17,7 @@ struct PaintLevel {
     std::uint32_t size;   ///< width [texels] in the low 16 bits, height in the high 16 bits
 };
 
-/// Data for painting a triangle. It fills one cache line, from which vector lanes gather words.
+/// Data for painting a triangle. It fills one cache line, because vector lanes gather its words.
 struct PaintTriangle {
     RasterPlane perZ, u, v;  ///< 1 / z, u / z and v / z on the grid; set only for triangles
                              ///< that are drawn
@@ -34,8 +34,9 @@ struct PaintInput {
     const PaintTriangle* triangles;
 };
 
-/// Pixels of a row of the layer. The grid has twice the layer's resolution, so a pixel has four
-/// quarters. Rows of the grid must have AlignedRows::kPadding bytes of padding.
+/// `count` pixels of a row of the layer. Surfaces are rasterised on a grid with twice the layer's
+/// resolution, so a pixel has four quarters. Rows of the grid need AlignedRows::kPadding bytes of
+/// padding.
 struct PaintRow {
     int x, y, count;
     /// Surfaces and triangles of the pixels' quarters, from `x` on.
@@ -43,9 +44,9 @@ struct PaintRow {
     const std::uint32_t *upperIndices, *lowerIndices;
     PaintWords* out;
 };
-/// Writes the paint of `count` pixels as sRGB bytes, 0 where no object is. Up to 7 entries after
-/// them are overwritten. If a pixel shows several objects, the object with the most quarters is
-/// painted (as in RestPixels), at the centre of these quarters.
+/// Writes the paint of `row.count` pixels as sRGB bytes, or 0 for a pixel without an object. Up to
+/// 7 entries after the last pixel are overwritten. If a pixel shows several objects, the paint is
+/// that of the object with the most quarters (as in RestPixels), at the centre of these quarters.
 void paintRow(const PaintRow& row, const PaintInput& in);
 
 }  // namespace mfar::simd

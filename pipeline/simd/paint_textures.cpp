@@ -62,8 +62,8 @@ std::uint32_t rootsOf(const std::array<float, 3>& linear) {
     return rootByte(linear[0]) | rootByte(linear[1]) << 8 | rootByte(linear[2]) << 16;
 }
 
-/// Converts base colour and metallic (the fourth value) to paint. As in TracedScene, a surface
-/// reflects at most all light.
+/// Converts base colour and metallic (the fourth value) to paint. The colour is clamped to [0, 1]
+/// as in TracedScene, so that a surface never reflects more light than it receives.
 PaintWords wordsOf(const Values& base) {
     std::array<float, 3> diffuse{}, facing{};
     for (std::size_t c = 0; c < 3; ++c) {

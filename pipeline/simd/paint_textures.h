@@ -28,7 +28,8 @@ public:
     [[nodiscard]] const Material& of(const SilhouetteModels::Part& part) const {
         return materials_.at(&part);
     }
-    /// Input for paintRow(), without triangles. Valid until set().
+    /// Returns the input of paintRow() with null `triangles`, which the caller must set. Valid
+    /// until set().
     [[nodiscard]] PaintInput input() const { return {texels_.data(), levels_.data(), nullptr}; }
 
 private:

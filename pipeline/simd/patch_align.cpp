@@ -13,17 +13,17 @@ namespace mfar::simd::HWY_NAMESPACE {
 namespace {
 
 constexpr float kSteepest = params::kSteepestFlow;
-// Where the flow is steep, each half of a patch's row has its own flow vector for kHalf pixels. If
-// the flow changes by less than kGentle per pixel along the row, all eight pixels share one. The
-// error is then no larger than that of four pixels with the steepest flow.
+// Number of pixels of a patch's row that are read at the same whole-pixel offset: all eight if the
+// flow changes by less than kGentle per pixel along the row, otherwise kHalf. The error is then no
+// larger than that of kHalf pixels with the steepest flow.
 constexpr int kHalf = 4;
 constexpr float kGentle = 1.0F / 10;
-// All pixels of a patch share one flow vector if the flow changes by less than this per pixel.
-// Then the flow at the patch's corners differs by only a hundredth of a pixel from the flow at its
-// centre. The uncertainty of the flow's slope causes a larger error there.
+// If the flow changes by less than this per pixel, all pixels of a patch have the same flow vector.
+// At the patch's corners, its error is about a hundredth of a pixel. The error of the estimated
+// change would be larger.
 constexpr float kFlat = 1.0F / 256;
-// Number of bits of interpolation weights. They are stored in 16 bits, which leaves room for the
-// weights' change along the row.
+// Number of bits of interpolation weights. They are stored in 16 bits, so that a weight which
+// changes along a row does not overflow.
 constexpr int kShareBits = 14;
 constexpr float kShare = 1 << kShareBits;
 // Values (pixel - 128) [1/32 grey level] are clamped to +-kMostValue, so that sums of their squares
@@ -34,8 +34,9 @@ struct Bend {
     Vector2 dx, dy;
 };
 
-/// Returns the smaller one-sided difference per pixel, or zero if the two signs differ. The
-/// differences span two cells, because between adjacent cells the noise exceeds the change.
+/// Returns the change of the flow per pixel: the smaller of the two one-sided differences, or 0 if
+/// their signs differ. `before` and `after` are two cells away, because between adjacent cells
+/// noise exceeds the change.
 HWY_INLINE float slopeOf(float before, float here, float after) {
     const float a = here - before, b = after - here;
     if (!(a * b > 0)) return 0;
@@ -64,13 +65,13 @@ HWY_INLINE Bend bendAt(const AlignStep& step, int column, int row, Vector2 here)
             slope(seedAt(step, column, row - 2), seedAt(step, column, row + 2))};
 }
 
-/// Positions of a patch's rows in the other picture. If kParts is 2, each half of a row has its own
-/// position.
+/// Positions in the searched picture of a patch's rows, or of the halves of its rows if kParts is
+/// 2. `upper` and `lower` are offsets of the pixels at and below each position.
 template <int kParts>
 struct BentPlaces {
     static constexpr int kCount = kPatch * kParts;
     std::int32_t upper[kCount], lower[kCount];
-    // Weights of the next column and of the lower row, each stored twice in 32 bits.
+    // Interpolation weights of the right column and of the lower row, each stored twice in 32 bits.
     std::int32_t shareX[kCount], shareY[kCount];
 };
 
@@ -102,7 +103,7 @@ HWY_INLINE void placeParts(const PatchPicture& p, int column, int row, Vector2 u
         const auto s = hn::ConvertTo(dInt, hn::Mul(hn::Sub(value, whole), hn::Set(d, kShare)));
         hn::StoreU(hn::Or(s, hn::ShiftLeft<16>(s)), dInt, to);
     };
-    // NaN becomes the lower bound.
+    // Clamps to [-7, most]; NaN becomes -7.
     const auto within = [&](auto value, int most) HWY_ATTR {
         const auto low = hn::Set(d, -7.0F), high = hn::Set(d, static_cast<float>(most));
         return hn::Min(hn::IfThenElse(hn::Gt(value, low), value, low), high);
@@ -162,7 +163,7 @@ HWY_INLINE Vec16 loadShares(const std::int32_t* shares, int c) {
 #endif
 }
 
-/// Twice the columns of a row's pixels, relative to the centre of their part.
+/// Returns twice the column of each pixel of a row, relative to the centre of the pixel's part.
 template <int kParts>
 HWY_INLINE const std::int16_t* alongPart() {
     alignas(16) static constexpr std::int16_t kAlong[2][kPatch] = {{-7, -5, -3, -1, 1, 3, 5, 7},
@@ -178,7 +179,7 @@ struct BentPixels {
         const auto step = hn::ShiftLeft<kValueBits + 1>(hn::Sub(next, here));
         return hn::Add(hn::ShiftLeft<kValueBits>(here), hn::MulFixedPoint15(step, shareX));
     }
-    /// Interpolates between two rows and subtracts 128.
+    /// Returns the values between two rows, minus 128.
     HWY_INLINE hn::Vec<D16> down(hn::Vec<D16> upper, hn::Vec<D16> lower) const {
         const D16 d;
         const auto most = hn::Set(d, kMostValue), middle = hn::Set(d, 128 << kValueBits);
@@ -188,8 +189,8 @@ struct BentPixels {
     }
 };
 
-/// Sums the products of a patch's pixels with the other picture's pixels at `places`. `slopeX`,
-/// `slopeY`: change of the weights per half pixel along the row.
+/// Sums the products of a patch's pixels with the searched picture's pixels at `places`. `slopeX`,
+/// `slopeY`: change of the interpolation weights per half pixel along a row.
 template <int kParts>
 HWY_INLINE void addUpParts(const Patch& patch, const std::uint8_t* pixels,
                            const BentPlaces<kParts>& places, std::int16_t slopeX,
@@ -253,7 +254,7 @@ HWY_INLINE void addUpTwoRows(const Patch& patch, const std::uint8_t* pixels,
 }
 #endif
 
-/// Like comparePatch(), but for a flow that changes over the patch.
+/// Compares like comparePatch() (patch_inl.h), but with a flow that changes over the patch.
 template <int kParts>
 HWY_INLINE void compareBent(const Patch& patch, const PatchPicture& p, int column, int row,
                             Vector2 u, const Bend& bend, int cell, CompareSums& out) {
@@ -276,7 +277,8 @@ struct AlignRoom {
     Bend bend[kBatch];
 };
 
-/// Finds the best vector of each cell: its seed, or a vector that Gauss-Newton steps reach from it.
+/// Finds the cheapest flow vector of each cell: its seed, or a result of Gauss-Newton steps that
+/// start at the seed.
 HWY_INLINE void alignBatch(const AlignStep& step, AlignRoom& room) {
     Batch& batch = room.batch;
     loadPatches(step.from, room.patchSums, batch);

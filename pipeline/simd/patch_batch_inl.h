@@ -1,5 +1,5 @@
-// Compares patches of two luma pictures (levels of two pyramids) for a batch of cells. The result
-// does not depend on offset and gain of either picture. This header is included once per
+// Compares patches of two luma pictures (levels of two pyramids) for a batch of cells. An offset or
+// a gain between the pictures does not change the result. This header is included once per
 // instruction set.
 #if defined(MFAR_PATCH_BATCH_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef MFAR_PATCH_BATCH_INL_H
@@ -50,8 +50,8 @@ struct Batch {
     Each2 descent;  // right-hand side of the Gauss-Newton step
 
     Each2 trial;
-    // 1 if `trial` must be compared, else 0. After the comparison: 1 if `trial` was better than
-    // `best`, else 0.
+    // Before a comparison: 1 if the cell's vector `trial` must be compared, else 0. After it: 1 if
+    // `trial` cost less than `best`, else 0.
     Each active;
 
     HWY_INLINE void add(int c, int r) {
@@ -61,8 +61,7 @@ struct Batch {
     }
 };
 
-/// Loads the patches of the batch's cells, and computes what does not depend on the position in the
-/// other picture.
+/// Loads the patches of the batch's cells. Computes the sums that depend only on the patches.
 HWY_INLINE void loadPatches(const PatchPicture& p, PatchSums& sums, Batch& batch) {
     for (int i = 0; i < batch.count; ++i)
         loadPatch(p, batch.column[i], batch.row[i], i, batch.patch[i], sums);
@@ -89,8 +88,8 @@ HWY_INLINE void loadPatches(const PatchPicture& p, PatchSums& sums, Batch& batch
     }
 }
 
-/// Accepts the trials of active cells that fit better than the best vector so far. Deactivates all
-/// other cells.
+/// Replaces `best` by `trial` in active cells where `trial` costs less. Deactivates all other
+/// cells.
 HWY_INLINE void takeBetter(const CompareSums& sums, Batch& batch) {
     const Cells d;
     const auto noise = hn::Set(d, params::kPatchNoise), zero = hn::Zero(d), one = hn::Set(d, 1.0F);
@@ -121,7 +120,7 @@ HWY_INLINE void takeBetter(const CompareSums& sums, Batch& batch) {
     }
 }
 
-/// Indices of a batch's active cells, found without a branch per cell.
+/// Indices of a batch's active cells. They are found without a branch per cell.
 struct ActiveCells {
     int count = 0;
     int cell[kBatch];
@@ -143,8 +142,8 @@ HWY_INLINE void tryActive(const Compare& compare, const CompareSums& sums, Batch
     takeBetter(sums, batch);
 }
 
-/// Sets the trials of the active cells to the result of one Gauss-Newton step, at most a pixel
-/// long. Deactivates cells whose step is too short.
+/// Sets `trial` of each active cell to the result of one Gauss-Newton step, which is at most a
+/// pixel long. Deactivates cells whose step is shorter than params::kShortestStep allows.
 HWY_INLINE void stepActive(Batch& batch) {
     const Cells d;
     const auto one = hn::Set(d, 1.0F);

@@ -26,12 +26,12 @@ struct FlowPlanes {
 };
 inline constexpr int kFieldMargin = 16;
 
-/// A flow field of another frame or step, whose vectors are candidates at every pyramid level.
+/// The flow field of an earlier frame or step. Its vectors are candidates at every pyramid level.
 struct PriorField {
     const float *x = nullptr, *y = nullptr;
     std::ptrdiff_t step = 1, pitch = 0;  ///< distances between cells and between rows [elements]
-    float scale = 1;                     ///< pixels of the searched level per field pixel
-    /// Columns and rows of this field per column and row of cells of the searched pyramid level.
+    float scale = 1;  ///< factor from this field's flow to pixels of the searched pyramid level
+    /// Size of this field [cells] divided by the size of the searched level's field [cells].
     float columnsPerCell = 1, rowsPerCell = 1;
 };
 
@@ -39,8 +39,9 @@ struct PriorField {
 struct SearchStep {
     PatchPicture from, to;  ///< patches of `from` are searched in `to`
     FlowPlanes out;
-    FlowPlanes
-        coarser;  ///< next coarser level, whose vectors are candidates; 0 rows: there is none
+    /// Field of the next coarser pyramid level, whose vectors are candidates. It has 0 rows at the
+    /// coarsest level.
+    FlowPlanes coarser;
     PriorField prior;
     int radius = 0;  ///< radius of whole-pixel candidates at the coarsest level, <= 40
     int candidates = 0;
@@ -49,9 +50,9 @@ struct SearchStep {
 void searchCells(const SearchStep& step, int row, int first, int end);
 
 /// Parameters of the LISTED variant of flow_search.comp. At the finest pyramid level, a cell's
-/// vector in `out` is replaced only if the new cost is clearly smaller. Its two-way error in
-/// `errors`, the first of four floats per cell, is then replaced too. At coarser levels, `errors`
-/// is null, and every cell takes the new vector.
+/// vector in `search.out` is replaced only if the new cost is clearly smaller (kClearlyLess). The
+/// cell's two-way error, the first of its four floats in `errors`, is then replaced too. At coarser
+/// levels, `errors` is null, and the vectors of all cells are replaced.
 struct ListedStep {
     SearchStep search;
     float* errors = nullptr;
@@ -68,20 +69,23 @@ struct PropagateStep {
 };
 void propagateCells(const PropagateStep& step, int row, int first, int end);
 
-/// Parameters of flow_align.comp: Gauss-Newton steps from the flow vectors `seed`. Within a patch,
-/// the vector changes as the flow does around the cell.
+/// Parameters of flow_align.comp, which refines the flow vectors in `seed` by Gauss-Newton steps.
+/// Patches are deformed according to the change of the flow around the cell.
 struct AlignStep {
     PatchPicture from, to;
     FlowPlanes out;
-    const float* seed = nullptr;  ///< per cell: flow x, y, two unused; no gaps between rows
+    /// Four floats per cell, row by row without gaps: flow x and y [px], and two unused values.
+    const float* seed = nullptr;
     int steps = 0;
 };
 void alignCells(const AlignStep& step, int row, int first, int end);
-/// Copies the vectors of `seed`, with cost and texture 0. Invalid vectors become zero.
+/// Copies the vectors of `seed` to `out`, with cost and texture 0. Components that are NaN or too
+/// large become 0.
 void keepSeedCells(const AlignStep& step, int row, int first, int end);
 
-/// Parameters of flow_filter.comp. The margins of the fields must be filled. `known`: reliability
-/// of each cell, [0, 1]. `out`: four floats per cell, row by row without gaps.
+/// Parameters of flow_filter.comp. prepareCleanUpRow() must have filled the margins of `in` and
+/// `known`. `known`: reliability of each cell, [0, 1]. `out`: four floats per cell, row by row
+/// without gaps.
 struct CleanUpStep {
     FlowPlanes in;
     const float* known = nullptr;  ///< same pitch and margins as `in`
@@ -91,8 +95,8 @@ struct CleanUpStep {
 using params::kCleanUpRadius;
 void cleanUpCells(const CleanUpStep& step, int row, int first, int end);
 void copyCells(const CleanUpStep& step, int row, int first, int end);
-/// Computes the reliability of the cells of a row. Repeats the outermost cells of x, y and `known`
-/// over kCleanUpRadius columns on both sides.
+/// Writes the reliability of a row's cells to `known`. Fills kCleanUpRadius columns of the margins
+/// of field.x, field.y and `known` with the outermost cells.
 void prepareCleanUpRow(const FlowPlanes& field, float* known, int row);
 
 }  // namespace mfar::simd

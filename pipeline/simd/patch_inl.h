@@ -1,6 +1,7 @@
-// Sums over an 8x8 patch of one luma picture and over pixels of another one; an integer version of
-// patch.glsl. 128 is subtracted from pixels, so that sums of squares fit into 32 bits. This offset
-// cancels in every result. This header is included once per instruction set.
+// Sums products of the pixels of an 8x8 patch and of the pixels in a second picture with which the
+// patch is compared; an integer version of patch.glsl. 128 is subtracted from pixels, so that sums
+// of squares fit into 32 bits. This offset cancels in every result. This header is included once
+// per instruction set.
 #if defined(MFAR_PATCH_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef MFAR_PATCH_INL_H
 #undef MFAR_PATCH_INL_H
@@ -24,11 +25,11 @@ namespace hn = hwy::HWY_NAMESPACE;
 constexpr int kPatch = 8;
 constexpr int kCellSize = 4;  // side of a cell [px]; its patch begins 2 px to the left and above
 constexpr float kPixels = params::kPatchPixels;
-// Interpolated pixels of the other picture are stored in 1/32 grey level.
+// Interpolated pixels of the searched picture are stored in steps of 1/32 grey level.
 constexpr int kValueBits = 5;
 constexpr float kValue = 1 << kValueBits;
 
-// Vectors of one row of a patch, or of one pixel on the scalar target.
+// A vector holds one row of a patch, or one pixel on the scalar target.
 using Row16 = hn::CappedTag<std::int16_t, kPatch>;
 using Sum32 = hn::CappedTag<std::int32_t, kPatch / 2>;
 using Row8 = hn::Rebind<std::uint8_t, Row16>;
@@ -36,8 +37,8 @@ using Vec16 = hn::Vec<Row16>;
 using Vec32 = hn::Vec<Sum32>;
 constexpr int kRowLanes = HWY_TARGET == HWY_SCALAR ? 1 : kPatch;
 
-// Number of cells that are searched together. The steps after a comparison are computed for all of
-// them at once, one cell per lane.
+// Number of cells that are searched together. After a comparison, their Gauss-Newton steps are
+// computed in vectors with one cell per lane.
 constexpr int kBatch = 16;
 using Cells = hn::CappedTag<float, kBatch>;
 using CellsInt = hn::RebindToSigned<Cells>;
@@ -57,7 +58,7 @@ struct alignas(64) Patch {
     std::int16_t pixels[64], gx[64], gy[64];
 };
 
-/// Partial sums over a patch's pixels, four per cell.
+/// Sums over a patch's pixels, for each cell of a batch in four parts that must still be added.
 struct alignas(64) Parts {
     std::int32_t of[kBatch][4] = {};
 
@@ -98,11 +99,11 @@ HWY_INLINE Vec16 loadPixels(const std::uint8_t* from) {
     return hn::PromoteTo(Row16(), hn::LoadU(Row8(), from));
 }
 
-/// Rows of pixels that may be read without bounds checks. Outside the picture, its border is
+/// Rows of a picture that can be read without bounds checks. Outside the picture, its border is
 /// repeated.
 class PatchRows {
 public:
-    /// `rows` rows from `y` on, with `bytes` bytes from `x` on (at most kWidth).
+    /// Makes `rows` rows from `y` on readable, with `bytes` bytes (at most kWidth) from `x` on.
     HWY_INLINE PatchRows(const PatchPicture& p, int x, int y, int rows, int bytes) {
         if (y >= 0 && y + rows <= p.height) {
             first_ = p.pixels + y * p.pitch + x;
@@ -130,7 +131,8 @@ private:
     std::uint8_t copy_[10 * kWidth];
 };
 
-/// Sums over a patch: of its pixels (a), of twice their gradient (x, y), and of their products.
+/// Sums over a patch: of its pixels (a), of twice their gradient (x, y), and of the products of
+/// these three (aa to yy).
 struct PatchSums {
     Parts a, x, y, aa, ax, ay, xx, xy, yy;
 };
@@ -194,8 +196,8 @@ HWY_INLINE void loadPatch(const PatchPicture& p, int column, int row, int cell, 
     products.store(sums, cell);
 }
 
-/// Sums of the other picture's pixels (b), of their squares, and of their products with the patch's
-/// pixels (a) and gradients (x, y).
+/// Sums over the searched picture's pixels (b), their squares (bb), and their products with the
+/// patch's pixels (ab) and with twice the patch's gradients (xb, yb).
 struct CompareSums {
     Parts b, bb, ab, xb, yb;
 };
@@ -238,8 +240,8 @@ HWY_INLINE hn::Vec<Rows16> loadTwoRows(const std::uint8_t* upper, const std::uin
                          hn::Combine(d8, hn::LoadU(Row8(), lower), hn::LoadU(Row8(), upper)));
 }
 
-/// Sums the products of a patch's pixels with the other picture's pixels. These are interpolated
-/// between columns and rows with the weights `across` and `along` [2^-15].
+/// Sums the products of a patch's pixels with the searched picture's pixels. The latter are
+/// interpolated between columns with weight `across` and between rows with weight `along` [2^-15].
 HWY_INLINE void addUpRows(const Patch& patch, const PatchRows& rows, std::int16_t across,
                           std::int16_t along, int cell, CompareSums& out) {
     const Rows16 d;
@@ -289,8 +291,8 @@ HWY_INLINE void addUpRows(const Patch& patch, const PatchRows& rows, std::int16_
 }
 #endif
 
-/// Compares the patch of a cell with the picture `p`, displaced by u [px]. Positions outside are
-/// clamped to the border.
+/// Computes the sums for comparing a cell's patch with the picture `p` at a displacement of u [px].
+/// Positions outside `p` are clamped to its border.
 HWY_INLINE void comparePatch(const Patch& patch, const PatchPicture& p, int column, int row,
                              Vector2 u, int cell, CompareSums& out) {
     const float x = bounded(static_cast<float>(kCellSize * column - 2) + u.x, -7.0F,

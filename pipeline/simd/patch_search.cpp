@@ -111,7 +111,8 @@ struct WholeBest {
     float x, y, cost;
 };
 
-/// Compares the patch at all displacements of a row. If costs are equal, the first one wins.
+/// Compares the patch at the displacements `firstDx` to `endDx` - 1 with the same `dy`. Of
+/// displacements with equal costs, the first one wins.
 HWY_INLINE void searchWholeRow(const Batch& batch, int cell, const PatchPicture& to, int firstDx,
                                int endDx, int dy, WholeSums& sums, WholeBest& best) {
     const int y = std::clamp(kCellSize * batch.row[cell] - 2 + dy, -7, to.height - 2);
@@ -131,8 +132,9 @@ HWY_INLINE void searchWholeRow(const Batch& batch, int cell, const PatchPicture&
     }
 }
 
-/// Compares the patch at a square of displacements; the best one becomes the cell's trial.
-/// Displacement zero is compared first, so it wins if the patch has no texture.
+/// Compares the patch at all whole-pixel displacements of at most `radius` along each axis. Stores
+/// the cheapest one in batch.trial. Displacement zero is compared first, so it wins if the patch
+/// has no texture.
 void searchWhole(Batch& batch, int cell, const PatchPicture& to, int radius) {
     WholeSums sums{};
     WholeBest best{batch.best.x.of[cell], batch.best.y.of[cell], batch.cost.of[cell]};
@@ -161,8 +163,8 @@ HWY_INLINE void tryPrior(const SearchStep& step, SearchRoom& room) {
     room.compare(step.to);
 }
 
-/// Matches each cell's patch with the k-th flow vector of the coarser pyramid level. Of the four
-/// vectors around the cell, k = 0 is the nearest.
+/// Compares each cell's patch at the k-th of the four flow vectors that surround the cell at the
+/// next coarser pyramid level. The vector k = 0 is the nearest.
 HWY_INLINE void tryCoarser(const SearchStep& step, int k, SearchRoom& room) {
     Batch& batch = room.batch;
     for (int i = 0; i < batch.count; ++i) {

@@ -14,7 +14,7 @@ HWY_BEFORE_NAMESPACE();
 namespace mfar::simd::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Values (grey level - 128) are stored in 1/64, so that a patch's sum of squares fits into four
+// Values (grey level - 128) are stored in steps of 1/64. So a patch's sum of squares fits into four
 // 32-bit lanes.
 constexpr float kOne = 64;
 constexpr float kPixels = params::kPatchPixels;
@@ -134,7 +134,7 @@ HWY_INLINE V16 Between(V16 a, V16 b, V16 f) {
     return hn::Add(a, hn::MulFixedPoint15(hn::Sub(b, a), f));
 }
 
-/// Sums products. It adds adjacent pairs of products or halves of vectors, depending on the CPU.
+/// Sums products of lanes. Which products are added in a lane depends on the CPU.
 struct Accumulator {
     V32 first, second;
 
@@ -193,8 +193,8 @@ HWY_INLINE void SumRows(const VideoRow& videoRow, const StillRow& stillRow, int 
     bb.store(&out.bb[to]);
 }
 
-/// Sums the patches of kBlocks cells from `first` on; the chunk has `count` cells. `video`: rows at
-/// the chunk's first cell.
+/// Computes the sums of kBlocks cells of a chunk, from cell `first` on. The chunk has `count`
+/// cells. `video`: rows of the video at the chunk's first cell.
 HWY_INLINE void SumPatches(const std::uint8_t* const* video, const PatchLevel& still, int first,
                            int count, const Origins& origins, Partial& out) {
     const V16 fx = PerBlock(&origins.fx[first]), fy = PerBlock(&origins.fy[first]);
@@ -203,7 +203,7 @@ HWY_INLINE void SumPatches(const std::uint8_t* const* video, const PatchLevel& s
     const std::uint8_t* at[kBlocks];
     bool inside = true;
     for (int i = 0; i < kBlocks; ++i) {
-        cell[i] = std::min(first + i, count - 1);  // results beyond the last cell are not used
+        cell[i] = std::min(first + i, count - 1);  // results after the last cell are not used
         column[i] = 4 * static_cast<std::ptrdiff_t>(cell[i]);
         const int y = origins.y[cell[i]];
         inside = inside && y >= 0 && y + kRows < still.height;

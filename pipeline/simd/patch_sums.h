@@ -14,19 +14,19 @@ struct PatchLevel {
     int width, height;
 };
 
-/// Covariance and variances of the patches of one row of cells. These sums are not divided by the
-/// number of pixels [grey levels^2].
+/// Covariances and variances of the patches of one row of cells, as sums over the 64 pixels [grey
+/// levels^2].
 struct PatchSums {
     float* covariance;
     float* varianceVideo;  ///< null: not stored
     float* varianceStill;
 };
 
-/// Compares cells [first, last) of the video's row `cellRow` with the still, which is displaced by
-/// the flow (patch.glsl). A patch has 8x8 pixels around a cell of 4x4 pixels. The still is
-/// interpolated in steps of 2^-15 px and 1/64 grey level. Positions outside are clamped to the
-/// border; NaN flow points far to the left or above. The flow of up to 15 cells after `last` is
-/// read.
+/// Compares the patches of cells [first, last) in the video's row `cellRow` with the still at the
+/// ends of their flow vectors (patch.glsl). A patch has 8x8 pixels around a cell of 4x4 pixels. The
+/// still is interpolated in steps of 2^-15 px and 1/64 grey level. Positions outside the still are
+/// clamped to its border; a NaN counts as far to the left or far above. The flow of up to 15 cells
+/// after `last` is read.
 void comparePatches(const PatchLevel& video, const PatchLevel& still, int cellRow, int first,
                     int last, const float* flowX, const float* flowY, const PatchSums& out);
 

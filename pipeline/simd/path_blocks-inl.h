@@ -1,7 +1,8 @@
-// Aggregates costs along paths (see path_costs.h) in registers, for windows of one vector of
+// Aggregates costs along paths (see path_costs.h) in registers, for pixels with a window of 16
 // labels. A block of 16 bytes contains the path costs of one pixel's labels; a vector contains
-// several blocks. Path costs are stored as their complement, so that the zeros that shifts and
-// look-ups insert outside a window never win. This header is included once per instruction set.
+// several blocks. Path costs are stored as 255 - cost. Byte shifts and look-ups insert zeros
+// outside a window, which are then the highest cost and never win. This header is included once per
+// instruction set.
 #include "pipeline/simd/path_costs.h"
 
 #include <algorithm>
@@ -85,8 +86,11 @@ public:
         }
     }
 
-    /// Advances the complement of path costs by one pixel. `shifts`: differences of the two
-    /// windows' first labels. `jumps`: penalties of jumps. Both have one byte per block.
+    /// Advances path costs by one pixel. `path`: 255 - path cost of each label at the previous
+    /// pixel. `cost`: matching costs of the new pixel. `shifts` and `jumps` have one byte per
+    /// block. `shifts`: first label of the new pixel's window minus that of the previous pixel's.
+    /// `jumps`: penalty for a label change of more than one. Returns 255 - path cost at the new
+    /// pixel.
     HWY_INLINE V advance(V path, const std::uint8_t* shifts, const std::uint8_t* jumps,
                          V cost) const {
         std::uint32_t moved = 0;
@@ -128,15 +132,15 @@ private:
     V one_, places_, byTwo_, byOne_, block_;
 };
 
-/// Computes two values for a step between neighbouring pixels: the penalty of a jump, and the
-/// difference of the two windows' first labels.
+/// Computes penalties() and shifts() for each pixel `to` and the pixel `from` before it on a path.
 class Neighbours {
 public:
     explicit Neighbours(const PathVolume& volume)
         : jumps_(volume.jumps), chunks_((volume.jumpDifferences + 15) / 16) {}
 
-    /// Computes the penalties of jumps between `count` pixels (at most kMost) and their neighbours.
-    /// Writes whole vectors.
+    /// Computes the penalty for a label change of more than one between the pixels `from` and `to`,
+    /// for `count` pixels (at most kMost). `to`, `from`: values of PathVolume::guide at these
+    /// pixels. Writes whole vectors, so `out` needs kRoom bytes.
     static constexpr int kMost = 64, kRoom = 2 * kMost;
     HWY_INLINE void penalties(const std::uint8_t* to, const std::uint8_t* from, int count,
                               std::uint8_t* out) const {
@@ -156,7 +160,9 @@ public:
                     hn::StoreU(jump, d, out + i);
                 });
     }
-    /// Computes the differences of first labels, clamped to one more than a window's length.
+    /// Computes the first label of the window of each pixel `to` minus that of the pixel `from`.
+    /// `to`, `from`: values of PathVolume::base at these pixels. The difference is clamped to
+    /// -(kLabels + 1) to kLabels + 1.
     HWY_INLINE static void shifts(const std::int16_t* to, const std::int16_t* from, int count,
                                   std::uint8_t* out) {
         for (int i = 0; i < count; ++i)
@@ -184,13 +190,16 @@ private:
     int chunks_;
 };
 
-/// Penalties and shifts of a run of pixels in `Blocks` rows, interleaved.
+/// Penalties for label changes (`jumps`) and shifts of the window, as computed by Neighbours, for
+/// successive pixels in `Blocks` rows. The values of the rows are interleaved: first those of the
+/// first pixel of each row.
 template <int Blocks>
 struct RunOfRows {
     HWY_ALIGN std::uint8_t jumps[Neighbours::kMost * 4], shifts[Neighbours::kMost * 4];
 
-    /// Fills in pixels [x, x + count) of the rows from y on. `toFrom`: offset of a pixel's
-    /// neighbour. A pixel without a neighbour uses itself.
+    /// Computes the values of pixels [x, x + count) of the rows from y on. `toFrom`: column of the
+    /// previous pixel on the path minus that of the pixel itself. Both values are 0 for the first
+    /// pixel of a path.
     HWY_INLINE void fill(const Neighbours& between, const PathVolume& v, int x, int count, int y,
                          int toFrom) {
         HWY_ALIGN std::uint8_t jump[4][Neighbours::kRoom] = {}, shift[4][Neighbours::kRoom] = {};
@@ -224,8 +233,8 @@ private:
     }
 };
 
-/// Computes the path costs along rows in both directions at once. A step needs the result of the
-/// previous one, so two independent chains of steps keep the CPU busy.
+/// Computes the path costs along rows in both directions at once. Each pixel of a path needs the
+/// result of the previous one. With two independent paths, the CPU waits less for results.
 template <int Blocks>
 HWY_INLINE void blocksAlongRows(const PathVolume& v, int y) {
     static_assert(Blocks == 1 || Blocks == 2 || Blocks == 4);
@@ -261,8 +270,8 @@ HWY_INLINE void blocksAlongRows(const PathVolume& v, int y) {
     }
 }
 
-/// Finds the cheapest label of each pixel. `sums`: path costs of all directions but the last.
-/// `path`: complement of the path costs of the last direction.
+/// Finds the cheapest label of each pixel. `sums`: sums of the path costs from three directions.
+/// `path`: 255 - path cost from the fourth direction.
 template <int Blocks>
 HWY_INLINE void valleysOf(const Stepper<Blocks>& stepper, VBlocks<Blocks> sums,
                           VBlocks<Blocks> path, const std::int16_t* base, Valley* out) {
@@ -273,7 +282,7 @@ HWY_INLINE void valleysOf(const Stepper<Blocks>& stepper, VBlocks<Blocks> sums,
     const auto a = hn::BitCast(d16, sums), b = hn::BitCast(d16, hn::Not(path));
     const auto odds = [&](auto v) HWY_ATTR { return hn::And(hn::ShiftRight<8>(v), byte); };
     const auto even = hn::Add(hn::And(a, byte), hn::And(b, byte)), odd = hn::Add(odds(a), odds(b));
-    // The smallest sum wins. If sums are equal, the smaller label wins.
+    // The smallest sum wins. Of labels with equal sums, the smallest wins.
     const auto places =
         hn::BitCast(d16, everywhere<Blocks>({0, 0, 2, 0, 4, 0, 6, 0, 8, 0, 10, 0, 12, 0, 14, 0}));
     const auto evenKey = hn::Or(hn::ShiftLeft<4>(even), places);
@@ -301,7 +310,7 @@ HWY_INLINE void valleysOf(const Stepper<Blocks>& stepper, VBlocks<Blocks> sums,
     }
 }
 
-/// Path costs of a strip of columns, which advance together, either down or up.
+/// Computes the path costs of adjacent columns, row by row, first downwards and then upwards.
 class BlockColumns {
 public:
     BlockColumns(const PathVolume& volume, int first, int last)

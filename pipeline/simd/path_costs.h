@@ -10,45 +10,50 @@ namespace mfar::simd {
 
 inline constexpr int kLabels = 16;
 
-/// The cheapest label of a pixel, and the additional costs of the neighbouring labels.
+/// The cheapest label of a pixel, and how much more its neighbouring labels cost. A label is an
+/// inverse depth, counted in steps (see LabelLines).
 struct Valley {
-    static constexpr std::uint8_t kUnknown = 255;  ///< additional cost of a label outside the
-                                                   ///< window
+    /// Additional cost of a label that is not one of the pixel's labels.
+    static constexpr std::uint8_t kUnknown = 255;
 
     std::int32_t label = 0;
-    /// Additional costs of label - 2, label - 1, label + 1 and label + 2: at most 254, or kUnknown.
+    /// Costs of label - 2, label - 1, label + 1 and label + 2 minus the cost of `label`: at most
+    /// 254, or kUnknown.
     std::array<std::uint8_t, 4> rise{};
 };
 
-/// Input of semi-global matching, which aggregates costs along straight paths from four directions.
-/// Each pixel has a window of `vectors` vectors of labels; rows have no gaps. Costs and penalties
-/// must be so small that path costs stay below 85.
+/// Input of semi-global matching (see semi_global.h): matching costs of labels are aggregated along
+/// straight paths from four directions. Each pixel has a window of kLabels * `vectors` successive
+/// labels. Rows have no gaps. Costs and penalties must be so small that path costs stay below 85:
+/// the sum over the first three directions is stored in a byte (the fourth is only added when the
+/// cheapest label is found).
 struct PathVolume {
     const std::uint8_t* guide;  ///< picture whose edges make large label differences cheaper
-    const std::int16_t* base;   ///< first label of each pixel
+    const std::int16_t* base;   ///< first label of each pixel's window
     Size size;
     int vectors;
-    std::uint8_t step;          ///< penalty for a difference of one label
+    std::uint8_t step;          ///< penalty if two neighbouring pixels' labels differ by one
     int jumpDifferences;        ///< `jumps` is constant from this entry on
-    const std::uint8_t* jumps;  ///< penalty for larger label differences; 256 entries, indexed by
-                                ///< the difference of `guide` between the pixels
+    const std::uint8_t* jumps;  ///< penalty if these labels differ by more than one; 256 entries,
+                                ///< indexed by |difference of `guide` between the two pixels|
     const std::uint8_t* costs;  ///< matching costs, kLabels * vectors per pixel
-    std::uint8_t* sums;         ///< for each entry of `costs`: sum of the four paths' costs
+    std::uint8_t* sums;         ///< results and temporary values, one for each entry of `costs`
 };
 
-/// Numbers of rows and columns that are processed together. Threads should split the work at
-/// multiples of these numbers.
+/// pathsAlongRows() and pathsAlongColumns() process this number of rows or columns together.
+/// Threads should split the work at its multiples.
 inline constexpr int kRowsTogether = 4, kColumnsTogether = 32;
 
-/// Returns the size of `scratch` [bytes] for pathsAlongColumns() with `columns` columns, which also
-/// suffices for pathsAlongRows(). It is 0 if path costs stay in registers.
+/// Returns the size of `scratch` [bytes] for pathsAlongColumns() with `columns` columns. It also
+/// suffices for pathsAlongRows(). It can be 0 if `vectors` is 1.
 [[nodiscard]] std::size_t pathScratch(int vectors, int columns);
 
-/// Writes to `sums` the path costs from the left plus those from the right, for rows [first, last).
+/// Writes the path costs from the left plus those from the right to `volume.sums`, for rows
+/// [first, last).
 void pathsAlongRows(const PathVolume& volume, int first, int last, std::uint8_t* scratch);
 
-/// Adds the path costs from above and from below for columns [first, last), and finds the cheapest
-/// label of each pixel.
+/// Adds the path costs from above and from below to the results of pathsAlongRows(), for columns
+/// [first, last). Writes the cheapest label of each pixel to `out`.
 void pathsAlongColumns(const PathVolume& volume, int first, int last, std::uint8_t* scratch,
                        Valley* out);
 

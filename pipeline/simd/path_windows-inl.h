@@ -1,6 +1,6 @@
-// Aggregates costs along paths (see path_costs.h) in memory, for windows of several vectors of
-// labels, as at the coarsest pyramid level. A pixel's path costs have margins on both sides. This
-// header is included once per instruction set.
+// Aggregates costs along paths (see path_costs.h) in memory, for any number of labels per pixel.
+// The array of a pixel's path costs has a margin at both ends. This header is included once per
+// instruction set.
 #include "pipeline/simd/path_costs.h"
 
 #include <algorithm>
@@ -18,12 +18,12 @@ HWY_BEFORE_NAMESPACE();
 namespace mfar::simd::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Path cost in the margins around a window. It never wins, so labels outside the previous pixel's
-/// window are ignored.
+/// Path cost of labels outside the pixel's window; the margins of the array hold it. It is so high
+/// that these labels never win.
 constexpr std::uint8_t kNever = 200;
 
-/// Returns the size of one margin. It suffices for a window that shares no label with the previous
-/// pixel's window.
+/// Returns the length of one margin [labels]. It suffices even if two neighbouring pixels' windows
+/// have no label in common.
 HWY_INLINE std::size_t marginOf(int vectors) {
     return static_cast<std::size_t>(kLabels) * (vectors + 1);
 }
@@ -32,9 +32,9 @@ HWY_INLINE std::size_t strideOf(int vectors) {
     return static_cast<std::size_t>(kLabels) * vectors + 2 * marginOf(vectors);
 }
 
-/// Advances path costs by one pixel. `from`: path costs of the previous pixel. `shift`: difference
-/// of the two windows' first labels. The smallest path cost is subtracted, so that path costs
-/// remain bounded and their sums over the directions can be compared.
+/// Advances path costs by one pixel. `from`: path costs of the previous pixel. `shift`: first label
+/// of the pixel's window minus that of the previous pixel's window. The smallest path cost is
+/// subtracted from all of them, so that they stay small.
 HWY_INLINE void windowStep(const std::uint8_t* from, int shift, std::uint8_t stepPenalty,
                            std::uint8_t jumpPenalty, const std::uint8_t* cost, std::uint8_t* to,
                            int labels) {

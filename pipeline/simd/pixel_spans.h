@@ -10,10 +10,10 @@ struct PixelSpan {
     bool operator==(const PixelSpan&) const = default;
 };
 
-/// Spans of a row, ascending; they neither touch nor overlap.
+/// Spans of pixels of a row in ascending order. They neither touch nor overlap.
 using PixelSpans = std::vector<PixelSpan>;
 
-/// Adds a span that begins at or after the last span's begin. Merges the two if they touch or
+/// Appends `added`, which must not begin before the last span. Merges both spans if they touch or
 /// overlap.
 inline void append(PixelSpans& spans, const PixelSpan& added) {
     if (!spans.empty() && added.begin <= spans.back().end)

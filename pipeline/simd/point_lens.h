@@ -15,7 +15,7 @@ struct PointLens {
     float nearest = 0.01F;  ///< smallest z of a visible point [m]
 };
 
-/// [R | t], a transformation of points [m].
+/// A rigid transformation [R | t] of points [m].
 struct PointTransform {
     float rows[3][4];
 };
@@ -31,8 +31,8 @@ struct Point3 {
     return {row(T.rows[0]), row(T.rows[1]), row(T.rows[2])};
 }
 
-/// Returns (w u, w v, w), as lens_projection.glsl does. (u, v) is the pixel; w = z may have any
-/// sign.
+/// Returns (w u, w v, w), as lens_projection.glsl does: (u, v) is the pixel, and w is the point's
+/// z, which may be negative or 0.
 [[nodiscard]] inline Point3 projected(const PointLens& lens, const Point3& p) {
     const float r = std::sqrt(p.x * p.x + p.y * p.y);
     const bool within = p.z * lens.rim > r;

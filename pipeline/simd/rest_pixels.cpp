@@ -23,8 +23,8 @@ float depthOf(std::uint32_t surface) {
     return std::bit_cast<float>(surface & 0xFFFFFF00U);
 }
 
-/// Returns the number of the object with the most quarters, or 0 if there is no object. If several
-/// objects have the most, the first one wins, beginning with the lower quarters.
+/// Returns the number of the object that covers the most quarters, or 0 if no object covers one. Of
+/// objects with equally many quarters, the first one wins; the lower quarters come first.
 std::uint32_t mostOf(const Quarters& s) {
     std::uint32_t out = 0;
     int most = 0;
@@ -41,8 +41,8 @@ std::uint32_t mostOf(const Quarters& s) {
     return out;
 }
 
-/// Returns the mean position of the quarters that show the surface `number`: offset from the
-/// pixel's centre [px], and z [m]. z is 0 if no quarter shows the surface.
+/// Returns the mean position of the quarters that show the surface `number`: x and y relative to
+/// the pixel's centre [px], and z [m]. All three are 0 if no quarter shows the surface.
 Point3 middleOf(const Quarters& s, std::uint32_t number) {
     constexpr std::array<float, 4> kX{-0.25F, 0.25F, -0.25F, 0.25F};
     constexpr std::array<float, 4> kY{-0.25F, -0.25F, 0.25F, 0.25F};
@@ -62,8 +62,8 @@ Point3 scaled(float by, const Point3& p) {
     return {by * p.x, by * p.y, by * p.z};
 }
 
-/// Returns a channel [0, 255] of a painted surface; channel 3 is coverage. `light`: weighted sum of
-/// light, whose weights add up to `weights`.
+/// Returns a channel of the colour of a surface with this paint, [0, 255]. Channel 3 (alpha) is
+/// 255. `light`: sum of weighted lights; `weights`: sum of the weights.
 float lit(const PaintWords& paint, std::size_t channel, const UnpackedLight& light, float weights) {
     if (channel == 3) return 255;
     const auto linear = [channel](std::uint32_t word) {
@@ -97,8 +97,8 @@ RestPixels::RestPixels(const ViewLookUp::Input& input, const TracedPicture& trac
                                                              plain.toTraced, {},
                                                              &plain_.lens,   1} {
     if (plain.ofNumbers != nullptr) traced_.ofNumbers = {plain.ofNumbers, params::kSurfaceNumbers};
-    // Sorts the re-rendered pictures by slot number. Their order matters: of pictures with equal
-    // shares, known() uses the first.
+    // Sorts the re-rendered pictures by Picture::slot. The order must be fixed, because known()
+    // uses the first of several pictures with equal shares.
     std::array<const RerenderedPictures::Picture*, RerenderedPictures::kPictures> bySlot{};
     for (const RerenderedPictures::Picture& rerendered : input.rerendered.pictures())
         bySlot[static_cast<std::size_t>(rerendered.slot)] = &rerendered;
@@ -122,8 +122,8 @@ RestPixels::RestPixels(const ViewLookUp::Input& input, const TracedPicture& trac
     }
 }
 
-/// Projects a point, given in the layer's camera, into a view: pixel and z. Returns false if the
-/// view does not show it.
+/// Projects `wanted.point`, which is in coordinates of the layer's camera, into a view. `at`
+/// becomes the pixel and z [m] there. Returns false if the view does not show the point.
 bool RestPixels::inView(const View& view, const Wanted& wanted, Point3& at) {
     const Point3& point = wanted.point;
     const PointTransform& T = view.ofNumbers.empty()
@@ -137,9 +137,9 @@ bool RestPixels::inView(const View& view, const Wanted& wanted, Point3& at) {
            at.y < static_cast<float>(view.size.height);
 }
 
-/// Interpolates a surface's colour bilinearly between the surrounding texels that show the surface.
-/// Returns false if the sum of their weights is too low. For the shadow catcher, texels without any
-/// surface count as shadow catcher without shadow.
+/// Interpolates a surface's colour bilinearly between the texels around `at` that show the surface.
+/// Returns false if the sum of their weights is at most kLeastLookUpWeight. For the shadow catcher,
+/// texels without any surface count as shadow catcher without shadow.
 bool RestPixels::lookUp(const View& view, const Point3& at, const Wanted& wanted, Colour& found) {
     const float lowX = std::floor(at.x), lowY = std::floor(at.y);
     const float fx = at.x - lowX, fy = at.y - lowY;
@@ -171,8 +171,8 @@ bool RestPixels::lookUp(const View& view, const Point3& at, const Wanted& wanted
     return true;
 }
 
-/// Looks up a surface's colour in the traced picture and then in the re-rendered pictures. Returns
-/// the share of the colour that is known.
+/// Looks up a surface's colour in the traced picture or, if that does not show it, in the
+/// re-rendered pictures. Returns the share of the colour that is known, [0, 1].
 float RestPixels::known(const Wanted& wanted, Colour& found) const {
     Point3 at;
     const bool inTraced = inView(traced_, wanted, at);
@@ -188,8 +188,8 @@ float RestPixels::known(const Wanted& wanted, Colour& found) const {
         found = own;
     }
     if (share > 0) return share;
-    // Outside the traced picture, the shadow catcher's colour is not needed. It counts as known,
-    // without shadow.
+    // Outside the traced picture, the shadow catcher's colour is unknown. It nevertheless counts as
+    // known and without shadow, so that it is not listed as missing.
     found = {};
     return wanted.id == kCatcherId && !inView(traced_, wanted, at) ? 1.0F : 0.0F;
 }
@@ -226,8 +226,8 @@ RestPixel RestPixels::at(const Asked& asked) const {
     }
     const bool missed = objectKnown < 1, hole = missed || catcherKnown < 1;
     const bool nowhere = objectKnown == 0 || catcherKnown == 0;
-    // A rendered edge pixel would show a mixture of surfaces, not the missing surface alone. So an
-    // edge pixel takes the missing colour from its neighbours, which are rendered.
+    // An edge pixel without a known colour is not rendered individually: the result would be a
+    // mixture of the surfaces at the edge. It is filled from its neighbours instead.
     const bool edge = (missed ? covered : below) < 1;
     if (covered > 0)
         out.depth = object.z;

@@ -10,21 +10,23 @@
 
 namespace mfar::simd {
 
-/// One pixel of the virtual layer, as looked up in the traced and the re-rendered pictures.
+/// The result of RestPixels for one pixel of the virtual layer.
 struct RestPixel {
     std::uint32_t colour;  ///< RGBA8 premultiplied
     float depth;
-    std::uint32_t state;       ///< see WarpStep::state()
-    std::optional<Hole> hole;  ///< set if the pixel is a hole; Hole::pixel is not set
+    std::uint32_t state;  ///< see WarpStep::state()
+    /// Set if the pixel's colour is not completely known. The caller must set Hole::pixel.
+    std::optional<Hole> hole;
 };
 
-/// Looks up the pixels that lookUpRow() leaves out. These are pixels at edges, which are divided
-/// into quarters, and pixels that the traced picture does not show. The latter are looked up in
-/// RerenderedPictures. Objects and the shadow on the real surface are two layers; the shadow is the
-/// lower one (warp_rest.comp).
+/// Looks up the pixels that lookUpRow() leaves out: pixels at edges, which are divided into
+/// quarters, and pixels that the traced picture does not show. The latter are looked up in the
+/// re-rendered pictures. A pixel is composed of an object and, below it, the shadow catcher. CPU
+/// version of warp_rest.comp.
 class RestPixels {
 public:
-    /// `lights`: light of the traced picture's pixels as seen from T_world_camera.
+    /// `lights`: light of the traced picture's pixels as seen from T_world_camera, or empty if only
+    /// their colours are known.
     RestPixels(const ViewLookUp::Input& input, const TracedPicture& traced,
                std::span<const LightWords> lights, const ViewLookUpInput& plain,
                const LensProjection& layer, const RigidTransform& T_world_camera);

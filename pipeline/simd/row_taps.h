@@ -17,19 +17,19 @@ struct ColumnTaps {
     std::array<std::int16_t, 4> weights;
 };
 
-/// A resampling table. Entry x of the result is the weighted sum of `taps` entries of the source,
-/// starting with first(x). Beyond its ends, the source counts as constant; the weights take this
-/// into account. Entry x of the result has its centre at (x + 0.5) step - 0.5 of the source. The
-/// table also serves for columns; then entries are rows.
+/// A table for resampling a row (the source) to another length. Entry x of the result is the
+/// weighted sum of taps() entries of the source, starting with first(x). Its centre is at
+/// (x + 0.5) * step - 0.5 in the source, where step is the ratio of the lengths. Beyond its ends,
+/// the source counts as constant. The table also resamples columns, whose entries are rows.
 class RowTaps {
 public:
     /// Keys' cubic with a = -0.75, as in cubic.glsl.
     [[nodiscard]] static RowTaps cubic(int from, int to);
     [[nodiscard]] static RowTaps linear(int from, int to);
-    /// Linear, with a step that may differ from the ratio of the lengths.
+    /// Linear interpolation, with a `step` that may differ from the ratio of the lengths.
     [[nodiscard]] static RowTaps linear(int from, int to, double step);
-    /// A tent that is as wide as two entries of the result, as in still_reduce.frag. `to` must not
-    /// exceed `from`.
+    /// A tent filter that is as wide as two entries of the result, as in still_reduce.frag. `to`
+    /// must not exceed `from`.
     [[nodiscard]] static RowTaps tent(int from, int to);
     /// Mean of four linearly interpolated samples, as in superres_sharpen.frag. The distance
     /// between samples is a quarter of `footprint` entries of the result.
@@ -40,14 +40,15 @@ public:
     [[nodiscard]] float weight(int tap, int x) const { return weights_[tap][x]; }
     /// Returns the taps of row y, for a table that is used for columns and has at most four taps.
     [[nodiscard]] const ColumnTaps& column(int y) const { return columns_[y]; }
-    /// The table for resampleRow(). Sources must have at least taps() entries; a shorter source
-    /// must be padded with zeros.
+    /// Returns the table for resampleRow(). The row passed there must have at least taps() entries;
+    /// a shorter row must be padded with zeros.
     [[nodiscard]] TapTable table() const {
         return {first_[0], weights_[0], weights_.pitch(), taps()};
     }
 
 private:
-    /// Adds a sample. Arguments: its index in the source (may be beyond the ends), and its weight.
+    /// Adds a sample of the source to an entry of the result. Arguments: the sample's index, which
+    /// may be beyond the source's ends, and its weight.
     using Add = std::function<void(int, double)>;
     RowTaps(int from, int to, const std::function<void(int, const Add&)>& sample);
 

@@ -6,8 +6,8 @@
 
 namespace mfar::simd {
 
-/// Temporary memory for the parts of a threaded loop. There is one slot for each part that may run
-/// at the same time. All slots are allocated once.
+/// Temporary memory for a loop that several threads execute. There is one object of type T for each
+/// thread that can work at the same time. All objects are allocated once.
 template <class T>
 class ScratchSlots {
 public:
@@ -22,7 +22,7 @@ public:
         for (Slot& slot : slots_)
             body(slot.scratch);
     }
-    /// Calls `body` with memory that no other thread uses during the call.
+    /// Calls `body` with an object that no other thread uses during the call.
     template <class Body>
     void with(const Body& body) {
         for (;;) {

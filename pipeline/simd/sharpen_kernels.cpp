@@ -21,7 +21,7 @@ constexpr std::int16_t fixed15(double value) {
     return static_cast<std::int16_t>(value * 32768 + (value < 0 ? -0.5 : 0.5));
 }
 
-// The taps of superres_sharpen.frag, grouped by distance. Their sum is exactly zero.
+// The taps of `high` in superres_sharpen.frag, grouped by distance. They add up to exactly zero.
 constexpr double kNearTap = params::kSharpenNear, kFarTap = params::kSharpenFar;
 constexpr std::int16_t kNear = fixed15(kNearTap - 2 * kNearTap * kNearTap);
 constexpr std::int16_t kFar = fixed15(kFarTap), kDiagonal = fixed15(kNearTap * kNearTap);

@@ -8,17 +8,18 @@ namespace mfar::simd {
 // Functions that sharpen entries [begin, end) of a row of one colour channel
 // (superres_sharpen.frag). Rows may be read and written up to 64 bytes beyond `end`.
 
-/// Input for the strength of the sharpening, in [0, 1] and at the video's width: half of the weight
-/// of the still's detail, and the share of the video's contrast that is not noise (`signal`). Each
-/// is interpolated between two rows. strengthRow() writes the strength times 32767.
+/// Input for the strength of the sharpening, in [0, 1] and at the video's width. `halfWeight`: half
+/// of the weight of the still's detail. `signal`: see TrustCell. Both are interpolated between two
+/// rows; `t` is the weight of the second row.
 struct TrustRows {
     std::array<const float*, 2> halfWeight, signal;
     float t;
 };
+/// Writes the strength times 32767 to `strength`.
 void strengthRow(const TrustRows& trust, int begin, int end, std::int16_t* strength);
 
-/// Sharpens the middle one of five rows; they are also read two bytes before `begin` and after
-/// `end`. The result is in grey levels, clamped to [0, 255].
+/// Sharpens the middle one of five rows. Each row is also read two bytes before `begin` and two
+/// after `end`. The result is in grey levels, clamped to [0, 255].
 void sharpenRow(const std::array<const std::uint8_t*, 5>& rows, const std::int16_t* strength,
                 int begin, int end, float* to);
 void plainRow(const std::uint8_t* row, int begin, int end, float* to);

@@ -124,8 +124,8 @@ private:
     AlignedRows<FlowCell> row_;
 };
 
-/// Stills in the SIMD engine's format (StillPairs), shared by all of its steps. Stills from the
-/// GLES engine have no pairs, so pairs are created here, once per still.
+/// The StillPairs of the current stills, for all steps of the SIMD engine. A still that the GLES
+/// engine prepared has no pairs, so this class creates them, once per still.
 class PairedStills {
 public:
     explicit PairedStills(std::shared_ptr<Workers> workers) : workers_(std::move(workers)) {}

@@ -132,7 +132,7 @@ private:
     AlignedRows<std::uint32_t> picture_;
     AlignedRows<float> depth_;
     std::optional<WarpHoles> listed_;
-    PixelRect drawn_;  // outside this rectangle, lookUp_'s pictures are empty
+    PixelRect drawn_;  // outside this rectangle, the pictures of lookUp_ are empty
     Field<std::uint32_t> state_;
     LayerPicture warped_, rendered_;
 };

@@ -1,5 +1,5 @@
-// Loads the still's pixels that the pixels of an output row read. This header is included once per
-// instruction set.
+// Loads the pixels of the still from which output pixels are interpolated: a block of 2x2 pixels
+// (32 bits of StillPairs) for each output pixel. This header is included once per instruction set.
 #include "pipeline/simd/detail_kernels.h"
 
 #include <algorithm>
@@ -50,8 +50,8 @@ public:
     }
 
 private:
-    /// Rows of the still are prefetched this number of rows ahead. The CPU does not predict these
-    /// reads, because the output is drawn in strips.
+    /// Number of rows between a loaded row of the still and the row that is prefetched. The CPU
+    /// does not predict which rows will be read, because the output is drawn in strips.
     static constexpr std::ptrdiff_t kRowsAhead = 2;
 
     /// Loads the block of each lane on its own. On most targets, Highway's gathers would need
@@ -69,7 +69,8 @@ private:
     static constexpr std::int32_t kBefore = 4;  // columns loaded before the first lane's block
     static constexpr std::uint32_t kReach = 31;
 
-    /// Loads a part of a row of the still. Returns its blocks at columns `begin` + `place`.
+    /// Returns the blocks at columns `begin` + `place` of a row of the still. All of them must be
+    /// in the vector of kReach + 1 entries from `begin` on, and are permuted from there.
     HWY_INLINE hn::Vec<U> permuted(std::int32_t row, std::int32_t begin, hn::Vec<U> place) const {
         const U du;
         const hn::Repartition<std::uint16_t, U> d16;

@@ -48,13 +48,13 @@ HWY_INLINE Ray undistorted(const float* distortion, const Ray& target) {
 }
 
 constexpr int kTaps = params::kFootprintTaps;
-// Number of bits of a weight. The product of a pixel and two weights fits into 32 bits, with room
-// for sums.
+// Number of bits of a weight, so that sums of products of a pixel and two weights fit into 32 bits.
 constexpr int kShareBits = 14;
 constexpr float kShare = 1 << kShareBits;
 
-/// The taps of a footprint along one axis. A tap interpolates between the pixels `first` and
-/// `first` + 1; `share` is the weight of the second.
+/// Samples along one axis of a footprint, which is the area of a video pixel in the still. Each
+/// sample is interpolated between the pixels `first` and `first` + 1; `share` is the weight of the
+/// second [1 / kShare].
 struct Taps {
     int first[kTaps], share[kTaps];
 };
@@ -94,7 +94,7 @@ std::uint8_t footprintMean(const StillPicture& p, const Taps& x, const Taps& y) 
 }
 
 #if HWY_TARGET != HWY_SCALAR
-// Largest number of a row's pixels that the taps of a footprint span.
+// Number of pixels in a row that are loaded at once. All samples of a footprint must lie in them.
 constexpr int kWindow = 16;
 constexpr float kMostFootprint = 16;
 // Values between two rows are stored in 1/16 grey level.
@@ -115,7 +115,8 @@ struct TapLanes {
     }
 };
 
-/// Returns the two pixels of a row between which each tap lies. `at`: their indices in `window`.
+/// Returns for each sample the two pixels of a row between which it lies. `at`: indices of these
+/// pixels in `window`.
 HWY_INLINE hn::Vec<Taps16> tapsOf(const std::uint8_t* window,
                                   hn::VFromD<hn::FixedTag<std::uint8_t, 2 * kTaps>> at) {
     const hn::FixedTag<std::uint8_t, kWindow> dWindow;

@@ -94,8 +94,8 @@ void PairRows(const std::uint8_t* upper, const std::uint8_t* lower, std::size_t 
 
 void PackRow(const std::array<const std::uint8_t*, 3>& rgb, std::size_t pixels,
              std::uint32_t* rgba) {
-    // Each step processes only the pixels of one vector of the result, so that less than one vector
-    // is written beyond the end.
+    // Each iteration writes only one vector of the result, so that less than one vector is written
+    // beyond the end.
     const hn::Rebind<std::uint16_t, hn::ScalableTag<std::uint32_t>> d;
     const hn::Rebind<std::uint8_t, decltype(d)> d8;
     const std::size_t lanes = hn::Lanes(d);

@@ -19,13 +19,14 @@ void lumaOfPlane(const std::uint8_t* y, const std::int16_t* chroma, const LumaGa
 void lumaOfPairs(const std::uint8_t* yAndChroma, const std::int16_t* chroma, const LumaGain& by,
                  std::size_t pixels, std::uint8_t* luma);
 
-/// Computes luma with raised finest detail, to compensate for the loss in a linear look-up
-/// (still_raise.frag). The result is clamped. `luma`: the rows above, here and below, which are
-/// also read one pixel to each side. `neighboursShare` is in 1/32768.
+/// Computes luma with amplified finest detail, to compensate for the loss in a linear look-up
+/// (still_raise.frag). The result is clamped to [0, 255]. `luma`: the row and those above and below
+/// it, which are also read one pixel beyond each end. `neighboursShare`: weight of a neighbour
+/// [1/32768].
 void raisedRow(const std::array<const std::uint8_t*, 3>& luma, std::int16_t neighboursShare,
                std::size_t pixels, std::uint8_t* to);
 
-/// Packs two rows into one row of pairs; `upper` becomes the low bytes.
+/// Packs two rows of bytes into one row of pairs. `upper` becomes the low bytes.
 void pairRows(const std::uint8_t* upper, const std::uint8_t* lower, std::size_t pixels,
               std::uint16_t* pairs);
 

@@ -56,8 +56,9 @@ HWY_INLINE Point Unproject(const LensParams& lens, V x, V y) {
     return ray;
 }
 
-// Returns the position in the still where the ray of a video pixel is seen. The ray is rotated into
-// the still camera. The position is far outside if the ray points away from the still's view.
+// Returns the position in the still at which an infinitely distant point is seen that the video
+// shows at pixel (x, y). It is far outside the still if the pixel's ray points away from the
+// still's picture.
 HWY_INLINE Point StillPixel(const LookUpParams& lookUp, V x, V y) {
     const Point ray = Unproject(lookUp.video, x, y);
     const auto turned = [&](int row) HWY_ATTR {

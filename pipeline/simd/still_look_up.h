@@ -22,8 +22,8 @@ struct LookUpParams {
     float scaleX, scaleY;  ///< still pixels per video pixel
 };
 
-/// Two-way errors of a row of cells, from its first cell on. If `errors` is null, they are computed
-/// from the backward field.
+/// Input for the two-way errors of a row of cells: `errors` are the errors themselves, from the
+/// row's first cell on. If `errors` is null, the errors are computed from the backward field.
 struct BackwardCells {
     const ErrorCell* errors = nullptr;
     const FlowCell* field = nullptr;
@@ -38,8 +38,8 @@ void splitFlow(const FlowCell* cells, int count, float* x, float* y);
 /// Reads 2 * count cells of each row.
 void halveFlow(const float* upper, const float* lower, int count, float* out);
 
-/// A row of cells with their flow, and the results of lookUpCells() for them. The arrays extend to
-/// a multiple of 16 cells; values beyond `count` are not used.
+/// A row of cells with their flow, and the results of lookUpCells() for them. The arrays' length is
+/// `count`, rounded up to a multiple of 16; values after `count` have no meaning.
 struct LookUpRow {
     int row, count;
     const float *flowX, *flowY;  ///< [video px]
@@ -48,8 +48,9 @@ struct LookUpRow {
                                  ///< ends outside the still or the video
 };
 
-/// Computes where each cell's flow ends in the still, and its confidence, which tells how well the
-/// flow and the backward field agree. CPU version of superres_assess.comp.
+/// Computes the position in the still at which each cell's flow vector ends, and the cell's
+/// confidence. The confidence is high if the backward field leads back to the cell. CPU version of
+/// superres_assess.comp.
 void lookUpCells(const LookUpParams& lookUp, const BackwardCells& backward, const LookUpRow& row);
 
 }  // namespace mfar::simd

@@ -62,8 +62,8 @@ void StillLuma::row(int y, Scratch& scratch, std::uint8_t* luma) const {
     }
 }
 
-// Interpolates chroma between the pixels that share it: 3/4 of the nearer sample and 1/4 of the
-// other one, along each axis.
+// Interpolates chroma for row y: along each axis with lower resolution, 3/4 of the nearer sample
+// plus 1/4 of the next one. Returns null if luma does not depend on chroma.
 const std::int16_t* StillLuma::chromaRow(int y, Scratch& scratch) const {
     if (!needsChroma_) return nullptr;
     const int width = picture_.size.width / 2;

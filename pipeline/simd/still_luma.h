@@ -8,7 +8,7 @@
 
 namespace mfar::simd {
 
-/// Computes the Rec. 601 luma of a valid picture's R G B, row by row, for any format.
+/// Computes the Rec. 601 luma of a valid picture's RGB colours, row by row, for any pixel format.
 class StillLuma {
 public:
     struct Scratch {
@@ -19,7 +19,7 @@ public:
 
     explicit StillLuma(const ImageView& picture);
 
-    /// Writes row y, and up to 64 bytes beyond its end.
+    /// Writes the luma of row y, and up to 64 bytes beyond its end.
     void row(int y, Scratch& scratch, std::uint8_t* luma) const;
 
 private:

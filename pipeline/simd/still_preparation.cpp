@@ -81,7 +81,7 @@ void StillPreparation::keep(const ImageView& still) {
     unmade_ = to;
 }
 
-// Resamples the columns of a picture for row y of the result, which is written to scratch.wide.
+// Computes row y of a picture that is resampled along columns, and writes it to scratch.wide.
 template <class RowAt>
 void StillPreparation::weighColumn(const RowTaps& taps, int y, Size from, const RowAt& rowAt,
                                    Scratch& scratch) {

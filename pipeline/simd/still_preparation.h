@@ -27,13 +27,13 @@ public:
     /// `output`: size of the whole enlarged video.
     StillPreparation(const StereoRig& rig, Size output, std::shared_ptr<Workers> workers);
 
-    /// Sets a valid picture of the still camera's size, in any pixel format. `keepsPicture`: the
-    /// still's colours are copied for picture(); otherwise, picture() returns a grey picture.
-    /// `tone` is applied to the luma, but not to picture().
+    /// Sets a valid picture of the still camera's size, in any pixel format. `tone` is applied to
+    /// the luma, but not to picture(). `keepsPicture`: true copies the still's colours for
+    /// picture(); false makes picture() return a grey picture.
     void set(const ImageView& still, const StillTone& tone = {}, bool keepsPicture = true);
 
-    /// The rig whose still camera has the size of pairs(): the same lens with the same or fewer
-    /// pixels.
+    /// The rig, but with a still camera of the size of pairs(): it has the same lens, but may have
+    /// fewer pixels.
     [[nodiscard]] const StereoRig& rig() const { return rig_; }
     /// Rec. 601 luma of the whole still, with the tone curve.
     [[nodiscard]] Rows<const std::uint8_t> luma() const { return luma_.rows(); }
@@ -98,7 +98,7 @@ private:
     AlignedRows<std::uint16_t> pairs_;
     ScratchSlots<Scratch> scratch_;
     std::vector<std::uint8_t> kept_;
-    std::optional<ImageView> unmade_;  // picture() converts this once, then resets it
+    std::optional<ImageView> unmade_;  // the still, until picture() has converted it to RGBA8
     std::optional<RgbPlanes> planes_;
     AlignedRows<std::uint32_t> picture_;
 };

@@ -16,8 +16,8 @@ constexpr std::size_t kBatch = 1024;
 constexpr int kCornersAtATime = 2048;
 constexpr int kLeastBand = 16;
 constexpr int kBandsPerThread = 4;
-// Triangles with corners farther outside the grid than this [px] are clipped. For the others,
-// single precision is exact to a hundredth of a pixel.
+// Largest distance of a corner from the grid [px]. Triangles with farther corners are clipped. For
+// corners within this distance, single precision is exact to a hundredth of a pixel.
 constexpr float kGuard = 65536;
 
 }  // namespace
@@ -227,7 +227,8 @@ bool SurfaceRaster::addTriangle(Batch& batch, const RasterCorner (&c)[3],
     return true;
 }
 
-/// `c`: corners of the triangle, or of a piece of it that was clipped. The planes are the same.
+/// Stores the planes of 1/z and of the texture coordinates. `c`: corners of the triangle, or of a
+/// piece of it after clipping, whose planes are the same.
 void SurfaceRaster::setPaint(const Placed& placed, const RasterCorner (&c)[3],
                              std::uint32_t index) {
     if (placed.part->source->material == nullptr) return;  // the shadow catcher has no paint

@@ -17,10 +17,10 @@
 
 namespace mfar::simd {
 
-/// Rasterises the visible surfaces of the virtual scene: the models and, below them, the shadow
+/// Rasterises the visible surfaces of the virtual scene: the objects and, behind them, the shadow
 /// catcher. The grid has twice the layer's resolution, so a pixel of the layer has four quarters.
-/// Lens distortion is applied to corners of triangles. Light is not computed; paint is looked up on
-/// request. CPU version of the GLES engine's ModelSilhouette.
+/// Lens distortion is applied to the triangles' corners. Colours are not computed, except by
+/// paintRow(). CPU version of the GLES engine's ModelSilhouette.
 class SurfaceRaster {
 public:
     /// `layer`: the camera at the layer's resolution. If `workers` is null, all work runs in the
@@ -35,12 +35,12 @@ public:
 
     /// Draws within `where` [layer px]. Pixels elsewhere become invalid.
     void draw(const RigidTransform& T_world_camera, const PixelRect& where);
-    /// The surfaces, at twice the layer's size: z and number, packed as in warp_surface.glsl; 0: no
-    /// surface. Objects hide the shadow catcher, even if the catcher is nearer.
+    /// Surfaces at twice the layer's size: z and number, packed as in warp_surface.glsl, or 0
+    /// without a surface. Objects hide the shadow catcher, even if the catcher is nearer.
     [[nodiscard]] Rows<const std::uint32_t> surface() const { return words_.rows(); }
-    /// Writes the paint (see paint_rows.h) of layer pixels `x0` to `x1` of row `y`, which must be
-    /// in the drawn part. Up to 7 entries of `out` after the last pixel are overwritten. May be
-    /// called from any thread.
+    /// Writes the paint (see paint_rows.h) of the layer's pixels [x0, x1) in row `y`, which must be
+    /// within the rectangle of the last draw(). Up to 7 entries of `out` after the last pixel are
+    /// overwritten. Several threads may call this at the same time.
     void paintRow(int y, int x0, int x1, PaintWords* out) const;
 
 private:

@@ -31,7 +31,8 @@ void ProjectCorners(const MeshRows& mesh, int count, const PointTransform& view,
     }
 }
 
-/// The columns of a row whose centres lie between two positions, clamped to the band's columns.
+/// Columns [first, last) of a row: those whose centres lie between two positions, limited to the
+/// band's columns.
 struct Columns {
     int first, last;
 };

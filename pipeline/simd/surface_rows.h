@@ -12,18 +12,19 @@ namespace mfar::simd {
 
 // These functions rasterise surfaces. A pixel's word has the upper 24 bits of z [m] and the
 // surface's number, packed as in warp_surface.glsl. A second word has the index of the triangle.
-// The smallest word remains, so the nearest surface wins in any order of drawing. If words are
-// equal, the first one drawn remains.
+// A triangle replaces a pixel's word only if its own word is smaller. So the nearest surface
+// remains in any order of drawing.
 
 inline constexpr std::uint32_t kNoSurface = 0xFFFFFFFF;
-/// This bit sorts a surface behind all others. It is free because z has no sign.
+/// A word with this bit is larger than all words without it, so objects hide the shadow catcher.
+/// The bit is the sign of z, which is always positive.
 inline constexpr std::uint32_t kBehindObjects = 0x80000000;
 
 struct MeshRows {
     const float *x, *y, *z;
 };
-/// Corners on the surface's grid, whose pixel i extends from i to i + 1. z [m] may have any sign; x
-/// and y are valid if z > 0.
+/// Corners in pixels of the grid, whose pixel i extends from i to i + 1. z [m] may have any sign; x
+/// and y are valid only if z > 0.
 struct CornerRows {
     float *x, *y, *z;
 };
@@ -35,7 +36,7 @@ void projectCorners(const MeshRows& mesh, int count, const PointTransform& view,
 struct RasterCorner {
     float x, y;
     float perZ;
-    float u = 0, v = 0;  ///< texture coordinates of a mask, divided by z
+    float u = 0, v = 0;  ///< texture coordinates in RasterMask, divided by z
 };
 
 /// A linear function on the grid: its value at the centre of pixel (0, 0), and its change per
@@ -44,8 +45,8 @@ struct RasterPlane {
     float first = 0, perX = 0, perY = 0;
 };
 
-/// A prepared triangle. Its edges run from the upper to the lower corner. So two triangles with a
-/// common edge cross a row at the same x, and no pixel between them is omitted or drawn twice.
+/// A prepared triangle. x along an edge is always computed from the upper to the lower corner. So
+/// two triangles get the same x at their common edge, and no pixel is omitted or drawn twice there.
 struct RasterTriangle {
     float top, middle, bottom;
     float longX, upperX, lowerX;  ///< x at the upper end of each edge
@@ -58,7 +59,7 @@ struct RasterTriangle {
     bool longIsLeft;
 };
 
-/// Texture of a surface that has transparent parts.
+/// Alpha mask of a surface with transparent parts: a texture whose alpha decides where it is drawn.
 struct RasterMask {
     const std::uint8_t* rgba;
     Size size;
@@ -86,7 +87,7 @@ struct RasterName {
 [[nodiscard]] RasterPlane planeThrough(const RasterCorner (&corners)[3], const float (&value)[3],
                                        float doubleArea);
 
-/// A band of rows of the drawn part of the grid.
+/// Adjacent rows of the grid, in which one thread draws.
 struct RasterBand {
     Rows<std::uint32_t> words;
     Rows<std::uint32_t> indices;  ///< valid where a triangle was drawn into `words`

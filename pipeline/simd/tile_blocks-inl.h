@@ -1,5 +1,5 @@
 // Computes sums over blocks of 2x2 pixels for a group of tiles, from the new frame and from the
-// frame from which the tiles were last drawn. This header is included once per instruction set.
+// frame with which each tile was last drawn. This header is included once per instruction set.
 #include "pipeline/engine/params/luma.h"
 #include "pipeline/simd/tile_rows.h"
 
@@ -27,10 +27,9 @@ constexpr int kCells = 4;             // side of a tile [cells of 2x2 blocks]
 constexpr int kRowBlocks = kSide * kTileGroup;
 constexpr int kRowCells = kCells * kTileGroup;
 
-/// Measurements of a group of tiles: sums and twists of blocks of 2x2 pixels. A block with the
-/// pixels a b above c d has the twist a - b - c + d, which is 0 where brightness changes linearly.
-/// "Difference" means new frame minus the frame that was drawn last. Values beyond the last tile
-/// are not initialised.
+/// Sums and twists of blocks of 2x2 pixels in a group of tiles. A block with the pixels a b above
+/// c d has the twist a - b - c + d, which is 0 where brightness changes linearly. "Difference"
+/// means TilePixels::now minus TilePixels::drawn. Values after the last tile are not initialised.
 struct Blocks {
     using Values = std::array<std::array<float, kRowBlocks>, kSide>;
     using CellSums = std::array<std::array<std::int32_t, kRowCells>, kCells>;
@@ -38,11 +37,11 @@ struct Blocks {
     HWY_ALIGN Values rough;               // half the absolute twist of the new frame's luma
     HWY_ALIGN Values lumaSum, lumaTwist;  // sum and twist of the luma's difference in each block
     HWY_ALIGN CellSums redSum, blueSum;   // sum of the difference of red or blue over each cell
-    // For each cell, the largest value of the three colour channels. farthest: absolute value of
-    // the summed difference. absolute: sum of the absolute differences.
+    // For each cell, the value of the colour channel in which it is largest. farthest: |sum of the
+    // differences|. absolute: sum of the |differences|.
     HWY_ALIGN CellSums farthest, absolute;
-    // Sums of squared twists of the red or blue difference. A tile has four, one for each column of
-    // its cells.
+    // Sums of the squared twists of the difference of red or blue. A tile has four sums, one for
+    // each column of its cells.
     HWY_ALIGN std::array<std::int32_t, kRowCells> redTwist, blueTwist;
 };
 
@@ -157,8 +156,8 @@ HWY_INLINE Block<D> BlockOf(const Quad<D>& q) {
             hn::Add(hn::Add(hn::Abs(q.a), hn::Abs(q.b)), hn::Add(hn::Abs(q.c), hn::Abs(q.d)))};
 }
 
-/// Stores the luma of three colour channels times `scale`, a power of 2; with `absolute`, its
-/// absolute value.
+/// Stores the luma of three colour channels times `scale` (a power of 2), or the absolute value of
+/// this product if `absolute` is true.
 template <class D>
 HWY_INLINE void StoreLuma(D, float scale, hn::Vec<D> red, hn::Vec<D> green, hn::Vec<D> blue,
                           bool absolute, float* to) {

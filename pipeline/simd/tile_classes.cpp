@@ -29,8 +29,8 @@ struct TileClasses::Fields {
     }
     [[nodiscard]] TileClass classOf(int column, int row) const;
     [[nodiscard]] int unexplainedCells(int column, int row) const;
-    /// The cells next to the tile count, too, because weights of pixels are interpolated between
-    /// cells.
+    /// These two functions also read the cells next to the tile, because the weights of the tile's
+    /// outer pixels are interpolated with them.
     [[nodiscard]] bool showsSecond(int column, int row) const;
     [[nodiscard]] bool showsStillAlone(int column, int row) const;
     [[nodiscard]] bool secondExplains(int x, int y) const {
@@ -40,8 +40,8 @@ struct TileClasses::Fields {
     [[nodiscard]] float confidence(int column, int row) const;
 };
 
-// A tile gets the class Trusted if, within tolerances, its flow is an affine function of the
-// position and its weight is constant. A flow with NaN is not affine.
+// A tile gets the class Trusted if its flow is an affine function of the position (within
+// kPlainFlow) and its weight is constant (within kPlainWeight). A flow with NaN is not affine.
 TileClass TileClasses::Fields::classOf(int column, int row) const {
     const int x0 = kCells * column, y0 = kCells * row;
     std::array<WeighedCell, kWithBorder * kWithBorder> cells;
@@ -90,7 +90,7 @@ bool TileClasses::Fields::showsSecond(int column, int row) const {
     return false;
 }
 
-// A NaN weight counts as zero.
+// A weight that is NaN counts as zero.
 bool TileClasses::Fields::showsStillAlone(int column, int row) const {
     const int x0 = kCells * column - 1, y0 = kCells * row - 1;
     for (int i = 0; i < kWithBorder * kWithBorder; ++i)

@@ -12,18 +12,19 @@
 
 namespace mfar::simd {
 
-/// Numbers of tiles in a frame, computed as in superres_classify.comp.
+/// Statistics of a frame's tiles, computed as in superres_classify.comp.
 struct TileSummary {
-    std::array<int, kTileClasses> tiles{};
-    int unexplained = 0;  ///< number of tiles with many cells that match neither still
+    std::array<int, kTileClasses> tiles{};  ///< number of tiles of each class
+    /// Number of tiles in which at least params::kUnexplainedCells cells match neither still.
+    int unexplained = 0;
     int second = 0;
-    /// Sum, over all tiles, of 256 times the mean confidence (eq. 2 of the paper) of the tile's
-    /// cells. Each tile's part is rounded down to a whole number. Zero if there is no still.
+    /// Sum of one value per tile: 256 times the mean confidence (eq. 2 of the paper) of the tile's
+    /// cells, rounded down. 0 if there is no still.
     double confidence = 0;
 };
 
-/// Determines the TileClass of every tile of a frame. Remembers for each tile the number of cells
-/// that had no trusted match in either still when the tile was last drawn.
+/// Determines the TileClass of every tile of a frame. For tiles that are not drawn again, it keeps
+/// the number of cells that match neither still.
 class TileClasses {
 public:
     explicit TileClasses(Size video);
@@ -31,7 +32,7 @@ public:
     struct Skips {
         bool upscaledTiles, plainTiles;
     };
-    /// Match of a still with the frame. If the fields have no data, there is no such still.
+    /// Results of WeighStep for one still. If there is no still, the fields have no data.
     struct Match {
         Rows<const WeighedCell> weighed{};
         Rows<const TrustCell> trust{};

@@ -10,19 +10,19 @@ HWY_BEFORE_NAMESPACE();
 namespace mfar::simd::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-constexpr float kMeanToDeviation = 1.2533F;  // standard deviation / mean absolute value of a
-                                             // Gaussian
-// Threshold for Moments::over(): the squared mean and the two squared slopes of a tile's
-// difference, each divided by its variance, are added. Only a share of 1e-8 of unchanged tiles
-// exceeds it, so a tile above it has certainly changed.
+// Standard deviation of a Gaussian distribution with mean 0, divided by its mean absolute value.
+constexpr float kMeanToDeviation = 1.2533F;
+// A tile has certainly changed if Moments::over() exceeds this threshold. Only one in 1e8 unchanged
+// tiles exceeds it.
 constexpr float kSurelyChanged = 40;
-// Threshold for the squared mean of a cell's difference, divided by its variance.
+// A cell has certainly changed if the squared mean of its difference exceeds this multiple of the
+// mean's variance.
 constexpr float kCellSurelyChanged = 30;
-constexpr float kByteRounding = 0.17F;  // variance of the rounding error of a difference of two
-                                        // 8-bit pixels
+// Variance of the difference of two pixels that is caused by rounding both to 8 bits.
+constexpr float kByteRounding = 0.17F;
 
-// From here on, each lane of a vector belongs to one tile, so that the sums of a tile are added in
-// the same order on every CPU.
+// In this file, each lane of a vector belongs to one tile, so that the values of a tile are added
+// in the same order on every CPU.
 using D = hn::CappedTag<float, kTileGroup>;
 using V = hn::Vec<D>;
 
@@ -35,7 +35,8 @@ HWY_INLINE void Columns(const float* row, V* out) {
     hn::LoadInterleaved4(d, row, out[0], out[1], out[2], out[3]);
     hn::LoadInterleaved4(d, row + 4 * hn::Lanes(d), out[4], out[5], out[6], out[7]);
 #if HWY_TARGET != HWY_SCALAR
-    // The lanes alternate between left and right halves of tiles, so the halves are separated.
+    // LoadInterleaved4 gives lanes that belong alternately to the left and the right half of a
+    // tile. This separates the halves.
     for (int i = 0; i < 4; ++i) {
         const V first = out[i], second = out[i + 4];
         out[i] = hn::ConcatEven(d, second, first);
@@ -46,7 +47,8 @@ HWY_INLINE void Columns(const float* row, V* out) {
 
 using Grid = V[kSide][kSide];
 
-/// Fits a plane to 4x4 values of each tile. Returns the sum of the squared remainders.
+/// Fits a plane to 4x4 values of each tile. Returns the sum of the squared differences between the
+/// values and the plane.
 HWY_INLINE V BesidePlane(const Grid& values, int top, int left) {
     const V zero = hn::Zero(D());
     V sum = zero, squares = zero, slopeX = zero, slopeY = zero;
@@ -73,8 +75,9 @@ HWY_INLINE V StructureOf(const Blocks& blocks, int tile) {
     return hn::Div(sum, Const(9));
 }
 
-/// The mean and both slopes of a tile's difference, from the means of its cells. over() returns the
-/// sum of their squares, each divided by its variance; `variance`: variance of a cell's mean.
+/// The mean and both slopes of a tile's difference, from the means of its 4x4 cells. over() squares
+/// these three values, divides each by its variance and returns the sum. `variance`: variance of a
+/// cell's mean.
 class Moments {
 public:
     HWY_INLINE Moments() : sum_(hn::Zero(D())), slopeX_(sum_), slopeY_(sum_) {}
@@ -106,9 +109,12 @@ HWY_INLINE Moments MomentsOf(const Blocks::CellSums& sums, int tile) {
     return out;
 }
 
-/// Measurements of the luma's difference between both frames; see TileMeasure for means and bends.
+/// Sums of squares over a tile of the luma difference (new frame minus the frame drawn last).
+/// `means`: of the sum of each block of 2x2 pixels. `noise`: of the twist a - b - c + d of each
+/// block, whose pixels are a b above c d. `bends`: of the same twist of 2x2 block sums, divided by
+/// 16, which is TileMeasure::bends.
 struct LumaDifference {
-    V means, bends, noise;  // noise: sum of the squared twists of the blocks (see Blocks)
+    V means, bends, noise;
     Moments moments;
 };
 
@@ -148,8 +154,8 @@ HWY_INLINE V NoiseOf(const Blocks& blocks, int tile) {
     return hn::Mul(sum, Const(kMeanToDeviation / 64));
 }
 
-/// Returns the variance that noise causes in the mean of a cell's difference. `variance`: variance
-/// of the noise in the difference of one pixel. `grain`: see ChangeBounds.
+/// Returns the variance of the mean of an unchanged cell's difference. `variance`: variance of the
+/// difference of one pixel. `grain`: see ChangeBounds.
 HWY_INLINE V OfCell(V variance, float grain) {
     const V rounded = hn::Add(variance, Const(kByteRounding));
     return hn::Mul(hn::Mul(rounded, Const(1.0F / 16)), Const(grain));

@@ -83,8 +83,8 @@ void TileSearch::find(const FlowPlanes& field, std::span<const ErrorCell> errors
         const bool within = x >= 0 && y >= 0 && x < size.width && y < size.height;
         return within ? int{unexplained_.at(x, y)} : 0;
     };
-    // A tile with two flagged neighbours is also flagged: it may be a part of a moving object
-    // without texture, in which a wrong match is not noticed.
+    // A tile with at least two flagged neighbours is flagged too. It may be a part of a moving
+    // object without texture, in which wrong matches have a low cost and are not noticed.
     for (int y = 0; y < size.height; ++y)
         for (int x = 0; x < size.width; ++x) {
             const int beside =
@@ -93,8 +93,9 @@ void TileSearch::find(const FlowPlanes& field, std::span<const ErrorCell> errors
         }
     for (std::size_t level = 0; level < groups_.size(); ++level) {
         const int side = 1 << level;
-        // Margin around the flagged tiles [tiles]. The search of a group reads neighbouring groups
-        // of the coarser pyramid level, so the margin grows from level to level.
+        // A group is listed if a flagged tile is within this margin around it [tiles]. The search
+        // in a group reads the adjacent groups of the next coarser pyramid level, so the margin
+        // grows from level to level.
         const int margin = 2 * side - 2;
         for (int y = 0; y < divideUp(size.height, side); ++y)
             for (int x = 0; x < divideUp(size.width, side); ++x)

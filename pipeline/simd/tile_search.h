@@ -24,13 +24,13 @@ struct TileMask {
         return flags[static_cast<std::size_t>(y) * size.width + x];
     }
 };
-/// Sets the flag of every tile in `out` to 1 if `in` has a flagged tile at most `margin` tiles away
+/// Sets the flag of each tile in `out` to 1 if `in` has a flag of 1 at most `margin` tiles away
 /// along each axis, else to 0. All masks have the same size. `between`: temporary memory.
 void widen(const TileMask& in, int margin, TileMask& between, TileMask& out);
 
-/// Finds the tiles whose pixels do not match along epipolar lines, so that they must be searched in
-/// two dimensions. Lists the groups of 4x4 cells that this search needs at each pyramid level. CPU
-/// version of flow_flag.comp and flow_list.comp.
+/// Finds the tiles that do not match along epipolar lines and must be searched in two dimensions.
+/// For each pyramid level, lists the groups of 4x4 cells that this search processes. CPU version of
+/// flow_flag.comp and flow_list.comp.
 class TileSearch {
 public:
     struct Group {
@@ -47,7 +47,7 @@ public:
     [[nodiscard]] std::span<const Group> groups(int level) const {
         return groups_[static_cast<std::size_t>(level)];
     }
-    /// True for each tile that groups(0) contains.
+    /// A flag for each tile, row-major: true if groups(0) contains the tile.
     [[nodiscard]] const std::vector<bool>& tiles() const { return listed_; }
     [[nodiscard]] int count() const { return static_cast<int>(groups_[0].size()); }
 

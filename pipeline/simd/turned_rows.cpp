@@ -61,8 +61,8 @@ private:
     using DInt = hn::RebindToSigned<DPixels>;
     using DBits = hn::RebindToUnsigned<DPixels>;
 
-    /// Interpolates between the pixel at `offset` and the next one. Four bytes are loaded from the
-    /// pixel on, or from before it if they would reach past the picture's end.
+    /// Interpolates between the pixel at `offset` and the next one. Loads four bytes that contain
+    /// both pixels; they begin before `offset` if they would otherwise exceed the picture's end.
     HWY_INLINE VPixels between(hn::Vec<DInt> offset, VPixels share) const {
         const auto from = hn::Min(offset, hn::Set(dInt_, last_));
         const auto words =

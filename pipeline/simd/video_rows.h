@@ -7,7 +7,7 @@
 
 namespace mfar::simd {
 
-/// Tables for enlarging a video. All threads share them.
+/// Resampling tables for enlarging the video. All threads use the same tables.
 struct VideoTaps {
     VideoTaps(Size video, Size output);
 
@@ -15,17 +15,18 @@ struct VideoTaps {
     RowTaps trustRows, trustColumns;
 };
 
-/// Rows of the video, sharpened, at the output's width. They are computed on request; the last four
-/// are kept. Each thread has its own object.
+/// Computes rows of the video, sharpened and enlarged to the output's width, when they are
+/// requested. Keeps the last four. Each thread has its own object.
 class VideoRows {
 public:
     VideoRows(Size video, int outputWidth);
 
-    /// Starts with a new video frame. Only pixels [begin, end) of the output are computed. If
-    /// `trust` has no data, rows are not sharpened.
+    /// Sets a new video frame for rows(), which will compute only columns [begin, end) of the
+    /// output. If `trust` has no data, rows are not sharpened.
     void begin(const RgbPlanes& video, Rows<const TrustCell> trust, const VideoTaps& taps,
                bool linear, int begin, int end);
-    /// Returns four rows of the video, enlarged. They must be at most three rows apart.
+    /// Returns four rows of the video, enlarged to the output's width. The first and the last of
+    /// them must be at most three rows apart.
     [[nodiscard]] EnlargedRows rows(const std::array<int, 4>& videoRows);
 
 private:
@@ -43,7 +44,7 @@ private:
     bool sharpens_ = false;
     TapTable table_{};
     int begin_ = 0, end_ = 0;
-    int first_ = 0, last_ = 0;  // columns of the video that [begin_, end_) needs
+    int first_ = 0, last_ = 0;  // columns of the video from which [begin_, end_) is computed
     std::array<int, 4> made_{};
     std::array<int, kKept> loaded_{};
     AlignedRows<std::uint8_t> bytes_;

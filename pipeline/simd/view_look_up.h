@@ -22,14 +22,17 @@ namespace mfar::simd {
 class RestPixels;
 class SurfaceRaster;
 
-/// Returns viewsOfObjects() as a table of params::kSurfaceNumbers transforms; empty if `views` is.
+/// Returns the result `views` of viewsOfObjects() as a table with one transform for each of the
+/// params::kSurfaceNumbers surface numbers. Returns an empty table if `views` is empty.
 [[nodiscard]] std::vector<PointTransform> transformsByNumber(std::span<const RigidTransform> views);
 
 /// A pixel of the layer whose colour is not completely known.
 struct Hole {
     std::uint32_t pixel;
     std::uint32_t colour;  ///< known part of the colour, RGBA8 premultiplied
-    bool isEdge, isOpen;   ///< isOpen: one surface fills the pixel, and no picture shows it
+    /// isEdge: several surfaces meet in the pixel. isOpen: one surface fills the pixel, and no
+    /// picture shows this surface there.
+    bool isEdge, isOpen;
 };
 
 class RerenderedStore {
@@ -38,7 +41,7 @@ public:
     struct Picture {
         std::vector<Rgba> colours;
         std::vector<LightWords> lights;     // empty if only colours are known
-        std::vector<WarpSurface> surfaces;  // like `colours`, empty until a pixel is stored
+        std::vector<WarpSurface> surfaces;  // empty until a pixel is stored, as `colours` is
     };
     explicit RerenderedStore(Size layer) : layer_(layer) {}
     void store(const RerenderedPictures::StoredRows& rows);
@@ -52,14 +55,14 @@ private:
 };
 
 /// Looks up the colour of every layer pixel that shows a surface. The colour comes from the traced
-/// picture or, if that does not show the surface, from RerenderedPictures. CPU version of the GLES
-/// engine's ViewLookUp. Plain pixels (see lookUpRow()) are processed in vectors, all others one by
-/// one. Threads share the rows.
+/// picture or, if that does not show the surface, from RerenderedPictures. Plain pixels (see
+/// lookUpRow()) are processed in vectors, all others one by one. Several threads process different
+/// rows. CPU version of the GLES engine's ViewLookUp.
 class ViewLookUp {
 public:
     ViewLookUp(const LensProjection& layer, std::shared_ptr<Workers> workers);
 
-    /// `traced` must remain valid until the next call.
+    /// `traced` must remain valid until the next call of setTracedPicture().
     void setTracedPicture(const TracedPicture& traced);
 
     struct Input {

@@ -97,8 +97,7 @@ HWY_INLINE Light BlendLight(const Four& words, const Four& weights) {
     return out;
 }
 
-/// Interpolates the veil bilinearly. The veil is the share of specular light that does not depend
-/// on the surface's colour.
+/// Interpolates UnpackedLight::veil bilinearly.
 HWY_INLINE V BlendVeil(const Four& diffuse, const Four& specular, const Four& weights) {
     const auto veil = [&](VU d, VU s, VU weight) HWY_ATTR {
         const VU bits = hn::Or(hn::ShiftLeft<3>(hn::ShiftRight<kLightFreeBit>(d)),
@@ -178,7 +177,7 @@ struct Found {
     M left;
 };
 
-/// The surface that each pixel of a vector shows, and its position in the traced picture.
+/// The surface that each pixel of a vector shows, and the surface's position in the traced picture.
 struct Asked {
     V z;  ///< z of the surface in the layer's camera [m]
     VU id;
@@ -189,7 +188,7 @@ struct Asked {
     V pixelX, pixelY, lowX, lowY;  ///< position in the traced picture, exact and rounded down [px]
 };
 
-/// Returns each point, transformed by the entry of its surface's number.
+/// Transforms each point by the entry of `transforms` with the number of the point's surface.
 HWY_INLINE Triples<V> TransformedByNumber(const PointTransform* transforms, VU number,
                                           const Triples<V>& p) {
     const D d;

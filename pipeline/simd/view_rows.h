@@ -11,7 +11,8 @@ namespace mfar::simd {
 /// Number of the shadow catcher in words that are packed as in warp_surface.glsl; equals
 /// kCatcherId.
 inline constexpr std::uint32_t kCatcherNumber = 255;
-/// Two pixels show the same surface if their z differs by less than this share of z.
+/// Two pixels with the same surface number show the same part of the surface if their z differs by
+/// less than this fraction of z.
 inline constexpr float kSameDepth = 0.003F;
 
 /// The shadow catcher, if it is a plane: (x, y, z) . point = w in the layer's camera [m]. All zero
@@ -27,7 +28,7 @@ struct CatcherPlane {
     }
 };
 
-/// The traced picture, in which the pixels of a row of the layer are looked up.
+/// The traced picture in which lookUpRow() looks up pixels, and its camera.
 struct ViewLookUpInput {
     PointTransform toTraced;  ///< transforms from the layer's to the traced picture's camera
     PointLens lens;
@@ -37,8 +38,8 @@ struct ViewLookUpInput {
     const std::uint32_t* lights;   ///< LightWords, two words each; null if only colours are known
     CatcherPlane plane;
     float shownDepth;  ///< factor of the shadow catcher's z in the result: 1 - kShadowLift
-    /// `toTraced` for each of the params::kSurfaceNumbers numbers of surfaces; null if no object
-    /// moves.
+    /// The transform `toTraced` for each of the params::kSurfaceNumbers surface numbers; null if no
+    /// object moves.
     const PointTransform* ofNumbers = nullptr;
 };
 
@@ -55,9 +56,10 @@ struct ViewRow {
                                          ///< room for all pixels and 16 more
 };
 
-/// Looks up plain pixels. A single surface fills a plain pixel, and the traced picture shows it in
-/// four texels at the same depth (warp_look_up.frag). Returns the number of other pixels. Writes
-/// into the padding of rows, which must have kPadding.
+/// Looks up the plain pixels of a row (warp_look_up.frag). In a plain pixel, a single surface fills
+/// the pixel, and four texels of the traced picture show this surface at the same depth. Returns
+/// the number of pixels that are not plain. Writes into the rows' padding of AlignedRows::kPadding
+/// bytes.
 [[nodiscard]] int lookUpRow(const ViewRow& row, const ViewLookUpInput& input);
 
 }  // namespace mfar::simd

@@ -46,8 +46,8 @@ bool Decide(const DecideRow& row, const VisibilityParams& params) {
     return anyOpen;
 }
 
-/// Returns e^x for x <= 0 as a power of 2, with an error below 1e-5. A polynomial approximates the
-/// power of the exponent's fraction.
+/// Returns e^x for x <= 0, with an error below 1e-5. It is computed as a power of 2; a polynomial
+/// approximates 2 to the power of the exponent's fraction.
 HWY_INLINE V Exp(V x) {
     const hn::RebindToSigned<D> di;
     const V power = hn::Max(hn::Mul(x, Const(1.44269504F)), Const(-100));
@@ -66,7 +66,8 @@ HWY_INLINE V ReciprocalSqrt(V v) {
     return hn::Mul(first, hn::NegMulAdd(hn::Mul(halved, first), first, Const(1.5F)));
 }
 
-/// The 4x4 samples around a pixel. All pixels between the same samples share them.
+/// The 4x4 depth samples around an output pixel. Output pixels between the same samples use the
+/// same Taps.
 struct Taps {
     using Values = std::array<float, kTaps>;
     HWY_ALIGN Values inverse, variance, red, green, blue;
@@ -106,7 +107,7 @@ std::uint8_t WeighPixel(const Taps& taps, const float* columnWeights, std::uint3
         const V g = hn::Sub(hn::Load(d, &taps.green[i]), green);
         const V b = hn::Sub(hn::Load(d, &taps.blue[i]), blue);
         const V unlike = hn::MulAdd(r, r, hn::MulAdd(g, g, hn::Mul(b, b)));
-        // If no sample's colour is similar to the pixel's, distance alone decides.
+        // Because of kLikenessFloor, the distance alone decides if no sample has a similar colour.
         const V like =
             hn::Add(Exp(hn::Mul(unlike, Const(-params.likeness))), Const(params::kLikenessFloor));
         const V tent = hn::Mul(hn::Load(d, &taps.rowWeights[i]), ColumnWeights(columnWeights, i));

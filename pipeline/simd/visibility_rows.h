@@ -26,17 +26,19 @@ struct DecideRow {
     const float *greatest, *least;  ///< for each pixel, see rangeOfSamples()
     std::uint8_t* visibility;       ///< 0, 255 or kOpen; written up to 16 pixels beyond the last
                                     ///< pixel
-    float* inverse;                 ///< inverse depth of the layer [1/m]; written as far as
-                                    ///< `visibility`
+    float* inverse;                 ///< inverse depth of the layer [1/m]; written up to 16 pixels
+                                    ///< beyond the last pixel
 };
-inline constexpr std::uint8_t kOpen = 1;  ///< visibility of a pixel whose samples must be weighed
+/// Value in DecideRow::visibility for a pixel that decideRow() leaves to weighOpenPixels().
+inline constexpr std::uint8_t kOpen = 1;
 
-/// Decides which pixels of the layer are certainly in front of or behind the real scene
-/// (visibility_decide.frag). Other pixels stay open. Returns true if any pixel is open.
+/// Writes the visibility of pixels that are certainly in front of the real scene (255) or behind it
+/// (0), and kOpen for the others (visibility_decide.frag). Returns true if any pixel is kOpen.
 bool decideRow(const DecideRow& row, const VisibilityParams& params);
 
-/// The four rows of samples around an output row. Pixel 0 is entry kSampleMargin of each row.
+/// Index of pixel 0 in the rows of SampleWindow.
 inline constexpr int kSampleMargin = 2;
+/// The four rows of depth samples around an output row, and their weights by vertical distance.
 struct SampleWindow {
     std::array<SampleRow, 4> rows;
     std::array<float, 4> weights;
@@ -44,7 +46,7 @@ struct SampleWindow {
 
 struct OpenRow {
     int count;
-    /// For each pixel: index of the first of its four samples, and the samples' weights by
+    /// For each pixel: index of the first of its four samples, and the four weights by horizontal
     /// distance.
     const std::int32_t* column;
     const float* weights;
@@ -53,8 +55,9 @@ struct OpenRow {
     std::uint8_t* visibility;
 };
 
-/// Computes the visibility of the pixels that decideRow() left open. Samples are weighed by
-/// distance and by the similarity of picture and video (visibility_sample.frag).
+/// Replaces kOpen by the pixels' visibility [0, 255]. Depth samples are weighed by distance, and by
+/// the similarity of the video's colour at the sample to the picture's colour at the pixel
+/// (visibility_sample.frag).
 void weighOpenPixels(const OpenRow& row, const SampleWindow& samples,
                      const VisibilityParams& params);
 

@@ -15,9 +15,9 @@ constexpr int kReach = params::kGuideReach;
 constexpr int kMargin = 16;       // [columns] on each side of a row; one cache line
 constexpr float kMeanScale = 32;  // units of the mean per grey level
 
-/// Returns the weights for the mean of the warped still over a video pixel, along one axis. The
-/// mean is taken over four samples. Linear interpolation of the warped still widens their
-/// footprint. To keep the variance of the whole footprint, the samples are closer together.
+/// Returns the weights for the mean of the warped still over a video pixel, along one axis: a mean
+/// of four samples. Linear interpolation of the warped still blurs each sample. The samples are
+/// therefore closer together, so that the mean is not wider than a video pixel.
 RowTaps meanOf(int output, int video) {
     // Variance of the tent of linear interpolation / variance of the four samples' positions.
     constexpr double kWidened = 2.0 + 2.0 / 15;
@@ -26,9 +26,9 @@ RowTaps meanOf(int output, int video) {
                          std::sqrt(std::max(seen * seen - kWidened * pitch * pitch, 0.0)));
 }
 
-/// Returns the number of rows of the warped still that must be kept: the largest number from an
-/// output row to the last row that its detail reads. `reach`: number of additional rows of the
-/// video that guidance reads.
+/// Returns the number of rows of the warped still that must be kept: the largest distance from an
+/// output row to the last row that is read for its detail, plus 1. `reach`: number of additional
+/// rows of the video that guidance reads.
 int rowsLookedAt(const RowTaps& mean, const RowTaps& cubic, Size video, Size output, int reach) {
     int most = mean.taps();
     for (int y = 0; y < output.height; ++y) {

@@ -11,8 +11,8 @@
 
 namespace mfar::simd {
 
-/// Tables that reduce the warped still to the video's resolution (mean) and enlarge it again
-/// (cubic). All threads share them.
+/// Resampling tables that reduce the warped still to the video's resolution (mean) and enlarge it
+/// again (cubic). All threads use the same tables.
 struct WarpedStillTaps {
     WarpedStillTaps(Size video, Size output);
 
@@ -23,24 +23,24 @@ struct WarpedStillTaps {
     int kept, keptGuided;
 };
 
-/// The still warped to this frame's view, and its detail, which the video cannot show. For the
-/// detail, the warped still is reduced to the video's resolution (its mean over each video pixel),
+/// Warps the still to the frame's view and computes its detail, which the video cannot show. For
+/// this, the warped still is reduced to the video's resolution (its mean over each video pixel),
 /// enlarged again and subtracted from the warped still. The mean is computed for each frame,
 /// because aliasing depends on the position of the frame's pixels. Compared with detail that is
 /// computed once per still, this gains 0.5 dB on photographs and 0.5 to 0.9 dB on synthetic scenes.
-/// Output rows are computed on request. Each thread has its own object.
+/// Output rows are computed when they are requested. Each thread has its own object.
 class WarpedStill {
 public:
     WarpedStill(Size video, Size output, const WarpedStillTaps& taps);
 
-    /// The video whose finest detail the still replaces, and the strength of the replacement.
+    /// The video whose finest detail the still replaces according to `guidance`.
     struct Guide {
         const RgbPlanes& video;
         Guidance guidance;
     };
 
-    /// Starts with a new still and new LookUpCells. Nothing is computed before cover(), whose
-    /// output columns must all be in `pixels`.
+    /// Sets a new still and new LookUpCells, without computing anything. Output columns that are
+    /// passed to cover() later must all be in `pixels`.
     void begin(const StillPairs& still, Rows<const LookUpCell> lookUps,
                const LookUpTaps& lookUpTaps, const WarpedStillTaps& taps, const PixelSpan& pixels,
                const Guide& guide);
@@ -49,7 +49,7 @@ public:
     /// Returns the detail of the covered pixels of a row; valid until the next call. Rows must be
     /// requested in ascending order.
     [[nodiscard]] WarpedRow row(int y);
-    /// Returns the positions at which an output row reads the still, and the weight of its detail.
+    /// Returns the positions in the still that output row y reads, and the detail's weights.
     [[nodiscard]] LookUpRows lookUps(int y) { return lookUps_.row(y); }
 
 private:
@@ -65,8 +65,8 @@ private:
     const WarpedStillTaps* taps_ = nullptr;
     LookUpRowCache lookUps_;
     PixelSpans covered_;
-    // Columns that are computed for covered_: of the still at the video's resolution (means_), and
-    // of the warped still (warped_).
+    // Columns that are computed for the output columns covered_. means_: columns of the still at
+    // the video's resolution. warped_: columns of the warped still.
     PixelSpans means_, warped_;
     PixelSpans compared_;  // like means_; with guidance, kGuideReach columns wider on each side
     std::vector<int> warpedRows_;
@@ -74,8 +74,8 @@ private:
     std::vector<const std::int16_t*> weighed_;
     std::vector<float> weights_;
     AlignedRows<std::int16_t> luma_;  // slots_ rows of the warped still [1/32 grey level]
-    // A row of the warped still. column_: reduced only vertically; mean_: reduced to the video's
-    // resolution.
+    // One row of the warped still, reduced along columns (column_), and along both axes to the
+    // video's resolution (mean_).
     AlignedRows<float> column_, mean_;
     AlignedRows<std::int16_t> low_;  // four reduced rows, enlarged to the output's width
                                      // [1/64 grey level]

@@ -17,35 +17,36 @@
 
 namespace mfar::simd {
 
-/// Input for the weights of a frame. The data must remain valid during the call.
+/// Input of WeighStep::run() for a frame. The data must remain valid during the call.
 struct WeighInput {
     /// At least two pyramid levels of each picture; their pixels are in `words`. The photometric
     /// gain between the sensors is measured at the second level.
     const std::vector<LumaLevel>& videoLuma;
     const std::vector<LumaLevel>& stillLuma;
     std::span<const std::uint32_t> words;  ///< must end with kLumaSpareWords
-    Rows<const FlowCell> forward;          ///< flow from video to still, per 4x4 video pixels
+    Rows<const FlowCell> forward;          ///< flow from video to still
     /// Flow from still to video, in pixels of pyramid level `backwardLevel`. Read only if
     /// errors.data is null.
     Rows<const FlowCell> backward;
     int backwardLevel = 0;
-    Rows<const ErrorCell> errors;  ///< two-way errors of the cells of `forward`; can be empty
+    /// Two-way errors of the cells of `forward`, or empty: then `backward` is read.
+    Rows<const ErrorCell> errors;
     const TileWork& work;
 };
 
-/// Determines how far the still is trusted at each cell. CPU version of superres_assess.comp,
+/// Computes the weight of the still's detail in each cell. CPU version of superres_assess.comp,
 /// superres_gain.comp and superres_weigh.comp. Results are in single precision, whereas the GLES
-/// step rounds look-ups to 16 bits and trust to 8 bits.
+/// engine rounds look-ups to 16 bits and trust to 8 bits.
 class WeighStep {
 public:
-    /// `stillRig`: its still may have fewer pixels than the sensor, see StillPreparation::rig().
-    /// Null workers: all work runs in the caller's thread.
+    /// `stillRig`: see StillPreparation::rig(). If `workers` is null, all work runs in the caller's
+    /// thread.
     WeighStep(const StereoRig& stillRig, std::shared_ptr<Workers> workers);
 
-    /// Weighs every cell. If no tile has changed, keeps the last results. If no changed tile is
-    /// matched, keeps the last frame's photometric gain. Cells of unmatched tiles are not compared;
-    /// they get a weight only from neighbouring cells of matched tiles. The results have one entry
-    /// per cell and are valid until the next run.
+    /// Computes the weight of every cell. If no tile has changed, the last results stay valid. If
+    /// no changed tile is matched, the last photometric gain is used. Cells of unmatched tiles are
+    /// not compared; they get a weight only from neighbouring cells of matched tiles. The results
+    /// have one entry per cell and are valid until the next run().
     void run(const WeighInput& in);
 
     /// Multiplies the weight of each cell by the cell's entry in `shares`.

@@ -8,11 +8,11 @@
 namespace mfar {
 namespace {
 
-// Number of samples in the first portion, before the time per sample is known. It is small enough
-// for any scene.
+// Number of samples in the first portion of work, when the time per sample is still unknown. So few
+// samples take little time in any scene.
 constexpr std::int64_t kFirstSamples = 64;
-// Least number of samples in a portion; fewer are not worth a call. If they exceed the budget, the
-// next frame repays the excess.
+// Least number of samples in a portion; fewer are not worth a call of the path tracer. If they take
+// longer than the rest of the budget, the next frame repays the excess.
 constexpr std::int64_t kLeastSamples = 16;
 constexpr double kPortionsPerFrame = 16;
 // Upper limit of unused time carried over to the next frame, as a share of the budget. Time remains

@@ -11,21 +11,22 @@
 
 namespace mfar {
 
-/// Request to render single pixels. Older pictures do not show these pixels, or show them blurred.
+/// Request to render single pixels that the warp cannot take from finished pictures, or can only
+/// show blurred.
 struct HoleRequest {
     RenderView view;
     std::vector<std::uint32_t> pixels;  ///< row-major indices, in any order
     int samples = 4;
     std::uint64_t scene = 0;  ///< chosen by the caller, copied to the answer
-    bool edges = false;       ///< true: older pictures show these pixels blurred
-    /// Scene of the picture that lacks the pixels. If pictures of another scene have replaced it,
-    /// the request is dropped. Null: the scene of the newest pictures.
+    bool edges = false;       ///< true: the warp blurs these pixels; false: no picture shows them
+    /// Scene of the picture that does not show the pixels. The request is dropped if this scene is
+    /// neither shown nor traced any more. Null: the scene that is traced now.
     std::shared_ptr<const Scene> source{};
     std::vector<RigidTransform> poses{};  ///< T_world_object; empty if no object moves
 };
 
-/// Answer to a HoleRequest. Each vector has one value per entry of `pixels`, as defined in
-/// RenderedPicture.
+/// Answer to a HoleRequest. Each vector except `poses` has one value per entry of `pixels`, as
+/// defined in RenderedPicture.
 struct HoleAnswer {
     RenderView view;
     std::vector<std::uint32_t> pixels;  ///< in ascending order
@@ -36,7 +37,7 @@ struct HoleAnswer {
     int samples = 0;
     std::uint64_t scene = 0;
     bool edges = false;
-    std::vector<RigidTransform> poses{};  ///< of the request
+    std::vector<RigidTransform> poses{};  ///< HoleRequest::poses
 };
 
 }  // namespace mfar

@@ -14,12 +14,12 @@ namespace mfar {
 struct PictureScene {
     struct MovingBall {
         std::size_t object;  ///< index of Scene::objects
-        ObjectBall own;      ///< in the object's frame
+        ObjectBall own;      ///< ball around the object, in the object's frame
     };
 
     std::shared_ptr<const PathTracer> tracer;
-    std::shared_ptr<const Scene> source;  ///< the scene as it was set, at any instant
-    std::vector<ObjectBall> balls;        ///< of the objects at this instant, in the world
+    std::shared_ptr<const Scene> source;  ///< the scene as the caller set it, for all instants
+    std::vector<ObjectBall> balls;        ///< balls around the objects at this instant, world frame
     std::vector<MovingBall> moving;
     std::vector<RigidTransform> poses;  ///< T_world_object at this instant; empty if nothing moves
     std::uint64_t objects = 0, light = 0;

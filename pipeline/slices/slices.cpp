@@ -68,7 +68,7 @@ void Slices::addTile(const PixelRect& pixels, Density density) {
     Tile tile;
     tile.first = static_cast<std::uint32_t>(pixels_.size());
     const int left = pixels.x0 - pixels.x0 % kTileEdge, top = pixels.y0 - pixels.y0 % kTileEdge;
-    // The first quarter of the ranks contains the pixels with even column and even row.
+    // Ranks below kTilePixels / 4 belong to the pixels with even column and even row.
     const std::uint32_t ranks = density == Density::Full ? kTilePixels : kTilePixels / 4;
     for (std::uint32_t rank = 0; rank < ranks; ++rank) {
         const std::uint32_t code = evenlySpread(rank);
@@ -99,7 +99,7 @@ void Slices::beginTurn() {
     for (Tile& tile : tiles_) {
         if (tile.active == 0) continue;
         tile.most = mostOfTurn(tile);
-        // This sparse turn samples none of the tile's active pixels.
+        // The tile has no pixels to sample in this turn, so the turn does not wait for it.
         if (tile.handed >= tile.most) --ofTurn_;
     }
     if (ofTurn_ == 0) samples_ = samplesOfTurn();
@@ -206,8 +206,7 @@ bool Slices::isUntouched(const Tile& tile, const PixelStates& states) const {
 }
 
 std::uint32_t Slices::keepNoisy(Tile& tile, const PixelStates& states) {
-    // Each row of the tile has one more pixel on both sides. The additional pixels count as not
-    // noisy.
+    // A border of one pixel around the tile, where `noisy` stays false, avoids range checks below.
     constexpr int kRow = kTileEdge + 2;
     std::array<bool, kRow * kRow> noisy{};
     const auto placeOf = [&](std::uint32_t pixel) {

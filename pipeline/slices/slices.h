@@ -54,8 +54,8 @@ using PixelStates = std::function<PixelState(std::uint32_t)>;
 /// the Slicing nor on the threads.
 /// Slicing::Time begins with a turn that traces a ray through every pixel's centre. Pixels whose
 /// error is small after this turn get no samples. The next three turns take the first samples: in
-/// one pixel of 16, in one of 4, and in all pixels. The third of these turns omits tiles that are
-/// still untouched.
+/// one pixel of 16, in one of 4, and in all pixels. The third of these turns omits tiles whose
+/// pixels are all untouched (see PixelState).
 /// Only one thread at a time may call it. Only begin() allocates memory.
 class Slices {
 public:

@@ -9,7 +9,7 @@ namespace mfar {
 /// Tiles of 8x8 pixels in which a picture shows an object or changed light.
 class TouchedTiles {
 public:
-    /// isFarFrom() is false until the next set().
+    /// Until the next set(), isFarFrom() returns false.
     void clear() { tiles_.clear(); }
     void set(const RenderedPicture& picture);
 

@@ -36,7 +36,8 @@ constexpr double kShadowPixels = 1;
 // Number of turns of a picture before the next one begins while an object moves. By then, a quarter
 // of the pixels has a sample.
 constexpr int kMovingTurns = 3;
-// The light on a tile of the shadow catcher is traced again if motion may have changed it by more.
+// Light on the shadow catcher is traced again if moving objects may have changed it by more than
+// this (see MovedLight::diffuseChange()).
 constexpr float kVisible = 0.003F;
 constexpr double kFarthestAhead = 0.5;  // longest prediction of the motion of objects [s]
 constexpr double kPeriodShare = 0.3;
@@ -68,15 +69,15 @@ std::optional<double> TracedPictures::changeSince(const Picture& picture) const 
     return viewChange(picture.view, now_, picture.scene->balls, policy_.limits);
 }
 
-/// Returns the change of moving objects since a picture, as a multiple of the limits. The warp
-/// moves the objects, so they may turn as far as the camera may move around them. It does not move
-/// their shadows.
+/// Returns the motion of objects since a picture as a multiple of its limit. The limit of objects
+/// is ViewLimits, because the warp can move them in the picture. The limit of their shadows, which
+/// the warp cannot move, is kShadowPixels.
 double TracedPictures::motionSince(const Picture& picture) const {
     double change = 0;
     for (const auto& [object, own] : scene_->moving) {
         const RigidTransform& T_world_then = picture.scene->poses[object];
         const ObjectBall ball{T_world_then * own.centre, own.radius};
-        // The present view of the object, as if the camera had moved instead.
+        // From this view, the object at its pose in the picture looks as it looks now.
         const RenderView view{now_.camera,
                               T_world_then * posesNow_[object].inverse() * now_.T_world_camera};
         change = std::max({change, viewChange(picture.view, view, {&ball, 1}, policy_.limits),
@@ -117,7 +118,8 @@ TracedStep TracedPictures::chosenStep() const {
     const bool lacksSamples =
         scene_->moves() ? shown.slices.turns() < kMovingTurns : shown.slices.samples() == 0;
     if (step == TracedStep::Start && !hasBegun && serves && lacksSamples) return TracedStep::Refine;
-    // A moving object that is near its place in the shown picture will soon be elsewhere.
+    // The next picture is kept while objects move: even if they are now near their positions in the
+    // shown picture, they will soon be elsewhere.
     if (step == TracedStep::Drop && scene_->moves()) return TracedStep::Continue;
     return step;
 }
@@ -171,8 +173,8 @@ bool TracedPictures::toBegin() const {
     return toBegin_ && pictures_[0].portions == 0 && pictures_[1].portions == 0;
 }
 
-// While the camera moves, a picture takes all blocks of a tile at the objects and one block of any
-// other tile. Two pictures exist at the same time.
+// Memory for two pictures traced while the camera moves. A tile with an object needs all its memory
+// blocks (see Film::kBlockPixels); any other tile needs only one.
 void TracedPictures::provide(RenderedPicture& out) {
     const auto blocksOf = [](const PixelRect& r, std::size_t pixels) {
         if (r.empty()) return std::size_t{0};
@@ -236,7 +238,8 @@ void TracedPictures::trace(const Portion& portion) {
                                  *picture.film, picture.history ? &*picture.history : nullptr);
 }
 
-// At rest, only the pixel's own samples count, because carried light lacks edges and textures.
+// At rest, only the pixel's own samples count, because light from earlier pictures (known()) has no
+// sharp edges and textures.
 PixelState TracedPictures::Picture::state(std::uint32_t pixel, const Exposure& exposure) const {
     const KnownLight known = rests ? KnownLight{} : film->known(pixel);
     return {film->error(pixel, exposure),

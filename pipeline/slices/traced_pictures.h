@@ -37,9 +37,10 @@ struct TracedPolicy {
     int samplesToReplace = 4;
     bool filter = true;
     bool history = true;
-    /// True for callers that use only the light of a picture. While the camera moves, the next
-    /// picture begins long before the shown picture reaches its limits. It is shown before every
-    /// pixel has a sample.
+    /// True: the next picture begins when viewChange() since the shown picture reaches kSoon, which
+    /// is below 1. If it reuses the shown picture's light, it may also be shown before every pixel
+    /// has a sample. False: the next picture begins at 1. Set true only if the caller uses just the
+    /// light of the picture.
     bool soon = true;
     bool operator==(const TracedPolicy&) const = default;
 };
@@ -62,8 +63,8 @@ public:
     }
 
     /// Reports the camera's view `now`. A new picture gets the view `predicted`, or the view `now`
-    /// if the camera rests. While objects move, it shows them as they will be when it is shown, and
-    /// new pictures follow each other without end.
+    /// if the camera rests. While objects move, new pictures follow each other without end, and
+    /// each contains the objects as they will be when the picture is shown.
     void look(const RenderView& now, const RenderView& predicted, Timestamp time);
 
     /// True if begin() must be called. Until then next() returns no pixels.

@@ -65,7 +65,7 @@ private:
     std::optional<RenderView> view_;
     std::uint64_t updates_ = 0;
     bool hasPicture_ = false;
-    // Must stay the last member, because the threads use the others.
+    // Must stay the last member, because the threads use all other members.
     std::vector<std::jthread> threads_;
 };
 

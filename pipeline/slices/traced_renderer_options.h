@@ -36,15 +36,15 @@ struct TracedRendererOptions {
 struct RenderCounters {
     Timestamp frame;
     std::uint64_t samples = 0;
-    double samplesPerSecond = 0;  ///< mean over at least one second of frame times
+    double samplesPerSecond = 0;  ///< mean over at least the last second, by frame time stamps
     double msPerSample = 0;
-    double cpuMs = 0;  ///< processor time that counts in the budget, since the start
+    double cpuMs = 0;  ///< processor time since the start, without work done once per scene
     BudgetKept budget;
     /// Number of pictures in which each pixel has a small error or all its samples.
     std::uint64_t pictures = 0;
     std::uint64_t shown = 0;  ///< number of published pictures, fetched or not
     std::uint64_t holePixels = 0;
-    double progress = 1;                  ///< done share of the picture in progress, [0, 1]
+    double progress = 1;                  ///< finished share of the picture in progress, [0, 1]
     std::optional<Timestamp> shownSince;  ///< time at which the shown picture's view was chosen
     bool idle = true;                     ///< true if no work is left while the camera rests
     bool lowPriority = true;              ///< true if all threads could lower their priority

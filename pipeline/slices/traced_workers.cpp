@@ -268,7 +268,7 @@ std::int64_t TracedWorkers::Job::samples() const {
 void TracedWorkers::finish(const Job& job, double ms) {
     const std::int64_t samples = job.samples();
     counters_.samples += static_cast<std::uint64_t>(samples);
-    // The budget is for work that every picture needs.
+    // The budget does not include work that is done once per scene.
     const bool isOnce = job.kind == Job::Kind::Build || job.kind == Job::Kind::Provide;
     if (!isOnce) counters_.cpuMs += ms;
     switch (job.kind) {

@@ -17,8 +17,8 @@ double angleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
     return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
-/// Two cones around the optical axis. `inner` is the largest one inside the field of view, `outer`
-/// the smallest one around it.
+/// Two cones around the optical axis. `inner` is the largest cone inside the field of view; `outer`
+/// is the smallest cone that contains the field of view.
 struct ViewCones {
     double inner = std::numbers::pi, outer = 0;  // half angles [rad]
 
@@ -35,7 +35,7 @@ struct ViewCones {
 };
 
 struct BallSight {
-    Eigen::Vector3d towards;  // camera frame [m]
+    Eigen::Vector3d towards;  // from the camera to the ball's centre, in the camera frame [m]
     double fromAxis = 0, halfAngle = 0;
 
     BallSight(const RenderView& view, const ObjectBall& ball)

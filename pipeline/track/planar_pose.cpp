@@ -14,7 +14,8 @@ using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// Homography from the square's corners to the rays. Its last entry is 1.
+/// Returns the homography from the square's corners to their rays, scaled so that its last entry is
+/// 1. Empty if the corners do not determine it.
 std::optional<Matrix3d> homography(const std::array<Vector2d, 4>& rays) {
     Eigen::Matrix<double, 8, 8> A = Eigen::Matrix<double, 8, 8>::Zero();
     Eigen::Matrix<double, 8, 1> b;
@@ -35,7 +36,7 @@ std::optional<Matrix3d> homography(const std::array<Vector2d, 4>& rays) {
 }
 
 Matrix3d towards(const Vector2d& p) {
-    // The angle is below 90 degrees, so w is at least sqrt(0.5).
+    // The angle between `direction` and the z axis is below 90 degrees, so w is above sqrt(0.5).
     const Vector3d direction = p.homogeneous().normalized();
     const double w = std::sqrt((1 + direction.z()) / 2);
     return Eigen::Quaterniond(w, -direction.y() / (2 * w), direction.x() / (2 * w), 0)

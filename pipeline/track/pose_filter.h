@@ -40,8 +40,8 @@ public:
         Rejected,
         Jumped  ///< several outliers agreed with each other, and the filter restarted from them
     };
-    /// Adds a measured pose. `distance` is that of the camera from the measured tags, in the pose's
-    /// unit of length.
+    /// Adds a measured pose. `distance` is the distance of the camera from the measured tags, in
+    /// the pose's unit of length.
     Outcome update(const Pose& measured, double distance);
     void missed();
     void reset();

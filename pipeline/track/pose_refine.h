@@ -36,7 +36,7 @@ struct RefinedPose {
     double edgeShift = 0;
 };
 
-/// Weight that is so large that the estimated edge shift is zero.
+/// A `shiftWeight` for refinePose() that is so large that the estimated edge shift is zero.
 inline constexpr double kNoEdgeShift = 1e12;
 
 /// Minimises the weighted squared reprojection error by Levenberg-Marquardt, from `start` to the

@@ -10,7 +10,7 @@ namespace {
 constexpr double kRoom = 10;         // margin for errors that the prediction does not model [px]
 constexpr double kQuietZone = 0.3;   // margin for the tag's white border, relative to the tag's
                                      // size; the border is 1/8 to 1/5 of it
-constexpr double kMostRoom = 80;     // largest uncertainty of a prediction that is used [px]
+constexpr double kMostRoom = 80;     // upper limit of a usable prediction's uncertainty [px]
 constexpr double kSmallestTag = 10;  // smallest extent of a searched tag [px]
 
 bool overlap(const PixelRect& a, const PixelRect& b) {

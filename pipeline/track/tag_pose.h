@@ -46,8 +46,8 @@ struct CameraPoses {
 };
 
 struct TagPoseOptions {
-    /// Smallest standard deviation of a corner's coordinates [px] for the covariance. If the
-    /// corners fit worse, a larger value is used.
+    /// Standard deviation of a corner's coordinates [px] from which the covariance is computed. If
+    /// the corners fit worse, a larger value is used.
     double cornerSigma = 0.1;
     /// Standard deviation of the shift [px] that all tag edges of a picture have in common.
     double edgeShiftSigma = 0.1;

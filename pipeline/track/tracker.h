@@ -36,8 +36,9 @@ struct TrackStats {
     std::int64_t frames = 0;
     std::int64_t fullSearches = 0;
     std::int64_t roiSearches = 0;
-    /// `flips` counts changes between the two planar solutions, `rejected` outliers of the filter,
-    /// `jumps` restarts of the filter after outliers that agreed with each other.
+    /// `flips`: number of changes between the two planar solutions. `rejected`: number of outliers
+    /// of the filter. `jumps`: number of restarts of the filter after outliers that agreed with
+    /// each other.
     int flips = 0;
     int rejected = 0;
     int jumps = 0;

@@ -10,7 +10,8 @@ namespace mfar {
 /// Returns for each object number the transform from the layer's camera to the camera of a picture
 /// that shows the object at an earlier pose. Entry 0 is for surfaces that do not move. Empty if no
 /// object moves.
-/// `poses` are those in the picture, T_world_object; `objects` are at their present poses.
+/// `poses` are the objects' poses in the picture, T_world_object. `objects` have their present
+/// poses.
 [[nodiscard]] std::vector<RigidTransform>
 viewsOfObjects(const RigidTransform& T_world_view, std::span<const RigidTransform> poses,
                std::span<const SilhouetteModels::Object> objects,

@@ -8,17 +8,17 @@
 // gles_shaders/params_to_glsl.cmake converts this header to GLSL.
 namespace mfar::params {
 
-/// Object numbers with a special meaning in packed surfaces (see warp_surface.glsl): the shadow
-/// catcher, and any object.
+/// Special object numbers in packed surfaces (see warp_surface.glsl). kCatcherNumber is the shadow
+/// catcher. kAnyObjectNumber stands for all objects together.
 inline constexpr std::uint32_t kCatcherNumber = 255U;
 inline constexpr std::uint32_t kAnyObjectNumber = 254U;
 inline constexpr int kSurfaceNumbers = 256;
 /// Two depths belong to the same surface if they differ by less than this factor times z.
 inline constexpr float kSameDepth = 0.003F;
-/// A surface's colour is interpolated only between texels that show this surface. It is unreliable
-/// if the sum of their weights is below this limit.
+/// A surface's colour is interpolated only between texels that show this surface. The colour is
+/// unreliable if the sum of the texels' weights is below this limit.
 inline constexpr float kLeastLookUpWeight = 0.2F;
-/// A crack of one pixel is filled from this number of pyramid levels.
+/// Number of pyramid levels from which cracks of one pixel are filled.
 inline constexpr int kCrackLevels = 2;
 inline constexpr std::uint32_t kContrastLevels = 64U;
 
@@ -34,7 +34,7 @@ struct alignas(16) SilhouetteMesh {
 /// picture; the others are re-rendered pictures.
 struct alignas(16) View {
     Transform toView;  ///< T_view_camera
-    float share;       ///< share of the displayed colour, only for re-rendered pictures, [0, 1]
+    float share;       ///< weight in the displayed colour [0, 1]; unused for the traced picture
 };
 
 /// Plane of a planar shadow catcher in the layer's camera frame: normal . point = offset [m]. All
@@ -62,9 +62,10 @@ struct alignas(16) LookUpViews {
     std::int32_t rerendered, levels;
 };
 
-/// A level of the pyramid from which missing pixels are filled.
+/// Position of one pyramid level in memory and in the picture. Missing pixels are filled from the
+/// pyramid.
 struct alignas(16) HoleLevel {
-    std::int32_t first;  ///< index of the first texel in the pyramid
+    std::int32_t first;  ///< index of this level's first texel in the array of all levels
     std::int32_t columns;
     std::int32_t originX, originY;  ///< position of the first texel [texels of this level]
 };

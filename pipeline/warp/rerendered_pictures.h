@@ -33,12 +33,12 @@ public:
     /// written counts as empty.
     void add(const HoleAnswer& answer, const std::function<void(const StoredRows&)>& store);
     void clear();
-    /// Increases the share of each picture that still fades in. Must be called once per displayed
+    /// Increases the weight of each picture that still fades in. Must be called once per displayed
     /// frame.
     void age();
 
-    /// A picture's pose, and its share of the displayed colour. There is no picture if the share is
-    /// 0.
+    /// A picture's pose, and its weight `share` in the displayed colour [0, 1]. If `share` is 0,
+    /// there is no picture.
     struct Picture {
         int slot = 0;
         RigidTransform T_world_camera;

@@ -13,9 +13,9 @@
 namespace mfar {
 namespace {
 
-// If the lens distorts the picture, triangle edges are cut into pieces. A piece is at most as long
-// as the diagonal of the model or shadow catcher, divided by these numbers. At 640 px, straight
-// pieces then differ from the distorted curves by less than a third of a pixel.
+// If the lens distorts the picture, triangle edges are cut into pieces. The longest piece is the
+// diagonal of the model or of the shadow catcher, divided by these numbers. At a width of 640 px,
+// straight pieces then differ from the distorted curves by less than a third of a pixel.
 constexpr float kModelPieces = 16, kCatcherPieces = 32;
 // A software renderer needs 0.2 us per triangle. If a scene has n > kMostTriangles triangles, each
 // mesh keeps at most (its triangles) * kMostTriangles / n + kLeastTriangles of them.
@@ -142,8 +142,8 @@ SilhouetteModels::shapeOf(const SceneObject& object) const {
                     kLeastTriangles);
         if (surface.triangles.empty()) continue;
         shape->box.extend(boxOf(surface));
-        // Both sides are drawn, because a simplified triangle may face away from the viewer where
-        // the surface does not.
+        // Simplified models are drawn two-sided, because a simplified triangle can face away from
+        // the viewer although the surface does not.
         shape->parts.push_back({std::move(surface), masked ? baseColour : nullptr, cutoff,
                                 material.doubleSided || share_ < 1, &material, baseColour,
                                 texture(material.metallicRoughnessTexture)});

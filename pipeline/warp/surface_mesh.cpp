@@ -71,7 +71,7 @@ struct Cell {
     float count = 0;
 };
 
-/// Groups of vertices that are connected by edges within a grid cell. Each group gets its own
+/// Puts vertices of a grid cell that are connected by edges into one group. Each group gets its own
 /// texture coordinate, so that the two sides of a texture seam stay separate.
 class Groups {
 public:
@@ -171,7 +171,8 @@ SurfaceMesh simplified(SurfaceMesh mesh, std::size_t mostTriangles) {
     if (mesh.triangles.size() <= mostTriangles) return mesh;
     const Eigen::AlignedBox3f box = cornersBox(mesh);
     if (!(box.sizes().maxCoeff() > 0)) return {};
-    // Vertices without a triangle may not be finite, so they are moved to a corner of the box.
+    // Vertices that belong to no triangle can be infinite or NaN, so they are moved to a corner of
+    // the box.
     for (SurfaceVertex& v : mesh.vertices)
         if (!box.contains(positionOf(v))) std::copy_n(box.min().data(), 3, v.position);
     for (int cells = 256; cells > 1; cells = cells * 3 / 4) {

@@ -14,7 +14,7 @@ struct SurfaceVertex {
     float position[3], uv[2];
 };
 
-/// Triangles drawn through a distorting lens. The lens model is applied only to the corners.
+/// Triangles to be drawn through a distorting lens. The lens model is applied only to the corners.
 struct SurfaceMesh {
     std::vector<SurfaceVertex> vertices;
     std::vector<std::array<std::uint32_t, 3>> triangles;

@@ -20,9 +20,9 @@ constexpr int kTracedTile = 16;
 // Object pixels with at least this alpha count as fully covered. A few missing samples are
 // invisible.
 constexpr int kWhole = 250;
-// Tolerances relative to z. Two hits on a smooth surface differ by at most kDepthShare * z +
-// kSlopes * (steps of z to neighbouring pixels), and by at most kMostShare * z. Without a neighbour
-// on the surface, a step is kUnknownSlope * z.
+// WarpSurface::tolerance is kDepthShare * z + kSlopes * (differences of z to neighbouring pixels),
+// but at most kMostShare * z. If no neighbour shows the surface, kUnknownSlope * z replaces the
+// difference.
 constexpr float kDepthShare = 0.002F, kSlopes = 1.5F, kUnknownSlope = 0.01F, kMostShare = 0.05F;
 
 void requireFiniteCamera(const CameraModel& c, const RigidTransform& T) {
@@ -57,7 +57,7 @@ public:
         const int own = id(x, y);
         return own != 0 && own != kCatcherId;
     }
-    /// True if the pixel's colour comes only from its own surface.
+    /// True if the pixel's colour contains no other object's colour and no transparent background.
     [[nodiscard]] bool isPlain(int x, int y) const {
         const int own = id(x, y);
         if (own == 0) return true;
@@ -111,8 +111,8 @@ bool takeFromNeighbours(const PictureGrid& grid, std::span<const LightWords> lig
     return true;
 }
 
-/// Returns the smaller of the two steps of z to the neighbours along one axis. Only neighbours on
-/// the same surface count. Without them, the result is kUnknownSlope * z.
+/// Returns the smaller difference of z to the two neighbours along one axis. Only neighbours on the
+/// same surface count. Without any, the result is kUnknownSlope * z.
 float slopeAlong(std::span<const WarpSurface> surface, Size size, int x, int y, int dx, int dy) {
     const auto at = [&](int i, int j) -> const WarpSurface& {
         return surface[static_cast<std::size_t>(j) * static_cast<std::size_t>(size.width) +
@@ -188,7 +188,8 @@ void requireAllPixels(const RenderedPicture& picture, std::size_t count) {
                                     "pixel or for none");
 }
 
-/// Reflections on a moving object are shown as traced, because gloss has normals in the world.
+/// Marks the gloss of moving objects as unknown, so that their reflections are shown as traced.
+/// Gloss has normals in the world frame, which the warp does not rotate with the object.
 void forgetGlossOfMoving(const RenderedPicture& picture, std::vector<GlossWords>& gloss) {
     if (gloss.empty() || picture.poses.empty() || !picture.scene) return;
     const std::vector<SceneObject>& objects = picture.scene->objects;

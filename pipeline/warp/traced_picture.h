@@ -20,7 +20,7 @@ struct WarpSurface {
     float z = 0;          ///< [m]; 0 if there is no surface
     float id = 0;         ///< object number; 0 if there is no surface
     float tolerance = 0;  ///< points whose z differs by less are on the same surface [m]
-    float known = 0;      ///< 1 if the colour is known and belongs to one surface
+    float known = 0;      ///< 1 if the colour is known and of this surface alone, else 0
 };
 
 /// A finished picture, prepared on the CPU for warping. Any thread may prepare it. Each array is
@@ -30,16 +30,17 @@ struct TracedPicture {
     RigidTransform T_world_camera;
     /// Colours as rendered; valid where `depth` is above 0.
     std::vector<std::array<std::uint8_t, 4>> picture;
-    /// z for display [m]; 0: no surface. It is reduced on the shadow catcher (see kShadowLift).
+    /// z with which the layer is drawn [m]; 0: no surface. On the shadow catcher it is smaller than
+    /// the true z (see kShadowLift).
     std::vector<float> depth;
-    /// Colours for look-ups, each of a single surface. Unless the picture is layered, edge pixels
-    /// get the mean colour of adjacent pixels inside the surface. Colours of objects are opaque;
-    /// those of the shadow catcher are premultiplied.
+    /// Colours for look-ups, each of a single surface. Unless the rendered picture is layered, edge
+    /// pixels get the mean colour of adjacent pixels inside the surface. Colours of objects are
+    /// opaque; colours of the shadow catcher are premultiplied.
     std::vector<std::array<std::uint8_t, 4>> colour;
     /// Light on each pixel's object, for look-ups. Empty if only colours are known.
     std::vector<LightWords> light;
-    /// Reflection of distant light by each pixel's object; unknown for moving objects. The distant
-    /// light is `mirrors` times `exposure`. Empty if unknown.
+    /// Reflection of distant light by each pixel's object; unknown for moving objects. Empty if it
+    /// is unknown for all. The distant light is `mirrors` times `exposure`.
     std::vector<GlossWords> gloss;
     std::shared_ptr<const MirrorLight> mirrors;
     float exposure = 1;
@@ -49,8 +50,8 @@ struct TracedPicture {
     std::vector<WarpSurface> surface;
     /// z and object number in one word, in the format of warp_surface.glsl.
     std::vector<std::uint32_t> packed;
-    /// A square part of the picture that shows a surface. The motion of its corners bounds the
-    /// motion of its points.
+    /// A square part of the picture that shows a surface. No point of the tile moves farther than
+    /// its corners.
     struct Tile {
         PixelRect pixels;
         std::array<Eigen::Vector2d, 4> rays;  ///< normalised rays of the outer corners
@@ -68,7 +69,7 @@ struct TracedPicture {
 /// Divides a partly covered pixel's colour by its coverage and makes it opaque.
 [[nodiscard]] std::array<std::uint8_t, 4> filled(const std::array<std::uint8_t, 4>& premultiplied);
 
-/// Returns WarpSurface::tolerance of a pixel, computed from the steps of z to its neighbours.
+/// Returns WarpSurface::tolerance of a pixel, computed from the differences of z to its neighbours.
 /// `surface` is row-major and has `size` pixels.
 [[nodiscard]] float toleranceAt(std::span<const WarpSurface> surface, Size size, int x, int y);
 

@@ -159,8 +159,8 @@ bool Warp::isUnmoved(const RigidTransform& from, const RigidTransform& to) const
            std::max(options_.leastMotion, kSamePose);
 }
 
-// Removes the pixels of the last request if it was for the same view. They are holes again although
-// they were rendered, so rendering them once more would not help.
+// Removes the pixels of the last request if the view has not changed since then. These pixels were
+// rendered but are missing again, so rendering them once more would not help.
 void Warp::dropRefused(std::vector<std::uint32_t>& pixels) const {
     if (!listPoses_.empty() || !isUnmoved(lastRequest_.view.T_world_camera, listPose_)) return;
     std::erase_if(pixels, [&](std::uint32_t p) {

@@ -11,7 +11,8 @@
 
 namespace mfar {
 
-/// Totals since the start. `openHoles` and `cracks` belong to the frame last evaluated.
+/// Totals since the start. Only `openHoles` and `cracks` are of a single frame, the last one whose
+/// missing pixels were counted.
 struct WarpCounters {
     std::uint64_t warped = 0;     ///< frames that were warped
     std::uint64_t unmoved = 0;    ///< frames that show the traced picture without a warp
@@ -84,7 +85,7 @@ private:
     bool asked_ = false;
     HoleRequest lastRequest_;
     RigidTransform listPose_;  // pose of the frame whose missing pixels are listed
-    std::vector<RigidTransform> poses_, listPoses_;  // of the objects, now and in that frame
+    std::vector<RigidTransform> poses_, listPoses_;  // object poses: now, and with listPose_
     std::optional<RigidTransform> warpedTo_;  // pose of the displayed frame; empty: not warped
     int restFrames_ = 0;
     WarpCounters counters_;

@@ -17,8 +17,8 @@ struct WarpOptions {
     int mostRequested = 15360;
     int holeSamples = 4;  ///< samples per pixel, [1, 4096]
     /// Upper limit of the number of edge pixels that are rendered individually, as a share of the
-    /// objects' pixels, [0, 1]; 0: none. They are rendered while the camera rests, because the warp
-    /// blurs edges.
+    /// objects' pixels, [0, 1]; 0: none. The warp blurs edges. While the camera rests, the rendered
+    /// pixels replace them.
     double sharpenShare = 0.4;
     int sharpenSamples = 40;  ///< samples per edge pixel, [1, 4096]
     /// Number of frames in which rendered pixels fade in, [0, 100]. Used only with

@@ -30,10 +30,10 @@ public:
     /// Bounds of all models [layer px]. They are the whole layer if a model crosses the near plane.
     [[nodiscard]] virtual PixelRect bounds(const RigidTransform& T_world_camera) const = 0;
 
-    /// Must be called before run(). `traced` must stay valid until the next call.
+    /// Must be called before run(). `traced` must stay valid until the next setTracedPicture().
     virtual void setTracedPicture(const TracedPicture& traced) = 0;
-    /// True if run() uses only the light of objects from the pictures, and finds paint in the
-    /// objects' textures. False if run() uses the pictures' colours.
+    /// True if run() takes only the light on objects from the pictures, and surface colours from
+    /// the objects' textures. False if run() takes finished colours from the pictures.
     [[nodiscard]] virtual bool takesLight() const = 0;
     [[nodiscard]] virtual LayerPicture& traced() = 0;
 
@@ -45,8 +45,8 @@ public:
     /// The result is valid until the next run().
     [[nodiscard]] virtual LayerPicture& run(const Frame& frame) = 0;
 
-    /// Returns the missing pixels of the last frame with Frame::lists. Empty until that frame is
-    /// finished. Never waits.
+    /// Returns the missing pixels of the last frame whose Frame::lists was true. Empty until that
+    /// frame is finished. Never waits.
     [[nodiscard]] virtual std::optional<WarpHoles> takeHoles() = 0;
     [[nodiscard]] virtual bool holesPending() const = 0;
     virtual void dropHoles() = 0;
@@ -54,19 +54,20 @@ public:
     /// and not empty.
     virtual void addRerendered(const HoleAnswer& answer) = 0;
 
-    /// Lists the edge pixels of the last run(): those with the most contrast, which the warp
-    /// blurred. Discards the previous list and its answer.
+    /// Lists the edge pixels of the last run() that have the most contrast, because the warp blurs
+    /// them. Discards the previous list and its rendered colours.
     virtual void listEdges() = 0;
     /// Row-major indices of the listed pixels, ascending. Empty until the list is known. Never
     /// waits.
     [[nodiscard]] virtual std::optional<std::vector<std::uint32_t>> takeEdges() = 0;
-    /// Replaces the colours of listed pixels. Their share grows with each run() at the same pose.
+    /// Sets the rendered colours of listed pixels. With each run() at the same pose, these colours
+    /// replace more of the warped colours.
     virtual void answerEdges(const HoleAnswer& answer) = 0;
     virtual void dropEdges() = 0;
 
-    /// State of each pixel as RGBA8, for tests. R: number of the surface without a known colour. G:
-    /// share of the pixel that this surface covers. B: 255 if no picture shows this surface. A:
-    /// number of the surface that fills the whole pixel.
+    /// State of each pixel as RGBA8, for tests. R: number of the surface whose colour is unknown;
+    /// G: share of the pixel that surface R covers; B: 255 if no picture shows surface R; A: number
+    /// of the surface that fills the whole pixel.
     [[nodiscard]] virtual const Field<std::uint32_t>& state() const = 0;
 };
 

@@ -26,7 +26,7 @@ protected:
     SyntheticStore() { fs::remove_all(folder_); }
     ~SyntheticStore() override { fs::remove_all(folder_); }
 
-    /// Returns the texels of a key, which all have the value `colour` if they must be computed.
+    /// Returns the stored texels of `key`. If there are none, stores texels of the value `colour`.
     cv::Mat4b get(std::uint64_t key, unsigned char colour) {
         return TexelStore(folder_).get(key, kSide, [&] {
             ++made_;
@@ -94,7 +94,7 @@ TEST_F(SyntheticStore, FileOfAnotherKeyIsNotUsed) {
     EXPECT_EQ(get(2, 20)(3, 5), cv::Vec4b::all(20));
 }
 
-TEST_F(SyntheticStore, FolderThatCannotBeWrittenOnlyCostsTime) {
+TEST_F(SyntheticStore, TexelsAreComputedEachTimeIfTheFolderCannotBeCreated) {
     write(folder_, "a file, so that no folder can have this name");
     EXPECT_EQ(get(1, 10)(3, 5), cv::Vec4b::all(10));
     EXPECT_EQ(get(1, 10)(3, 5), cv::Vec4b::all(10));
@@ -133,7 +133,7 @@ TEST_F(SyntheticStore, ManyThreadsStoreAndReadTheSameFiles) {
     EXPECT_EQ(wrong, 0);
 }
 
-TEST_F(SyntheticStore, StoredLightMapsAndTexturesAreTheComputedOnes) {
+TEST_F(SyntheticStore, StoredLightMapsAndTexturesEqualTheComputedOnes) {
     const World world = makeWorld(Scene::Flat, 3);
     const cv::Mat4b light = bakeLight(world, TexelStore({})).texels;
     const TexelStore store(folder_);

@@ -163,8 +163,8 @@ TEST(SyntheticTruth, FlowOfOccludedAndOutsidePixelsIsUnknown) {
                 EXPECT_FALSE(known(flow.at(x, y)));
                 continue;
             }
-            // Only points that lie behind all 3x3 pixels around them in the second view are tested.
-            // So the exact position of edges does not matter.
+            // Tests only points that are behind the surfaces of all 3x3 pixels around their
+            // position in the second view. So the exact position of edges does not matter.
             bool behind = true;
             for (int i = 0; i < 9; ++i) {
                 const int nx = std::clamp(px + i % 3 - 1, 0, 159);

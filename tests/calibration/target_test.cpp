@@ -78,8 +78,7 @@ Scene photograph(const cv::Mat1b& paper, double texels, cv::Point2d origin, bool
                  double turn) {
     const cv::Matx33d texelOfTarget{texels,   0, origin.x, 0, upwards ? -texels : texels,
                                     origin.y, 0, 0,        1};
-    // For `origin`, whole numbers are the edges of texels. For warpPerspective(), they are the
-    // centres of texels.
+    // Whole numbers are edges of texels in `origin`, but centres of texels in warpPerspective().
     const cv::Matx33d middle{1, 0, -0.5, 0, 1, -0.5, 0, 0, 1};
     const double c = std::cos(turn), s = std::sin(turn), w = paper.cols / 2., h = paper.rows / 2.;
     const double scale = 430. / paper.rows;

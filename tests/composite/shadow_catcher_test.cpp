@@ -110,7 +110,7 @@ TEST(ShadowCatcher, UnknownDistantAndOutsideDepthGivesNoSurface) {
     EXPECT_FALSE(none(plane, {-50, -50, 1000, 1000}));
 }
 
-/// A thing that stands on the plane z = 0 of `T_world_ground`.
+/// An object that stands on the ground, the plane z = 0 of the frame `T_world_ground`.
 SceneObject standingOn(const RigidTransform& T_world_ground, double x = 0) {
     auto model = std::make_shared<Model>();
     model->meshes.resize(1);
@@ -119,7 +119,8 @@ SceneObject standingOn(const RigidTransform& T_world_ground, double x = 0) {
     return {model, T_world_ground * RigidTransform{{1, 0, 0, 0}, {x, 0, 0}}, 1, T_world_ground};
 }
 
-/// The ground of a tag on a wall at y = 2 that faces -y, 1 m above the plane of the tag map.
+/// Frame of the ground (T_world_ground) for objects on a wall: its plane z = 0 is y = 2 in the
+/// world, and its z axis is -y of the world.
 RigidTransform wall() {
     Eigen::Matrix3d axes;
     axes << 1, 0, 0, 0, 0, -1, 0, 1, 0;
@@ -157,7 +158,7 @@ TEST(ShadowCatcher, LightOfAGlowingObjectReachesFarther) {
     lamp.materials[0].emission = {0, 0, 1};
     scene.objects[0].model = std::make_shared<const Model>(lamp);
     const float lit = planeCatcher(groundPlanes(scene)).positions.back().x();
-    // Nothing else lights the surface.
+    // The scene has no light but the lamp. So the glow has its longest reach.
     EXPECT_NEAR(lit - 0.05F, kMostGlowReach * (dark - 0.05F), 1e-5);
 }
 
@@ -218,7 +219,7 @@ TEST(ShadowCatcher, NoisyDepthOfAWallGivesAFlatShadowCatcher) {
     EXPECT_LT(off, static_cast<long>(c.positions.size()) / 50);
 }
 
-TEST(ShadowCatcher, PointsThatFitTwoPlanesLieOnTheNearest) {
+TEST(ShadowCatcher, PointsNearTwoPlanesAreMovedOntoTheNearerPlane) {
     const RigidTransform box{{1, 0, 0, 0}, {0, 0, 0.03}};
     const std::vector<GroundPlane> planes = {{{}, kThing}, {box, kThing}};
     const InverseDepthField field =

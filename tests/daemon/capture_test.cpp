@@ -52,7 +52,7 @@ std::string endOf(Capture& capture) {
         (void)capture.mailbox.tryTake();  // a frame may have arrived before the fault was noticed
         return capture.mailbox.over();
     };
-    if (!becomesTrue(isOver)) return "it does not end";
+    if (!becomesTrue(isOver)) return "the capture does not end";
     try {
         capture.thread->stop();
         capture.thread->join();

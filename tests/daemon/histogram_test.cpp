@@ -25,7 +25,7 @@ TEST(Histogram, QuantilesStayWithinTheBucketWidth) {
     }
 }
 
-TEST(Histogram, ASingleValueIsEveryQuantile) {
+TEST(Histogram, WithASingleValueEveryQuantileIsThisValue) {
     Histogram histogram;
     histogram.add(20);
     for (const double q : {0.0, 0.5, 0.99, 1.0})

@@ -43,7 +43,7 @@ TEST(PoseHistory, ASteadyMotionIsInterpolatedExactly) {
     }
 }
 
-TEST(PoseHistory, AtTheTimeOfAFrameThePoseIsThatOfTheFrame) {
+TEST(PoseHistory, AtTheTimeOfAFrameThePoseEqualsThePoseOfTheFrame) {
     PoseHistory history;
     for (int i = 0; i < 5; ++i)
         history.add(steady(i));

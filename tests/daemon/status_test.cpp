@@ -30,7 +30,7 @@ void showPictures(Stats& stats, int count) {
     }
 }
 
-TEST(Stats, RatesLatencyAndSharesAreThoseOfTheShownPictures) {
+TEST(Stats, RatesLatencyAndSharesAreComputedFromTheShownPictures) {
     Stats stats;
     showPictures(stats, 21);
     const Counted counted = stats.count(Timestamp::fromSeconds(11.05));

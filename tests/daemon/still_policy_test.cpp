@@ -77,7 +77,8 @@ TEST(StillPolicy, WithACameraAtRestTheTriggerFiresOnceEvenIfNoPixelMatchesTheSti
     EXPECT_EQ(board.run(600, frame(0, 0.01)), 1);
 }
 
-// The first frame is all new and fires the trigger. Its statistics arrive only after the trigger.
+// The first frame fires the trigger. Its statistics, by which all of the frame has changed, arrive
+// only after the trigger.
 TEST(StillPolicy, StatsOlderThanTheTriggerDoNotCountAsMotion) {
     Simulation board({});
     board.delay = kFrame;

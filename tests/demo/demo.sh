@@ -29,11 +29,11 @@ cat <<EOF
 
 In $out:
   comparison.png    upscaled video, result and truth, with a magnified detail
-  occlusion.png     a virtual ball behind real things: over everything, as composed, and truth
+  occlusion.png     a virtual ball behind real things: drawn over everything, mfar's result, truth
   virtual.png       a path traced jar on the desk, while the camera moves and at rest
   depth.png         depth of the desk, truth and error
-  confidence.png    how far each place of the still is trusted
+  confidence.png    confidence of the match of each video pixel
   tile_classes.png  which work each tile needed
   video.avi         what the daemon showed, at half size
-  summary.json      its numbers
+  summary.json      the daemon's times and counters
 EOF

@@ -11,19 +11,18 @@
 
 namespace mfar::demo {
 
-/// Means over the frames that have a true picture. Errors are errors of luma, without a border of
-/// 32 px.
+/// Means over the frames that have a true picture. The luma is compared, without a border of 32 px.
 struct Quality {
     int frames = 0;
     double upscaledPsnrDb = 0;
     double resultPsnrDb = 0;
     double upscaledSsim = 0;
     double resultSsim = 0;
-    /// Share of the pixels whose error is larger than that of the enlarged video by more than 2
-    /// grey levels.
+    /// Share of the pixels at which the result's error exceeds the error of the enlarged video by
+    /// more than 2 grey levels.
     double harmRate = 0;
-    double meanConfidence = 0;  ///< mean of the confidence, [0, 1]
-    double frameMs = 0;         ///< time until all work of the pipeline is finished
+    double meanConfidence = 0;  ///< [0, 1]
+    double frameMs = 0;         ///< time of a frame until the pipeline has finished all work
     std::array<double, kTileClasses> tileShares{};
 };
 
@@ -42,9 +41,9 @@ struct DemoRun {
     Shown last;
 };
 
-/// Runs the pipeline over the frames, each with the newest earlier still. `progress` gets the
-/// number of processed frames and of all frames. Needs a current GL context. Throws
-/// std::runtime_error if no frame of the recording has a true picture.
+/// Runs the pipeline on all frames. Each frame is matched with the newest still taken before it.
+/// `progress` gets the number of processed frames and of all frames. Needs a current GL context.
+/// Throws std::runtime_error if no frame of the recording has a true picture.
 [[nodiscard]] DemoRun runDemo(const Recording& recording,
                               const std::function<void(int, int)>& progress);
 

@@ -35,7 +35,7 @@ struct Request {
     fs::path video;       ///< Y4M written by the daemon; empty: none
     fs::path objects;     ///< configuration with objects; empty: none
     fs::path pathTraced;  ///< configuration with path-traced objects; empty: none
-    std::string scene;    ///< synthetic scene of the recording; source of true depth
+    std::string scene;    ///< name of the synthetic scene that the recording shows
 };
 
 void row(const std::string& what, const std::string& upscaled, const std::string& ours) {
@@ -77,7 +77,9 @@ auto shownBy(const mfar::ProgressPart& part) {
 void runObjects(const Request& request, const mfar::Recording& recording,
                 const mfar::ProgressPart& part) {
     const auto scene = mfar::synthetic::sceneNamed(request.scene);
-    if (!scene) throw std::runtime_error("unknown scene '" + request.scene + "'");
+    if (!scene)
+        throw std::runtime_error("--scene: unknown scene '" + request.scene +
+                                 "'; mfar-sim --help lists the scenes");
     const auto objects = mfar::placedShapes(mfar::loadConfig(request.objects).objects, {});
     const OcclusionRun run = mfar::demo::runOcclusion(recording, *scene, objects, shownBy(part));
     mfar::eval::savePicture(request.folder / "depth.png", mfar::demo::depthPicture(run));
@@ -88,7 +90,8 @@ void runObjects(const Request& request, const mfar::Recording& recording,
 void runPathTraced(const Request& request, const mfar::Recording& recording,
                    const mfar::ProgressPart& part) {
     if (!mfar::TracedLayer::isAvailable()) {
-        fmt::print("This build has no path tracer, so virtual.png is not written.\n");
+        fmt::print("virtual.png is not written, because this program was built without the path "
+                   "tracer (Debian: libembree-dev).\n");
         return;
     }
     const VirtualRun run =
@@ -98,7 +101,7 @@ void runPathTraced(const Request& request, const mfar::Recording& recording,
     row("path-tracer samples during motion", "", fmt::format("{}", run.moved.render.samples));
     row("path-tracer samples in total", "", fmt::format("{}", run.rested.render.samples));
     row("frames with a warped picture", "", fmt::format("{}", run.rested.warped));
-    row("pixels traced to fill gaps", "", fmt::format("{}", run.rested.answered));
+    row("pixels traced individually", "", fmt::format("{}", run.rested.answered));
 }
 
 void run(const Request& request) {
@@ -133,7 +136,7 @@ int main(int argc, char** argv) {
     app.add_option("FOLDER", request.folder, "folder to write the pictures into")->required();
     app.add_option("--video", request.video, "Y4M file to convert into FOLDER/video.avi");
     auto* scene =
-        app.add_option("--scene", request.scene, "name of the synthetic scene in the recording");
+        app.add_option("--scene", request.scene, "synthetic scene of mfar-sim that was recorded");
     app.add_option("--objects", request.objects,
                    "configuration file whose [[objects]] are drawn into the recording")
         ->needs(scene);

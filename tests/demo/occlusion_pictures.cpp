@@ -28,7 +28,7 @@ Range rangeOf(const cv::Mat& rho) {
     return {values[values.size() / 100], values[values.size() - 1 - values.size() / 100]};
 }
 
-/// Maps values from 0 to 1 to colours from blue to red (OpenCV's Turbo). Pixels with `known` = 0
+/// Maps `shares` from 0 to 1 to colours from blue to red (OpenCV's Turbo). Pixels with `known` = 0
 /// become grey.
 cv::Mat colours(const cv::Mat& shares, const cv::Mat& known) {
     cv::Mat levels, out;
@@ -57,8 +57,8 @@ void addScale(cv::Mat& canvas, cv::Point corner, const std::string& from, const 
     write(canvas, to, {corner.x + kLabel + ramp.cols + 12, corner.y + 18});
 }
 
-/// The window in which large hidden and large visible parts of the virtual object lie close
-/// together.
+/// Returns the window of detailSize() that contains many hidden and many visible pixels of the
+/// virtual object: the smaller of the two numbers is the largest of all windows.
 cv::Rect mostHidden(const OcclusionShown& shown) {
     const cv::Size window = detailSize(shown.composite.size());
     cv::Mat hidden, visible, both;

@@ -26,7 +26,8 @@ cv::Mat depthOf(const InverseDepthField& field) {
     return out;
 }
 
-/// Computes the pictures that a frame should show, and one with the objects drawn over everything.
+/// Makes two pictures of a frame: the true one, in which real surfaces occlude the objects, and one
+/// with the objects drawn over everything.
 class SceneTruth {
 public:
     SceneTruth(const Recording& recording, synthetic::Scene scene,
@@ -116,7 +117,8 @@ OcclusionRun runOcclusion(const Recording& recording, synthetic::Scene scene,
     }
     if (run.last.composite.empty())
         throw std::runtime_error(recording.root.string() +
-                                 ": the last frame has no true depth and picture");
+                                 ": the last frame needs a pose and the true pictures in "
+                                 "truth/inverse_depth and truth/highres");
     divideByFrames(run.quality);
     return run;
 }

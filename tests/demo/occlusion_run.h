@@ -15,9 +15,9 @@ namespace mfar::demo {
 struct OcclusionQuality {
     int frames = 0;
     double absrel = 0;        ///< median over the picture of |z - true z| / true z
-    double completeness = 0;  ///< share of the picture whose depth is known
+    double completeness = 0;  ///< share of the picture in which the pipeline knows the depth
     double overlap = 0;       ///< intersection over union of the shown and the truly visible object
-    double boundary = 0;      ///< mean distance between shown and true outline [video px]
+    double boundary = 0;      ///< mean distance of the shown outline from the true one [video px]
 };
 
 struct OcclusionShown {
@@ -33,9 +33,10 @@ struct OcclusionRun {
     OcclusionShown last;
 };
 
-/// Shows objects in a recording of a synthetic scene, with poses from its tags. Measures depth in
-/// the whole picture. `progress` gets the number of processed frames and of all frames. Needs a
-/// current GL context. Throws std::runtime_error if the last frame has no truth.
+/// Shows objects in a recording of a synthetic scene, with poses found from the scene's tags. Depth
+/// is computed in the whole picture, not only near objects. `progress` gets the number of processed
+/// frames and of all frames. Needs a current GL context. Throws std::runtime_error if the last
+/// frame has no true depth, pose or picture.
 [[nodiscard]] OcclusionRun runOcclusion(const Recording& recording, synthetic::Scene scene,
                                         const std::vector<VirtualObject>& objects,
                                         const std::function<void(int, int)>& progress);

@@ -17,7 +17,7 @@ void write(cv::Mat& canvas, const std::string& text, cv::Point leftBase);
 void place(cv::Mat& canvas, const cv::Mat& picture, cv::Point corner);
 [[nodiscard]] cv::Mat resized(const cv::Mat& picture, cv::Size size, int how);
 
-/// A picture and the caption above it. B G R; all panels have the same size.
+/// A picture (B G R) with the caption that is written above it.
 struct Column {
     std::string title;
     cv::Mat picture;

@@ -8,7 +8,8 @@
 
 namespace mfar::demo {
 
-/// Gives each still to the pipeline once: the newest still that was taken before the frame.
+/// Before each frame, feed() gives the pipeline the newest still that was taken before this frame.
+/// No still is given twice.
 class StillFeed {
 public:
     /// `poses`: poses of the stills; null: none. Both arguments must outlive this object.

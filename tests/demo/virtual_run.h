@@ -12,9 +12,9 @@ namespace mfar::demo {
 
 /// Pictures of path-traced objects in a recording, CV_8UC3, B G R, at output size.
 struct VirtualRun {
-    cv::Mat moving;   ///< the last frame: a traced picture, warped to its view
-    cv::Mat atRest;   ///< the same view after the camera rested, with all samples
-    cv::Rect region;  ///< contains the objects and their shadows [output px]
+    cv::Mat moving;   ///< last frame of the recording, with an older traced picture warped to it
+    cv::Mat atRest;   ///< same view, traced with all samples while the camera rested
+    cv::Rect region;  ///< bounding box of the objects and their shadows [output px]
     TracedLayerCounters moved, rested;
 };
 

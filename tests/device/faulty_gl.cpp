@@ -3,7 +3,7 @@
 // They may change at any time:
 //   never      no fence is signalled, and waiting for the GPU does not return
 //   hang       drawing does not return
-//   lost WORD  the current context is lost when these words appear: its calls do nothing and
+//   lost WORD  the current context is lost when the words become these: its calls do nothing and
 //              return zero; the next context works
 //   broken     every context is lost as soon as it is created
 // A test in the same process may also make it lose contexts, see faulty_moments.h.

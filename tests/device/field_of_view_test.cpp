@@ -24,7 +24,7 @@ TEST(FieldOfView, CroppedModesAreDetected) {
     EXPECT_FALSE(showsWholeField({1200, 1080}, {1920, 1080}, {640, 480}));
 }
 
-TEST(FieldOfView, EmptySizesShowNoFieldOfView) {
+TEST(FieldOfView, EmptySizesNeverShowTheWholeFieldOfView) {
     EXPECT_FALSE(showsWholeField({0, 0}, {4056, 3040}, {640, 480}));
     EXPECT_FALSE(showsWholeField({4056, 3040}, {0, 3040}, {640, 480}));
     EXPECT_FALSE(showsWholeField({4056, 3040}, {4056, 3040}, {640, -1}));

@@ -1,7 +1,8 @@
 #include "tests/device/pretended_counts.h"
 
-/// Reports to another library how the program used `camera`: its invalid pictures that were
-/// accepted, the gain that was set, and the number of pictures taken before that.
+/// Reports to another library how the program used `camera`: the numbers of invalid pictures that
+/// it accepted, the gain that it set, and the number of pictures that it took before it set the
+/// gain.
 // NOLINTNEXTLINE(readability-identifier-naming)
 extern "C" void mfar_pretended_known(const char* camera, std::uint64_t* broken,
                                      std::uint64_t* badTimes, std::int64_t* gain,

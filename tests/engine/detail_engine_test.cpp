@@ -148,8 +148,8 @@ void expectPicture(Rows<const std::uint32_t> drawn, F&& of, double most) {
                     << drawn.size.width << ": " << x << " " << y << " " << c;
 }
 
-// Tolerance [grey levels]: luma is rounded to 1/8 grey level. The limits of the residual are a
-// quarter of the difference between two luma values.
+// Tolerance [grey levels]: luma is rounded to 1/8 grey level, and so are the limits between which
+// twin::residualAt() clamps the enlarged luma.
 constexpr double kLearnedError = 1.3;
 
 TEST_P(DetailEngineTest, FramesEnlargedByFiltersMatchTheOracleWithAndWithoutAStill) {
@@ -226,8 +226,8 @@ TEST_P(DetailEngineTest, ChangedOrRemovedFiltersTakeEffectInTheNextFrame) {
     }
 }
 
-// All look-ups change, but only some tiles are drawn. These must equal tiles of a whole frame,
-// although their detail also depends on neighbouring tiles.
+// The still's position (look-up) of every cell changes, but only some tiles are drawn. The drawn
+// tiles must equal those of a whole frame, although their detail depends on neighbouring tiles too.
 void expectOnlyChangedTiles(const StepEngines& engines, const simd::Sizes& sizes,
                             const FilterBank* filters) {
     const auto& [video, stillSize, output] = sizes;
@@ -339,8 +339,9 @@ void expectNear(Rows<const std::uint32_t> a, Rows<const std::uint32_t> b, double
     EXPECT_LE(std::sqrt(squares / (3.0 * a.size.width * a.size.height)), rms) << a.size.width;
 }
 
-// The kernels average the warped still, the shaders the still itself. Both means are equal only if
-// the output is finer than the video.
+// Detail is the still minus its mean over each video pixel. The kernels compute this mean from the
+// warped still of the output's size, the shaders from the still itself. The two means are equal
+// only if the output is finer than the video; smaller outputs are left out.
 void expectTheSamePicture(const FilterBank* filters, double most, double rms) {
     for (const auto& [video, stillSize, output] : simd::kSizes) {
         if (2 * output.width < 3 * video.width) continue;
@@ -355,11 +356,11 @@ TEST_F(DetailEngines, BothEnginesDrawTheSamePicture) {
     expectTheSamePicture(nullptr, 4, 0.85);
 }
 
-TEST_F(DetailEngines, BothEnginesEnlargeByTheSameFilters) {
+TEST_F(DetailEngines, BothEnginesDrawTheSamePictureWithLearnedFilters) {
     expectTheSamePicture(&FilterBank::prior(), 4, 0.6);
 }
 
-TEST_F(DetailEngines, BothEnginesApplyTheSameGuidance) {
+TEST_F(DetailEngines, BothEnginesDrawTheSamePictureWithGuidance) {
     expectTheSamePicture(&simd::guidedBank(), 4, 0.6);
 }
 

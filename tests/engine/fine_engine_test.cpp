@@ -146,11 +146,11 @@ protected:
     }
 };
 
-TEST_F(FineEngines, TheCheckOfFinestDetailMatchesTheOracleOnTheHost) {
+TEST_F(FineEngines, SimdFineCheckMatchesTheOracle) {
     expectTheOracles(onHost);
 }
 
-TEST_F(FineEngines, TheCheckOfFinestDetailMatchesTheOracleOnTheGpu) {
+TEST_F(FineEngines, GlesFineCheckMatchesTheOracle) {
     expectTheOracles(onGpu);
 }
 

@@ -92,8 +92,8 @@ Difference differenceOf(const std::vector<Cell>& gl, Rows<const FlowCell> host) 
     return d;
 }
 
-// Where a step hardly changes the cost, rounding decides about the step. So some cells may end at
-// other vectors of the same cost.
+// If a candidate vector or a Gauss-Newton step hardly changes a cell's cost, rounding decides
+// whether the search accepts it. So a few cells may get different vectors of the same cost.
 void expectAlike(const Difference& d, double leastClose) {
     EXPECT_GT(d.close, leastClose);
     EXPECT_LT(d.median, 0.003);

@@ -29,7 +29,7 @@ inline SharedContext* const kSharedContext = [] {
     return out;
 }();
 
-/// A test in which the shared context is current. Its end checks the GL error state.
+/// A test in which the shared context is current. TearDown() expects that GL has no error.
 class GlTest : public testing::Test {
 protected:
     static GlContext& context() { return kSharedContext->context(); }

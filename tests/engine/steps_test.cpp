@@ -131,7 +131,7 @@ TEST_P(StepsTest, FinestDetailOfTheStillIsAmplifiedUnlessTheStillIsReduced) {
         }
 }
 
-TEST_P(StepsTest, LumaOfAStillIsThatOfItsColoursInAnyFormat) {
+TEST_P(StepsTest, LumaOfAStillIsCorrectInEveryPixelFormat) {
     const StereoRig rig = plainRig({50, 35}, {200, 140});
     for (const PixelFormat format : {PixelFormat::Rgba8, PixelFormat::Bgra8, PixelFormat::Gray8}) {
         const bool isGrey = format == PixelFormat::Gray8;
@@ -152,7 +152,7 @@ TEST_P(StepsTest, LumaOfAStillIsThatOfItsColoursInAnyFormat) {
     }
 }
 
-TEST_P(StepsTest, TheToneCurveOfTheStillIsInItsLumaPyramidAndDetail) {
+TEST_P(StepsTest, TheToneCurveIsAppliedToTheStillsLumaPyramidAndDetail) {
     StillTone tone;
     for (std::size_t i = 0; i < tone.levels.size(); ++i)
         tone.levels[i] = static_cast<std::uint8_t>(40 + i * i / 400);

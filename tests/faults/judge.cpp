@@ -253,7 +253,7 @@ void Judge::logSays(std::string_view text) {
     logBytes_ += text.size();
     std::string all(text.substr(0, text.find_last_not_of('\n') + 1));
     note("log: " + std::regex_replace(all, std::regex("\n"), "\n             log: "));
-    // At the end, mfard also logs suppressed messages.
+    // While mfard ends, it logs the repetitions that it held back. They are no fault.
     if (isEnding() || all.find("mfard.toml") != all.npos) return;
     // The message without its duration and without the number of suppressed messages.
     const std::string event =

@@ -69,7 +69,8 @@ constexpr std::array kKinds = {
 };
 constexpr std::size_t kOfGpu = 3;
 
-/// Two overlapping faults of this length end before the watchdog stops mfard.
+/// Longest duration of a fault of the GPU. Even two such faults that overlap end before the
+/// watchdog stops mfard.
 constexpr Ns kLongestOfGpu = 3300 * kMs;
 
 /// Longest time from the start to READY if mfard does not wait [ns on the simulated clock]. Each

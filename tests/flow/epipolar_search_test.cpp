@@ -46,9 +46,9 @@ EpipolarSearch searched(const View& view, int threads = 2) {
     return search;
 }
 
-// Upper limits of the median error [px]. Each cost belongs to the nearest pixel. The search
-// corrects this pixel's distance along the line but not its distance from the line. Results are
-// also biased towards pixel centres.
+// Upper limits of the median error [px]. The cost of a point on the epipolar line is that of the
+// nearest still pixel. The search corrects the pixel's distance along the line but not its distance
+// from the line. Results are also biased towards pixel centres.
 constexpr double kAcross = 0.38, kAlongAxis = 0.22;
 
 void expectErrors(const View& view, double median, double bad) {

@@ -47,7 +47,7 @@ using mfar::viewOf;
 
 [[nodiscard]] EpipolarSearch searchWith(const CameraModel& camera, int threads);
 
-/// The position in the still at which a search finds a pixel of the frame.
+/// Position in the still at which `search` found pixel (x, y) of the frame.
 [[nodiscard]] Eigen::Vector2d landing(const EpipolarSearch& search, const View& view, int x, int y);
 
 /// Errors of the flow that a search found [px], over the pixels that are visible in the still.

@@ -42,7 +42,7 @@ double greyScene(int x, int y) {
     return grey;
 }
 
-TEST(LumaOf, RgbaIsRec601WithinRounding) {
+TEST(LumaOf, LumaOfRgbaMatchesRec601WithinRounding) {
     std::mt19937 random(2);
     std::uniform_int_distribution<int> byte(0, 255);
     constexpr Size kSize{23, 11};
@@ -62,7 +62,7 @@ TEST(LumaOf, RgbaIsRec601WithinRounding) {
     }
 }
 
-TEST(LumaOf, BgraIsRgbaWithRedAndBlueExchanged) {
+TEST(LumaOf, BgraGivesTheLumaOfRgbaWithRedAndBlueExchanged) {
     const test::PaddedPicture picture(PixelFormat::Bgra8, {22, 14}, 3);
     LumaImage luma;
     lumaOf(picture.view(), luma);

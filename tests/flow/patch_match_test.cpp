@@ -95,7 +95,7 @@ TEST(PatchMatcher, AmbiguousMatchesAreRefused) {
     EXPECT_TRUE(matcher.find(place, {place.middle(), {1, 0}, 2, 2}));
 }
 
-TEST(PatchMatcher, PatchesInUniformOrUnseenPicturesAreRefused) {
+TEST(PatchMatcher, PatchesInUniformPicturesOrWithoutValidPixelsAreRefused) {
     const LumaImage from = drawn({60, 50}, waves);
     const auto seen = allSeen(from);
     const PatchPlace place{25, 21};

@@ -30,7 +30,8 @@ Problem randomProblem(Size size, int vectors, int reach, unsigned seed, int grea
     for (std::uint8_t& v : p.guide.pixels)
         v = static_cast<std::uint8_t>(upTo(3) == 0 ? upTo(255) : 100 + upTo(10));
     for (std::size_t i = 0; i < p.guide.pixels.size(); ++i) {
-        // As in the search, windows move rarely. A window moves by up to the whole reach.
+        // `base` is the first label of a pixel's window of labels. As in the search, it seldom
+        // differs between neighbouring pixels.
         const int moved = upTo(2 * reach) - reach;
         p.base.push_back(static_cast<std::int16_t>(i > 0 && upTo(2) > 0 ? p.base.back() : moved));
         for (int k = 0; k < p.labels(); ++k)

@@ -92,8 +92,8 @@ Agreement compare(const CameraModel& camera, const Eigen::Matrix3d& rotation,
     return out;
 }
 
-/// Number of pixels outside the canvas that show the picture. Counts pixels in the camera's own
-/// frame and up to `beyond` around it.
+/// Number of pixels of the rotated camera that show the source picture but lie outside the canvas.
+/// Samples every third pixel of the camera's frame, widened by kBeyond picture widths on each side.
 int leftOff(const CameraModel& camera, const Eigen::Matrix3d& rotation, const Canvas& canvas) {
     const int reach = static_cast<int>(kBeyond * camera.size.width) - 1;
     const auto [ox, oy] = canvas.placed.origin();

@@ -1,6 +1,7 @@
-// Fuzzes the state of the learned filters. An input edits a valid file. Two bytes select a position
-// (in 64ths of the file, plus an offset). The third byte is the number of new bytes that follow.
-// Then the checksum is corrected, because otherwise every input would be refused.
+// Fuzzes the state of the learned filters. The input is a list of edits of a valid file. In each
+// edit, two bytes select a position (in 64ths of the file, plus an offset). The third byte is the
+// number of following bytes that replace those at the position; 0 truncates the file there. Then
+// the checksum is corrected, because otherwise every input would be refused.
 #include "pipeline/enlarge/enlarger_learner.h"
 #include "pipeline/enlarge/filter_bank.h"
 #include "pipeline/enlarge/stored_numbers.h"

@@ -4,7 +4,7 @@
 
 namespace mfar::test {
 
-/// Throws std::runtime_error for a model that does not satisfy scene.h.
+/// Throws std::runtime_error if the model violates a rule that scene.h states.
 void requireSoundModel(const Model& model);
 
 }  // namespace mfar::test

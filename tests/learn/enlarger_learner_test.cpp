@@ -43,7 +43,7 @@ bool sameFilters(const FilterBank& a, const FilterBank& b) {
     return true;
 }
 
-TEST(EnlargerLearner, FirstFiltersAreTheShippedFilters) {
+TEST(EnlargerLearner, BeforeTheFirstStillTheFiltersAreTheShippedOnes) {
     const EnlargerLearner learner;
     EXPECT_TRUE(sameFilters(*learner.filters(), FilterBank::prior()));
     EXPECT_EQ(learner.counts().classes, 0);
@@ -76,7 +76,7 @@ TEST(EnlargerLearner, ExposureAndGammaOfTheStillAreNotLearned) {
     EXPECT_LT(other, 1.05 * same);
 }
 
-TEST(EnlargerLearner, SubPixelLookUpErrorsAreCorrected) {
+TEST(EnlargerLearner, MatchesOffByAFifthOfAPixelHardlyRaiseTheError) {
     const SensorPair pair{.videoBlur = 1};
     SensorPair off = pair;
     off.shift = 0.2;

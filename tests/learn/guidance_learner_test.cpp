@@ -9,8 +9,8 @@
 namespace mfar::enlarge {
 namespace {
 
-/// The two matches from which guidance is learned. `truth` is a noisy video of discs with a sharp
-/// new still. `older` is the same video with the noisy older still with which it was drawn.
+/// Two matches of the same noisy video, from which guidance is learned. In `truth`, the video is
+/// matched with a new still without noise. In `older`, it is matched with an older, noisy still.
 struct Stills {
     Stills(double videoNoise, double olderNoise, unsigned seed, SensorPair how = {}) {
         const twin::Grey sharp = sharpDiscs(seed);
@@ -39,7 +39,8 @@ TEST(GuidanceLearner, GuidanceIsZeroBeforeTheFirstStill) {
 }
 
 TEST(GuidanceLearner, FindsTheBestWeightsForNoisyVideoAndStill) {
-    // The still is averaged over a video pixel, which leaves a quarter of its noise.
+    // A video pixel is the mean of 4x4 still pixels, so the variance of their noise is divided
+    // by 16.
     for (const auto& [video, still] : {std::pair{4.0, 0.0}, {4.0, 8.0}, {4.0, 16.0}}) {
         const double best = video * video / (video * video + still * still / 16);
         const GuidanceLearner learner = learned(video, still);
@@ -111,7 +112,7 @@ TEST(GuidanceLearner, UnusablePicturesAreIgnored) {
     EXPECT_EQ(learner.stored(), before);
 }
 
-TEST(GuidanceLearner, FewInfiniteLookUpsHaveLittleInfluence) {
+TEST(GuidanceLearner, FewCellsWithInfinitePositionsHaveLittleInfluence) {
     GuidanceLearner learner;
     for (unsigned i = 1; i <= 3; ++i) {
         Stills of(4, 8, i);

@@ -15,12 +15,13 @@ struct SensorPair {
     double gain = 1, gamma = 1;  ///< exposure and tone curve of the still
     /// Blur of the still: number of passes of (1 2 1)/4 along both axes.
     int stillBlur = 0;
-    double shift = 0;  ///< error of all positions in the still [video px]
+    double shift = 0;  ///< error in x of all matched positions in the still [video px]
     double weight = 1, confidence = 1;
     unsigned seed = 1;
 };
 
-/// Random discs, with edges in all directions. The picture has four times the size of the video.
+/// Random discs, with edges in all directions. The sides of the picture are four times as long as
+/// those of the video.
 [[nodiscard]] twin::Grey sharpDiscs(unsigned seed, Size video = {256, 192});
 /// Returns the frame that the video sensor takes of `sharp`, in whole grey levels.
 [[nodiscard]] twin::Grey videoOf(const twin::Grey& sharp, const SensorPair& pair);
@@ -37,8 +38,8 @@ void showReplacedTo(MatchListener& listener, const twin::Grey& sharp, const twin
     return matchedPictures(sharp, sharp, pair);
 }
 
-/// Mean squared error of a video enlarged with these filters [grey levels^2]. Null: with Keys'
-/// cubic.
+/// Mean squared error of the video after enlarging with the filters of `bank` [grey levels^2]. If
+/// `bank` is null, Keys' cubic enlarges it.
 [[nodiscard]] double enlargingError(const twin::Grey& sharp, const SensorPair& pair,
                                     const FilterBank* bank);
 

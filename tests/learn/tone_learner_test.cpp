@@ -30,7 +30,7 @@ void expectUndoes(const StillTone& tone, const SensorPair& pair) {
         EXPECT_NEAR(tone.levels[std::size_t(std::lround(shownBy(pair, level)))], level, 5) << level;
 }
 
-/// Pictures whose still already has the tone curve `tone`.
+/// Matched pictures whose still was already corrected with the tone curve `tone`.
 MatchedPictures toned(const SensorPair& pair, const StillTone& tone) {
     MatchedPictures out = matchedPictures(sharpDiscs(1), pair);
     for (int y = 0; y < out.still.size().height; ++y)
@@ -40,7 +40,7 @@ MatchedPictures toned(const SensorPair& pair, const StillTone& tone) {
     return out;
 }
 
-TEST(ToneLearner, SensorsOfEqualExposureKeepTheStillAsItIs) {
+TEST(ToneLearner, EqualExposureGivesTheIdentityCurve) {
     EXPECT_TRUE(ToneLearner().tone().isIdentity());
     EXPECT_TRUE(FilterBank::prior().tone().isIdentity());
     EXPECT_TRUE(afterOneStill({.videoNoise = 2}).tone().isIdentity());
@@ -51,7 +51,7 @@ TEST(ToneLearner, FindsTheCurveFromTheStillToTheVideo) {
         expectUndoes(afterOneStill(pair).tone(), pair);
 }
 
-TEST(ToneLearner, BrighterPixelsOfTheStillStayBrighter) {
+TEST(ToneLearner, TheLearnedCurveNeverFalls) {
     ToneSums sums;
     for (const auto& [still, video] : {std::pair{40, 90}, {100, 60}, {200, 150}})
         sums.add(still, video, 1000);
@@ -62,7 +62,7 @@ TEST(ToneLearner, BrighterPixelsOfTheStillStayBrighter) {
     EXPECT_FALSE(learner.tone().isIdentity());
 }
 
-TEST(ToneLearner, AStillWithTheRightCurveChangesNothing) {
+TEST(ToneLearner, StillsCorrectedWithTheLearnedCurveDoNotChangeIt) {
     ToneLearner learner = afterOneStill(kDarker);
     const StillTone first = learner.tone();
     for (int i = 0; i < 4; ++i)

@@ -48,8 +48,8 @@ TEST(EnvironmentMap, UncompressedPixelsAreRead) {
 }
 
 TEST(EnvironmentMap, NewAndOldRunLengthEncodingsAreRead) {
-    // Four rows of eight pixels, split into components. R is a run, G is uncompressed, B and E are
-    // runs.
+    // Four rows of eight pixels in the new format, which stores R, G, B and E of a row one after
+    // the other. R, B and E are run-length encoded, G is not.
     Bytes rows;
     for (int y = 0; y < 4; ++y) {
         const auto level = static_cast<std::uint8_t>(10 * y);

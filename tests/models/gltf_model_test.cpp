@@ -206,7 +206,7 @@ TEST(GltfModel, AModelWithoutMotionHasNoNotes) {
     EXPECT_TRUE(modelOf(richModel()).notes.empty());
 }
 
-TEST(GltfModel, MotionThatIsNotShownIsNotedWithItsPlace) {
+TEST(GltfModel, SkinsAndMorphTargetsAreNotedWithTheirPathInTheFile) {
     GltfMaker maker = richModel();
     maker.root["skins"] = {{{"joints", {0}}}};
     nlohmann::json& part = maker.root["meshes"][0]["primitives"][0];

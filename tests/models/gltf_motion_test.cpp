@@ -57,7 +57,8 @@ TEST(GltfMotion, ScalesAboveAndBelowAMovingNodeAreKept) {
     maker.root["scenes"][0]["nodes"] = {1};
     const Model model = modelOf(maker);
     EXPECT_TRUE(model.notes.empty());
-    // glTF: (0, 10, 0) + 2 ((1, t / 2, 0) + (1, 3, 1) (0, 1, 0)); z of the model is y of glTF.
+    // In glTF's axes, the vertex is at (0, 10, 0) + 2 ((1, t / 2, 0) + (1, 3, 1) (0, 1, 0)), where
+    // (a) (b) is the product of components. The model's z is glTF's y.
     expectNear(vertexAt(model, 0, 2, 0), {2, 0, 16});
     expectNear(vertexAt(model, 0, 2, 2), {2, 0, 18});
 }
@@ -90,7 +91,7 @@ TEST(GltfMotion, StepsAndSplinesAreRead) {
     expectNear(vertexAt(modelOf(spline), 0, 0, 1), {4 + 2.0 / 8 * 4, 0, 0});
 }
 
-TEST(GltfMotion, WhatIsNotPlayedIsNotedOnce) {
+TEST(GltfMotion, AnimationsThatAreNotPlayedAreNotedOnce) {
     GltfMaker maker = oneTriangle();
     maker.animate(0, "scale", {0, 1}, {1, 1, 1, 2, 2, 2});
     maker.animate(0, "scale", {0, 1}, {1, 1, 1, 2, 2, 2});
@@ -100,7 +101,7 @@ TEST(GltfMotion, WhatIsNotPlayedIsNotedOnce) {
     EXPECT_EQ(model.notes,
               (std::vector<std::string>{
                   "test.glb: animations[1]: only the first animation is played",
-                  "test.glb: animations[0].channels[0]: scales do not change over time"}));
+                  "test.glb: animations[0].channels[0]: changes of the scale are not played"}));
 }
 
 TEST(GltfMotion, ANodeBelowAnUnequalScaleRests) {
@@ -110,8 +111,8 @@ TEST(GltfMotion, ANodeBelowAnUnequalScaleRests) {
     const Model model = modelOf(maker);
     EXPECT_TRUE(model.paths.empty());
     EXPECT_EQ(model.notes, std::vector<std::string>{
-                               "test.glb: nodes[0]: the node rests, because a parent scales it "
-                               "unequally or mirrors it"});
+                               "test.glb: nodes[0]: the node does not move, because a parent "
+                               "scales it unequally or mirrors it"});
 }
 
 TEST(GltfMotion, OnlySixteenNodesMove) {

@@ -56,8 +56,9 @@ inline PatchMatch comparePatch(const Grey& a, const Grey& b, int cx, int cy, Eig
     return matchPatch(a, cx, cy, vb);
 }
 
-/// Like comparePatch(), but the flow changes by `dx` and `dy` per pixel. Groups of `span`
-/// neighbouring pixels in a row share one sub-pixel position.
+/// Like comparePatch(), but the flow changes by `dx` per pixel along x and by `dy` along y. As in
+/// the tested code, the whole-pixel position in `b` is computed once for each group of `span`
+/// pixels in a row; within a group, `dx` only changes the interpolation weights.
 inline PatchMatch compareBentPatch(const Grey& a, const Grey& b, int cx, int cy,
                                    const Eigen::Vector2d& u, const Eigen::Vector2d& dx,
                                    const Eigen::Vector2d& dy, int span = 4) {

@@ -12,14 +12,15 @@
 /// Oracles of measureTiles(), markDrifted() and markBeside(), which find the tiles that changed.
 namespace mfar::twin {
 
+/// Measures of a tile. "Difference" is the new picture minus the picture that was drawn last.
 struct TileChange {
     /// For each cell, row by row: absolute value of the mean difference, and mean of the absolute
     /// difference. Each is the largest value over the channels.
     std::array<double, 16> mean{}, absolute{};
     double cellNoise = 0;
     double noise = 0;  ///< standard deviation of the luma's noise [grey levels]
-    /// Sum of the squared mean and the squared slopes of the difference, divided by their variance.
-    /// Maximum over the channels.
+    /// Squared mean plus squared slopes of the cells' mean differences, divided by the variance
+    /// that noise gives them. Maximum over the channels.
     double moments = 0;
     /// Mean squares of three measures of the luma's difference: twist() of pixels, scaled 2x2
     /// means, and scaled twist() of 2x2 means. For white noise, each equals the variance of a
@@ -170,8 +171,8 @@ struct ChangeBounds {
     }
 };
 
-/// Sums the differences of tiles that have not surely changed. All of them count as changed if
-/// beyondNoise() is above 0.
+/// Sums TileChange::energy over the tiles in which no cell exceeds the ChangeBounds. If the sum is
+/// larger than noise explains, all these tiles count as changed.
 class Drift {
 public:
     void add(const TileChange& t) {
@@ -179,6 +180,8 @@ public:
         pixels_ += t.energy[0];
         means_ += t.energy[1];
     }
+    /// Above 0 if the added tiles count as changed. `grain`: ratio of the noise's energy in 2x2
+    /// means (energy[1]) to that in pixels (energy[0]).
     [[nodiscard]] double beyondNoise(double grain = 1) const {
         const double room = std::max(5 * 0.27 / std::sqrt(std::max(tiles_, 1)), 0.03);
         return means_ - (1 + room) * grain * pixels_ - 0.01 * tiles_;
@@ -189,7 +192,7 @@ private:
     double pixels_ = 0, means_ = 0;
 };
 
-/// True if a surely changed cell of tile (x, y) is next to tile (i, j).
+/// True if a cell of tile (x, y) that exceeds `bounds` is inside tile (i, j) or next to it.
 inline bool reaches(const TileChange& t, const ChangeBounds& bounds, int x, int y, int i, int j) {
     for (int cell = 0; cell < 16; ++cell) {
         const int column = 4 * x + cell % 4, row = 4 * y + cell / 4;

@@ -27,7 +27,7 @@ struct Cells {
     }
 };
 
-/// Confidence by eq. 2 of the paper, with lambda(x) = min(x, 1).
+/// Confidence by eq. 2 of the paper (see docs/paper.md), with lambda(x) = min(x, 1).
 inline double confidence(const Eigen::Vector2d& forward, const Eigen::Vector2d& backward,
                          double alpha) {
     return 1 - std::min((forward + backward).norm() / alpha, 1.0);

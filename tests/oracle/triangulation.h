@@ -64,7 +64,8 @@ struct Midpoint {
     bool ahead;
 };
 
-/// The paper's method: the midpoint of the shortest line between the rays of both pixels.
+/// The method of the paper (see docs/paper.md): returns the midpoint of the shortest line between
+/// the rays of both pixels.
 inline Midpoint midpoint(const TwoViews& views, const Eigen::Vector2d& pixel,
                          const Eigen::Vector2d& flow) {
     const Eigen::Vector3d c = views.T_b_a.inverse().translation;

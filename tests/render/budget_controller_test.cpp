@@ -17,8 +17,8 @@ constexpr double kBudget = 4;  // [ms] of processor time per frame
 
 using CostTrace = std::function<double(int frame)>;
 
-/// Runs a tracer with endless work and returns the time used in each frame. A portion has at most
-/// `tile` samples.
+/// Simulates a tracer that always has work. Each grant is used for at most `tile` samples, which
+/// take cost(frame) [ms] each. Returns the time used in each frame [ms].
 std::vector<double> usedIn(BudgetController& budget, int frames, int tile, const CostTrace& cost) {
     std::vector<double> used;
     for (int frame = 0; frame < frames; ++frame) {
@@ -172,7 +172,7 @@ TEST(BudgetController, LaterFramesRepayAPictureConversionInSmallParts) {
             used.push_back(budget.used());
         }
     }
-    EXPECT_EQ(framesOff(used, 0.1), 10) << "only the frames with a conversion are off";
+    EXPECT_EQ(framesOff(used, 0.1), 10) << "only frames with a conversion may miss their budget";
     EXPECT_NEAR(meanShare(used), 1, 0.01);
     budget.beginFrame(true);
     EXPECT_LE(budget.kept().deviation, 0.1);

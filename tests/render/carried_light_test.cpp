@@ -43,7 +43,7 @@ TEST(CarriedLight, FirstPictureNeedsOneSamplePerSixteenPixels) {
         // The first picture has the id of the object at the pixel's centre. Later samples may also
         // hit a neighbouring object.
         if (first.id[i] == 0 || first.id[i] == kCatcherId || last.id[i] == kCatcherId) continue;
-        ASSERT_EQ(first.id[i], last.id[i]) << "object pixels do not change";
+        ASSERT_EQ(first.id[i], last.id[i]) << "a pixel must keep its object";
     }
     const auto objectsOf = [](const RenderedPicture& p) {
         return std::ranges::count_if(p.id, [](int id) { return id != 0 && id != kCatcherId; });
@@ -74,7 +74,7 @@ TEST(CarriedLight, NewPictureIsShownWhenItHasEnoughSamples) {
     driver.settle();
     const std::size_t before = driver.shown.size();
     driver.look(23);
-    EXPECT_FALSE(driver.step()) << "the picture suffices for this view";
+    EXPECT_FALSE(driver.step()) << "the shown picture must suffice for this view";
     driver.look(26);
     driver.untilShown(before + 1);
     EXPECT_GT(driver.shown.back().samples, 4)

@@ -56,7 +56,7 @@ RenderView ofGround(const Eigen::Vector3d& point) {
 }
 
 struct Estimate {
-    double mean = 0, deviation = 0;  ///< over pixels
+    double mean = 0, deviation = 0;  ///< mean and standard deviation of the pixels' luminances
     double error() const { return deviation / 16; }
 };
 
@@ -262,7 +262,8 @@ std::vector<Case> lampCases() {
     return cases.take();
 }
 
-// Paths that find lamps by chance use none of the code that draws triangles.
+// The expected light is that of paths that hit lamps by chance. They use none of the code that
+// samples a lamp's triangles.
 TEST(Emission, SampledLampsGiveTheSameLightAsLampsHitByChance) {
     for (const Case& c : lampCases()) {
         const Estimate expected = estimateOf(c.scene, c.view, 512, byChance());

@@ -27,7 +27,7 @@ EmissiveTriangles::Sample sampleOf(const EmissiveTriangles& emitters, const Eige
 }
 
 // The mean of 1 / density over the samples is the solid angle that they cover.
-TEST(EmissiveTriangles, DensityIsThatOfTheSampledDirections) {
+TEST(EmissiveTriangles, MeanInverseDensityIsTheSolidAngleOfTheTriangles) {
     const TracedScene scene(sceneOf(modelOf(square(1, 0), lampOf({1, 1, 1}))), 1);
     const EmissiveTriangles emitters(scene);
     ASSERT_FALSE(emitters.dark());
@@ -46,7 +46,7 @@ TEST(EmissiveTriangles, DensityIsThatOfTheSampledDirections) {
     }
 }
 
-TEST(EmissiveTriangles, RaysFindTheDensityOfTheSample) {
+TEST(EmissiveTriangles, DensityOfARayEqualsTheDensityOfItsSample) {
     for (const bool doubleSided : {false, true}) {
         Model model = modelOf(sphere({0, 0, 0}, 0.5F, 12), lampOf({1, 2, 3}));
         model.materials[0].doubleSided = doubleSided;
@@ -63,7 +63,7 @@ TEST(EmissiveTriangles, RaysFindTheDensityOfTheSample) {
             ++seen;
             EXPECT_NEAR(emitters.density(sample.ray, hit) / sample.density, 1, 1e-3F);
         }
-        // Less than half of the sphere faces the point. Its rest is drawn if its back emits, too.
+        // Less than half of the sphere faces the point. The rest is sampled only if double-sided.
         EXPECT_NEAR(seen, 320, 30);
         EXPECT_NEAR(sampled, doubleSided ? 1000 : seen, 2);
     }
@@ -88,7 +88,7 @@ TEST(EmissiveTriangles, ProbabilityIsProportionalToPower) {
         EXPECT_NEAR(static_cast<float>(drawn[i]) / kCount, power[i] / (16 + power[2]), 0.003F) << i;
 }
 
-TEST(EmissiveTriangles, PowerOfATexturedTriangleIsThatOfItsMeanTexel) {
+TEST(EmissiveTriangles, PowerOfATexturedTriangleFollowsFromItsMeanTexel) {
     // The left square shows the texture's white texel, the right one only the black one.
     Material lamp = lampOf({1, 1, 1});
     lamp.emissionTexture = 0;
@@ -114,7 +114,7 @@ TEST(EmissiveTriangles, PowerOfATexturedTriangleIsThatOfItsMeanTexel) {
     EXPECT_NEAR(static_cast<float>(drawn[2]) / static_cast<float>(drawn[0]), 0.25F, 0.02F);
 }
 
-TEST(EmissiveTriangles, TrianglesWithoutAreaOrEmissionAreNotDrawn) {
+TEST(EmissiveTriangles, TrianglesWithoutAreaOrEmissionAreNotSampled) {
     Mesh mesh = square(1, 0);
     mesh.positions.push_back({0, 0, 0});
     mesh.triangles.push_back({4, 4, 4});
@@ -131,7 +131,7 @@ TEST(EmissiveTriangles, TrianglesWithoutAreaOrEmissionAreNotDrawn) {
     EXPECT_TRUE(EmissiveTriangles(black).dark());
 }
 
-TEST(EmissiveTriangles, PointsOnTheTrianglesPlaneAreNotSampled) {
+TEST(EmissiveTriangles, TrianglesAreNotSampledFromAPointOnTheirPlane) {
     const TracedScene scene(sceneOf(modelOf(square(1, 0), lampOf({1, 1, 1}))), 1);
     const EmissiveTriangles emitters(scene);
     for (const Eigen::Vector3f& from :

@@ -235,7 +235,7 @@ TEST(Film, UnusedPixelsReserveNoMemory) {
     EXPECT_LT(addressSpace() - before, std::size_t{64} << 20);
 }
 
-TEST(Film, NextPictureUsesTheMemoryOfTheOneBefore) {
+TEST(Film, NextPictureReusesTheMemoryOfThePreviousPicture) {
     const std::shared_ptr<FilmMemory> memory = Film::makeMemory();
     Film film({256, 256}, memory);
     for (std::uint32_t i = 0; i < 65536; ++i)
@@ -250,7 +250,7 @@ TEST(Film, NextPictureUsesTheMemoryOfTheOneBefore) {
     {
         const Film moved = std::move(film);
     }
-    EXPECT_EQ(memory->ready(), all) << "a film's end gives its blocks back";
+    EXPECT_EQ(memory->ready(), all) << "a film's destructor must return its blocks";
 }
 
 TEST(Film, PixelsOfProvidedMemoryCauseNoPageFaults) {
@@ -273,7 +273,7 @@ TEST(Film, PixelsOfProvidedMemoryCauseNoPageFaults) {
     EXPECT_LE(faults() - before, 20) << "32 MB are 8000 small pages or 16 large ones";
 }
 
-TEST(Film, ThreadsMayUsePixelsOfOneBlock) {
+TEST(Film, SeveralThreadsCanWritePixelsOfOneBlockAtTheSameTime) {
     for (int round = 0; round < 20; ++round) {
         Film film({64, 64});
         std::vector<std::jthread> threads;

@@ -1,5 +1,5 @@
-// The first picture of a scene comes early, because its memory is provided before and the threads
-// get more time.
+// Two things make the first picture of a scene early: the renderer's threads allocate the memory
+// before they trace, and may use more time.
 #include "pipeline/slices/traced_renderer.h"
 #include "tests/render/picture_driver.h"
 #include "tests/render/still_life.h"
@@ -37,7 +37,7 @@ TEST(FirstPicture, MemoryIsProvidedOncePerScene) {
     }
     const std::size_t used = provided - memory->ready();
     EXPECT_GT(used, 100U);
-    EXPECT_LE(2 * used, provided) << "the next picture's memory is provided, too";
+    EXPECT_LE(2 * used, provided) << "memory for the next picture must be provided too";
     pictures.setScene(preparedStillLife(2, 1));
     pictures.look(view, view, {});
     EXPECT_TRUE(pictures.lacksMemory());
@@ -57,8 +57,8 @@ TEST(FirstPicture, ObjectsOutOfViewNeedNoMemory) {
     EXPECT_LT(memory->ready(), 20000U);
 }
 
-// A picture uses at most half of the memory that is provided. If none is provided, a film takes
-// pieces of a few blocks when it needs them, and nearly no unused memory is left.
+// If the memory was provided before, at least half of it is unused after the first picture. If not,
+// the film allocates a few blocks whenever it needs some; then almost no unused memory is left.
 TEST(FirstPicture, ThreadsOfTheRendererProvideItsMemory) {
     const std::shared_ptr<FilmMemory> expected = Film::makeMemory(), piece = Film::makeMemory();
     TracedPictures pictures(kThirtyTwo, kProduct, expected);

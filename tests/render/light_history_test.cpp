@@ -63,7 +63,7 @@ KnownLight lightFrom(const Film& film, double x, double y,
 }
 
 TEST(LightHistory, WhereEveryPixelWasSampledItInterpolatesBetweenAdjacentPixels) {
-    // The light of a single pixel is changed. It must count for points less than a pixel away.
+    // One pixel has another light. It must affect only points less than a pixel away.
     Film film = filmOf([](int, int) { return true; });
     KnownLight bright = lightAt(6, 4);
     bright.second *= 2;
@@ -91,7 +91,8 @@ TEST(LightHistory, AtTheLastColumnAndRowOfASparsePictureTheNearestPixelsSuffice)
 }
 
 TEST(LightHistory, BetweenSparseAndFullPixelsTheSampledPixelsAreUsed) {
-    // Tiles at objects have all pixels, other tiles a quarter.
+    // As in a sparse picture: tiles at objects (left) have light in all pixels, others in a
+    // quarter.
     const Film film = filmOf([](int x, int y) { return x < 8 || isEven(x, y); });
     for (const double x : {6.5, 7.0, 7.5, 8.0, 8.5, 9.0})
         EXPECT_NEAR(lightFrom(film, x, 5).second.x(), 1 + x + 20 * 5, x == 7.5 ? 0.6 : 0.1) << x;
@@ -103,7 +104,7 @@ TEST(LightHistory, ObjectsAreNeverInterpolatedOverTwoPixels) {
     EXPECT_GT(lightFrom(film, 4.5, 4.5, floorSurface(1)).firstCount, 0);
 }
 
-TEST(LightHistory, OtherSurfacesDoNotCount) {
+TEST(LightHistory, LightOfOtherSurfacesIsNotReused) {
     const Film film = filmOf(isEven);
     EXPECT_EQ(lightFrom(film, 5, 5, floorSurface(1)).firstCount, 0) << "another object";
     SeenSurface wall = floorSurface();

@@ -87,7 +87,7 @@ struct MovingRun {
     double time = 0;
 };
 
-TEST(MovingObjects, APosedTracerShowsTheSameAsANewOne) {
+TEST(MovingObjects, APosedTracerGivesTheSamePictureAsANewTracer) {
     const auto scene = swinging();
     const PathTracer tracer(scene);
     const auto poses = posesAt(*scene, Timestamp::fromSeconds(0.7));
@@ -99,14 +99,14 @@ TEST(MovingObjects, APosedTracerShowsTheSameAsANewOne) {
     EXPECT_GT(differenceOf(there, truthAt(*scene, posesAt(*scene, {}), view)), 6);
 }
 
-TEST(MovingObjects, PicturesShowTheirInstant) {
+TEST(MovingObjects, PicturesShowObjectsAtThePosesStoredWithThem) {
     MovingRun run(swinging());
     run.until(1.6);
     ASSERT_GT(run.driver.shown.size(), 5U);
     const RenderedPicture& last = run.driver.shown.back();
     ASSERT_EQ(last.poses.size(), run.scene->objects.size());
     const double error = differenceOf(last, truthAt(*run.scene, last.poses, run.view));
-    // With as many pictures, the error of a scene that rests is 9.
+    // In a scene without motion, the error after the same number of pictures is 9.
     EXPECT_LT(error, 12);
     const auto misplaced = [&](const std::vector<RigidTransform>& poses) {
         const RenderedPicture truth = truthAt(*run.scene, poses, run.view);
@@ -116,12 +116,13 @@ TEST(MovingObjects, PicturesShowTheirInstant) {
         return count;
     };
     const auto elsewhere = posesAt(*run.scene, Timestamp::fromSeconds(1));
-    EXPECT_GT(misplaced(elsewhere), misplaced(last.poses) + 10) << "pixels of the ball";
+    EXPECT_GT(misplaced(elsewhere), misplaced(last.poses) + 10)
+        << "number of pixels with a wrong object";
     EXPECT_EQ(last.scene, run.scene);
     EXPECT_TRUE(last.layered);
     const double from = last.poses[0].translation.y(),
                  now = posesAt(*run.scene, Timestamp::fromSeconds(run.time))[0].translation.y();
-    EXPECT_LT(std::abs(from - now), 0.03) << "the picture shows nearly the present";
+    EXPECT_LT(std::abs(from - now), 0.03) << "the picture must show nearly the present poses";
 }
 
 TEST(MovingObjects, PicturesFollowEachOtherAsLongAsAnObjectMoves) {
@@ -142,7 +143,7 @@ TEST(MovingObjects, NoShadowStaysWhereTheObjectWas) {
     double ghost = 0;
     int shadowed = 0;
     for (std::size_t i = 0; i < truth.id.size(); ++i) {
-        // The old shadow, on places that are no longer in shadow.
+        // Only pixels that were in the object's shadow before it jumped, and no longer are.
         if (before.id[i] != kCatcherId || before.colour[i][3] < 25 || truth.colour[i][3] > 15)
             continue;
         ++shadowed;
@@ -173,7 +174,7 @@ TEST(MovingObjects, LightFarFromTheMotionIsKept) {
     EXPECT_EQ(same.moved()->diffuseChange({0, 0.05F, 0}, up), 0);
 }
 
-TEST(MovingObjects, LightInTheShadowOfTheSunIsDoubted) {
+TEST(MovingObjects, DiffuseLightChangesOnlyInTheShadowOfAMovedObject) {
     Sun sun;
     sun.towards = Eigen::Vector3f(1, 0, 1).normalized();
     Scene dark;
@@ -189,7 +190,7 @@ TEST(MovingObjects, LightInTheShadowOfTheSunIsDoubted) {
     EXPECT_EQ(moved.diffuseChange({2, 0, 0}, up), 0);
 }
 
-TEST(MovingObjects, PointsAreFollowedToTheirEarlierPlaces) {
+TEST(MovingObjects, FollowMovesPointsOfAnObjectToTheirEarlierPositions) {
     const EnvironmentLight none(nullptr);
     const FarLight far(none, {}, {});
     const SunLight light({});
@@ -204,7 +205,7 @@ TEST(MovingObjects, PointsAreFollowedToTheirEarlierPlaces) {
     EXPECT_LT((point - (p + Eigen::Vector3f(1, 0, 0))).norm(), 1e-5F);
     EXPECT_LT((normal - x).norm(), 1e-5F);
     moved.follow(2, normal, point, eye);
-    EXPECT_LT((normal - x).norm(), 1e-5F) << "other objects stay";
+    EXPECT_LT((normal - x).norm(), 1e-5F) << "points of other objects must not move";
 }
 
 }  // namespace

@@ -149,7 +149,7 @@ TEST(NoiseFilter, KeepsPixelsWithoutNoise) {
             << i;
 }
 
-// One pixel in 16 has the first part of the light, one in 64 the second part.
+// The light has two parts. One pixel in 16 has samples of the first part, one in 64 of the second.
 TEST(NoiseFilter, FillsPixelsWithoutSamples) {
     Pixels pixels = noisyPicture(flat, 0);
     for (int y = 0; y < kNoisySize.height; ++y)

@@ -52,8 +52,8 @@ Mesh flatSquare() {
 
 // A pixel covers about three bumps of the normal map.
 TEST(PathTracer, FineNormalMapRaisesTheRoughnessAboutTheMeanNormal) {
-    // With an earlier picture, the ray through the pixel's centre measures the relief. Otherwise,
-    // the first sample does.
+    // If there is an earlier picture, the ray through the pixel's centre already finds the raised
+    // roughness. If not, the first sample finds it.
     const auto seen = [](bool bumpy, bool hasHistory, int samples) {
         Material material = materialOf({0.9F, 0.9F, 0.9F}, 1, 0.2F);
         Model model = modelOf(flatSquare(), material);

@@ -76,7 +76,7 @@ TEST(RayScene, RayPacketsGiveTheHitsOfSingleRays) {
 TEST(RayScene, RaysPassThroughTransparentPoints) {
     RayScene scene;
     const Mesh upper = square(1, 1), lower = square(1, 0);
-    // Rays pass through all triangles except one corner of the first.
+    // Every point is transparent, except those in one corner of the first triangle.
     const HoleTest holes{[](const void*, std::uint32_t triangle, float u, float v) {
                              return triangle != 0 || u + v > 0.5F;
                          },

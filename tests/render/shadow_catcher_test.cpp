@@ -39,7 +39,8 @@ TEST(ShadowCatcher, SphereBlocksTheShareOfTheSkyGivenByItsFormFactor) {
     // The form factor of the sphere for a small patch is (r / h)^2. This share of the irradiance is
     // blocked.
     EXPECT_NEAR(under.with.x() / under.without.x(), 1 - 0.25F, 0.01F);
-    // The direction's cosine multiplies the share at points beside the sphere.
+    // At a point beside the sphere, the share also has the cosine of the direction to the sphere as
+    // a factor.
     const Film::Means aside = groundAt(tracer, {2, 0, 0}, 2048);
     EXPECT_NEAR(aside.with.x() / aside.without.x(), 1 - std::sqrt(0.5F) / 8, 0.01F);
 }

@@ -7,7 +7,8 @@
 namespace mfar {
 namespace {
 
-/// Shares of the indices over a regular grid of `count` numbers.
+/// Passes `count` evenly spaced numbers from 0 to 1 to draw(). Returns the share of each index in
+/// the results.
 std::vector<double> drawnShares(const std::vector<double>& weights, int count) {
     const ShareTable table(weights);
     std::vector<double> out(weights.size(), 0);

@@ -133,8 +133,8 @@ TEST(Slices, NoPixelIsInTwoUnfinishedPortions) {
     }
 }
 
-// The first turn traces a ray through every pixel's centre. Three turns take the first samples, one
-// of 16, one of 4 and all pixels.
+// A turn visits all pixels that it concerns once. The first turn traces a ray through every pixel's
+// centre. The next three take the first samples: in one pixel of 16, in one of 4, and in all.
 TEST(Slices, AllPixelsHaveEqualSamplesAfterEachTurnOfTimeSlices) {
     Slices slices({Slicing::Time, 8, 3, 0, 2});
     slices.begin({0, 0, 32, 24}, {32, 24});

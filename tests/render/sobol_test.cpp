@@ -8,7 +8,8 @@
 namespace mfar {
 namespace {
 
-/// The direction numbers are the rows of Pascal's triangle.
+/// Oracle of the second Sobol coordinate. Its direction numbers are the rows of Pascal's triangle
+/// modulo 2.
 std::uint32_t secondCoordinate(std::uint32_t index) {
     std::uint32_t out = 0, direction = 0x80000000U;
     for (; index != 0; index >>= 1, direction ^= direction >> 1)

@@ -16,6 +16,7 @@ constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 TEST(NextStep, StepDependsOnTheChangesOfTheView) {
     using enum TracedStep;
+    // Changes of the view since the shown picture and since the next one, see nextStep().
     struct Case {
         std::optional<double> sinceShown, sinceNext;
         TracedStep step;
@@ -60,7 +61,7 @@ TEST(TracedPictures, PictureIsRefinedWhileTheCameraRests) {
     EXPECT_TRUE(driver.pictures.settled());
     EXPECT_EQ(driver.pictures.finished(), 1U);
     driver.look(20.5);
-    EXPECT_FALSE(driver.step()) << "the picture suffices for this view";
+    EXPECT_FALSE(driver.step()) << "the shown picture must suffice for this view";
 }
 
 TEST(TracedPictures, CameraThatComesToRestGetsAPictureOfItsView) {

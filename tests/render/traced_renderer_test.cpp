@@ -121,7 +121,7 @@ TEST(TracedRenderer, GivesTheSamePictureForBothSlicingMethodsAndAnyThreadCount) 
 TEST(TracedRenderer, IsIdleWhenThePictureIsFinishedAndTheCameraRests) {
     TracedRendererOptions options = quick();
     options.slices.samples = 4096;
-    options.slices.threshold = 1e6;  // every pixel is finished when its error counts as reliable
+    options.slices.threshold = 1e6;  // so high that a pixel is finished once its error is known
     Frames frames(options);
     EXPECT_TRUE(frames.renderer.counters().idle);
     frames.renderer.setScene(render_scenes::stillLife());

@@ -1,17 +1,18 @@
 #!/bin/bash
-# mfard plays the first animation of a model's file: the model is drawn anew in every frame, also
-# while the camera rests. What cannot be played must be said once, also when mfard only checks the
-# configuration.
+# mfard must play the first animation of a model's file: it must draw the model anew in every frame,
+# even while the camera rests. An animation that it cannot play must cause one message, even if mfard
+# only checks the configuration.
 . "$(dirname "$0")/lib.sh"
 
 ctl="$(dirname "$sim")/mfarctl"
-# A model at rest is drawn anew about 20 times, while its picture gets more samples.
+# True after the model was drawn 60 times. A model at rest is drawn only about 20 times, while its
+# picture gets more samples.
 is_drawn_anew() {
     timeout 10 "$ctl" --socket control stats | grep -Eq '"frames_warped": *([6-9][0-9]|[0-9]{3,})'
 }
 
-# model NAME CHANNEL...: writes a triangle with these channels of its animation. The sampler is a
-# rise of 10 cm in 2 s.
+# model NAME CHANNEL...: writes NAME.gltf: a triangle whose animation has these channels. The
+# animation's sampler 0 rises by 10 cm in 2 s.
 model() {
     local name=$1 channels IFS=,
     shift
@@ -34,13 +35,13 @@ rises='{"sampler": 0, "target": {"node": 0, "path": "translation"}}'
 grows='{"sampler": 0, "target": {"node": 0, "path": "scale"}}'
 
 model growing "$rises" "$grows"
-said='warning: .*growing.gltf: animations\[0\].channels\[1\]: scales do not change over time$'
+said='warning: .*growing.gltf: animations\[0\].channels\[1\]: changes of the scale are not played$'
 run 0 --config mfard.toml --check-config
 says out '^ok$'
 says err "$said"
 [ "$(wc -l <err)" = 1 ] || fail "mfard did not write exactly one message"
 run 0 --source synthetic:office,rest --display none --frames 20 --config mfard.toml
-[ "$(grep -c "do not change" err)" = 1 ] || fail "mfard did not warn exactly once"
+[ "$(grep -c "changes of the scale" err)" = 1 ] || fail "mfard did not warn exactly once"
 
 model moving "$rises"
 run 0 --config mfard.toml --check-config
@@ -48,4 +49,4 @@ run 0 --config mfard.toml --check-config
 start --source synthetic:office,rest --display none --control control --config mfard.toml
 until_true is_drawn_anew
 kill -TERM "$pid"
-wait "$pid" || fail "mfard did not end properly"
+wait "$pid" || fail "mfard ended with an exit code other than 0"

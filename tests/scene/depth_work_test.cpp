@@ -75,7 +75,7 @@ TEST_F(DepthWork, PossibleOccludersAreMeasuredInEveryFrame) {
         EXPECT_GT(stats.depthTiles, 0);
 }
 
-TEST_F(DepthWork, AnOccludedObjectIsNotDrawnButDepthIsStillMeasured) {
+TEST_F(DepthWork, AnOccludedObjectIsNotDrawnButDepthKeepsBeingMeasured) {
     placeSphere(1.5);
     run(6);
     for (const FrameStats& stats : run(4)) {

@@ -6,7 +6,7 @@
 namespace mfar::stress {
 namespace {
 
-constexpr double kTrial = 60;  // longest time to try a case until it reaches the pass [s]
+constexpr double kTrial = 60;  // longest time to run a case that has not reached the pass [s]
 
 }  // namespace
 

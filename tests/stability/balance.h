@@ -11,10 +11,10 @@
 
 namespace mfar::stress {
 
-/// Chooses the next case at the product's picture size, so that all passes process about equal
-/// numbers of pixels. For the pass with the fewest pixels, it chooses the case with the most pixels
-/// per second of this pass. If only small pictures have reached a pass, it runs the case that
-/// reached it at the product's size, for a limited time.
+/// Chooses cases to be run at the product's size (see Scale), so that all passes process about
+/// equally many pixels. next() takes the pass with the fewest pixels and returns the case that
+/// processes most pixels of this pass per second. If no case has reached the pass at the product's
+/// size, next() returns a case that reached it with small pictures, but for a limited time.
 class Balance {
 public:
     explicit Balance(const std::vector<Case>& cases);

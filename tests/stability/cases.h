@@ -15,8 +15,8 @@
 /// pictures or exchange the views. Then the results may change only as expected.
 namespace mfar::stress {
 
-/// Sizes of the pictures. Tests: small. Mixed: small or of the product's size. Product: of the
-/// product's size.
+/// Sizes of the pictures. Tests: small. Product: the sizes usual in mfard, which the comments here
+/// call the product's size (video about 640x480). Mixed: either, chosen at random.
 enum class Scale { Tests, Mixed, Product };
 
 struct Context {
@@ -25,8 +25,7 @@ struct Context {
     GlWatch& gl;
     Scale scale = Scale::Tests;
 
-    /// A size for the video. The scale decides between the product's size and hostile.size(least,
-    /// most).
+    /// Returns a size for the video: about 640x480, or hostile.size(least, most). `scale` decides.
     [[nodiscard]] Size size(int least, int most);
 };
 

@@ -54,7 +54,8 @@ void hostileFilter(Context& c) {
     }
 }
 
-// The depth of a moved camera must agree with geometry, in any unit of length.
+// Depth that the filter moves with the camera must equal the plane's depth from the camera's new
+// position, in any unit of length.
 void carriedDepth(Context& c) {
     const Size size{c.hostile.integer(20, 90), c.hostile.integer(20, 70)};
     CameraModel camera = c.hostile.camera(size);

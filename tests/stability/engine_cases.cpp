@@ -1,5 +1,6 @@
-// Runs both engines on the same hostile input. Each step reads the output of the previous GLES
-// step, because otherwise one different decision of a search would make all later steps differ.
+// Runs both engines on the same hostile input. Each step of either engine reads the output of the
+// previous step of GLES. Otherwise one different decision of a search would make all later steps
+// differ.
 #include "pipeline/engine/engine.h"
 #include "pipeline/plan/work_plan.h"
 #include "tests/stability/cases.h"
@@ -126,9 +127,9 @@ void compareWeights(Context& c, const CellWeights& gles, const CellWeights& simd
         }
 }
 
-// Share of pixels that may differ in mode blend. Unlike mode detail, blending trusts cells with
-// different patches if forward and backward flow agree. Between two such cells the position in the
-// still may jump by many pixels, for which the GPU's bilinear filter has only 8 bits.
+// Share of pixels that may differ in mode blend. Unlike mode detail, this mode shows the still
+// wherever forward and backward flow agree, even if the patches differ. Between two such cells the
+// position in the still may jump by many pixels, which the GPU interpolates with only 8 bits.
 constexpr double kJumps = 0.05;
 constexpr int kRounding = 5;  // error of three GPU passes with 8 bits each [grey levels]
 

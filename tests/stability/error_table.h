@@ -9,13 +9,13 @@ namespace mfar::stress {
 /// Collects the errors of one quantity and prints them as one line of a table.
 class ErrorTable {
 public:
-    /// `what`: the pass and the quantity. `unit`: unit of the errors. `least`: smallest value whose
-    /// unit in the last place is used. Smaller values, such as pixels near 0, use that of `least`.
+    /// `what`: the pass and the quantity. `unit`: unit of the errors. `least`: for values below it,
+    /// such as pixels near 0, errors are counted in the unit in the last place (ulp) of `least`.
     ErrorTable(std::string what, std::string unit, double least = 0)
         : what_(std::move(what)), unit_(std::move(unit)), least_(least) {}
 
-    /// `error`: in the table's unit. `got`, `wanted`: values for the error in units in the last
-    /// place (ulps) of single precision.
+    /// `error`: in the table's unit. The table also counts the difference of `got` and `wanted` in
+    /// units in the last place (ulps) of single precision.
     void add(double error, double got, double wanted);
     void add(double error) { errors_.push_back(error); }
 

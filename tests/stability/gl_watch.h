@@ -10,8 +10,9 @@
 
 namespace mfar::stress {
 
-/// Checks all GL passes: their outputs (gpu::Validation), the bytes behind their buffers, and every
-/// index into a buffer, a texture or an image (watched_shaders.h). Creates the GL context.
+/// Checks all GL passes: gpu::Validation checks their outputs and the guard bytes behind their
+/// buffers; watched_shaders.h checks every index into a buffer, a texture or an image. The
+/// constructor creates the GL context.
 class GlWatch {
 public:
     GlWatch();

@@ -13,7 +13,7 @@
 
 namespace mfar::stress {
 
-/// Draws hostile inputs. They depend only on the seed.
+/// Makes random hostile inputs (extreme or invalid values), which depend only on the seed.
 class Hostile {
 public:
     explicit Hostile(std::uint64_t seed) : random_(seed) {}
@@ -30,7 +30,7 @@ public:
     /// Sizes such as 1x1, 1xN, primes, and near multiples of the tile size. Each side is at most
     /// about `most`.
     [[nodiscard]] Size size(int least, int most);
-    /// Returns NaN, an infinity, the largest or smallest float, a denormal, or a zero.
+    /// Returns one of NaN, the infinities, the largest and smallest float, denormals, and zeros.
     [[nodiscard]] double bad();
     /// Like bad(), but without NaN and infinities.
     [[nodiscard]] double extreme();

@@ -88,7 +88,7 @@ TEST(Mended, InvalidDepthStaysUnknownAtEdges) {
     }
 }
 
-// The only ray is the optical axis. So the rim of the lens has radius zero.
+// The picture's only ray is the optical axis. So the lens model's valid range has radius zero.
 TEST(Mended, EpipolarLensAcceptsAPictureOfOnePixel) {
     const EpipolarLens lens(smallCamera({1, 1}), 0);
     const auto p = lens.project(0, 0);
@@ -110,7 +110,7 @@ TEST(Mended, EpipolarFlowAcceptsPicturesOneOrTwoPixelsWide) {
     }
 }
 
-TEST(Mended, ANonFinitePredictionIsSearchedFromInfinity) {
+TEST(Mended, ANonFinitePredictionActsLikeAnExtremeFiniteOne) {
     const CameraModel camera = smallCamera({64, 48});
     const TestPicture picture = randomPicture({64, 48}, 1);
     const auto searched = [&](float predicted) {

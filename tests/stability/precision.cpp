@@ -85,7 +85,8 @@ void triangulation(TriangulationMethod method, const char* what) {
     table.print();
 }
 
-/// The still pixel of each cell of a video without motion, minus the scaled centre of the cell.
+/// Runs the pass with zero flow. Returns for each cell: the position in the still that shows the
+/// cell's centre, minus the centre scaled to still pixels.
 std::vector<float> assessedStillPixels(const StereoRig& rig) {
     const Size cells = cellsOf(rig.video.size);
     const TestPicture even(rig.video.size, PixelFormat::Rgba8, 128);

@@ -51,8 +51,8 @@ void turnedPoints(Context& c) {
         const auto p = test::turned(lens.turn, {raysX[i], raysY[i], 1});
         const double radius = std::hypot(p.x, p.y) / p.z;
         const bool isShown = p.z > 0.05 && radius < rim;
-        // Skips results within a tenth of a percent of the rim, and rays that are so long that
-        // floats overflow.
+        // `rim` is the radius beyond which the lens model is not valid. Near it, and near the least
+        // depth 0.05, rounding decides whether a ray counts as shown.
         if (std::abs(radius / rim - 1) < 1e-3 || std::abs(p.z - 0.05) < 1e-3) continue;
         if (!isShown) {
             c.checks.within(x[i], -1e7, -1e5, "column of a ray that the source does not show");
@@ -100,8 +100,8 @@ void turnedRow(Context& c) {
         const double wanted =
             std::lerp(std::lerp(p[0], p[1], sx - ix),
                       std::lerp(p[size.width], p[size.width + 1], sx - ix), sy - iy);
-        // Tolerance: the result is rounded. Pixels up to a thousandth beyond the last column and
-        // row are read.
+        // Tolerance: the result is rounded, and the kernel clamps positions to 0.001 px before the
+        // last column and row.
         c.checks.within(grey[i] - wanted, -1.1, 1.1, "error of a turned pixel [grey levels]");
     }
     c.checks.through("turnedRow", static_cast<long>(width));
@@ -152,8 +152,9 @@ Valley valleyOf(Context& c) {
     return out;
 }
 
-/// Position of the minimum of two lines with opposite slopes through the costs of a label and its
-/// two neighbours.
+/// Returns the expected result of labelVertices() minus the best label. The result is where two
+/// lines with opposite slopes meet, which pass through the costs of this label and of its two
+/// neighbours. Returns 0 if the three costs are equal or if a neighbour's cost is unknown.
 double bottomOf(const Valley& v) {
     const int left = v.rise[1], right = v.rise[2], most = std::max(left, right);
     if (most == 0 || most == Valley::kUnknown) return 0;

@@ -77,7 +77,7 @@ struct DoubleFilter {
     }
 };
 
-TEST(DepthFilterAccumulation, AMillionFramesStayAtDoublePrecision) {
+TEST(DepthFilterAccumulation, AfterAMillionFramesItMatchesAFilterInDoublePrecision) {
     const CameraModel camera{{1, 1}, 500, 500, 0, 0, {}};
     DepthFilter filter(camera, std::make_shared<Workers>(1));
     const PixelRect whole{0, 0, 1, 1};

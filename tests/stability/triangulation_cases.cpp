@@ -86,8 +86,8 @@ SurfaceScene usualScene(Context& c, double unit) {
     return out;
 }
 
-/// Limit of the error of inverse depth. An error of 2e-6 in normalised rays, a thousandth of a
-/// pixel, causes this error.
+/// Limit of the error of inverse depth: the error that an error of 2e-6 in normalised rays (a
+/// thousandth of a pixel) would cause.
 double bound(const twin::TwoViews& views, const twin::FlowDepth& truth, double flowSigma) {
     const double focal = std::sqrt(views.b.fx * views.b.fy);
     return truth.sigma * 2e-6 * focal / flowSigma + 2e-6 * std::abs(truth.inverseDepth);

@@ -106,7 +106,7 @@ TEST_F(ValidationTest, WritesBehindABufferAreFaults) {
     EXPECT_EQ(faults[0].output, "guard");
 }
 
-TEST_F(ValidationTest, NothingIsCheckedAfterItsDestruction) {
+TEST_F(ValidationTest, PassesAreNotCheckedOnceTheValidationIsDestroyed) {
     const auto gl = context();
     {
         const gpu::Validation validation;

@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
-// The embedded shader texts. The generated source is included with another namespace.
+// The shader texts of the build, compiled in this namespace. mfar::shaders has the changed texts.
 namespace mfar::embedded_shaders {
 struct Source {
     std::string_view name, text;
@@ -79,7 +79,7 @@ void addArrays(std::string_view block, std::vector<StorageArray>& out) {
     }
 }
 
-/// Wraps every index of these arrays in watchIndex(), also indices within indices.
+/// Wraps every index of these arrays in watchIndex(), including an index inside another index.
 std::string withIndices(std::string_view text, const std::vector<StorageArray>& arrays) {
     std::string out;
     for (std::size_t i = 0; i < text.size();) {

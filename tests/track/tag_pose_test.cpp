@@ -106,8 +106,9 @@ TEST(TagPose, CovarianceMatchesTheErrors) {
         mean += error / kRuns;
         distance += error.dot(poses->best.covariance.ldlt().solve(error)) / kRuns;
     }
-    // With the true covariance, `distance` is 6 (one for each degree of freedom) with a standard
-    // error of 0.08. A covariance that is too large gives a smaller value, which is tolerated more.
+    // `distance` is the mean squared Mahalanobis distance of the errors. With the true covariance
+    // it is 6 (one for each degree of freedom) with a standard error of 0.08. The limits allow a
+    // covariance that is somewhat too large (smaller distance) more than one that is too small.
     EXPECT_GT(distance, 4.5);
     EXPECT_LT(distance, 6.4);
     EXPECT_LT(mean.head<3>().norm(), 0.05 * kDegree);
@@ -135,8 +136,9 @@ TEST(TagPose, PoseFromSeveralTagsIsMoreExactThanFromOne) {
     EXPECT_LT(all, 0.5 * one);
 }
 
-// Blur, gamma and ink move the edges of all tags in the same way.
-TEST(TagPose, SeveralTagsDetermineTheEdgeShift) {
+// Blur, gamma and ink move the edges of all tags outwards or inwards by the same distance, the edge
+// shift (see refinePose()). With one tag, it cannot be told from a change of the tag's distance.
+TEST(TagPose, EdgeShiftIsEstimatedFromSeveralTagsOnly) {
     const CameraModel camera = testCamera();
     const RigidTransform truth = cameraAt(0.5, 0.3, 0.2, 0.4);
     for (const double shift : {-0.3, 0., 0.3}) {

@@ -68,7 +68,7 @@ TEST(ImageFiles, PngKeepsColoursButNotAlpha) {
             }
 }
 
-TEST(ImageFiles, PngDoesNotDependOnTheOrderOfChannels) {
+TEST(ImageFiles, RgbaAndBgraPicturesGiveTheSamePng) {
     const Padded source({5, 3}, PixelFormat::Rgba8);
     Padded swapped = source;
     swapped.view = {swapped.bytes.data(), {5, 3}, source.view.stride, PixelFormat::Bgra8};
@@ -130,7 +130,7 @@ TEST(ImageFiles, AFailedSaveNamesTheFileAndLeavesNothing) {
     EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 1);
 }
 
-TEST(FloatFiles, PfmRoundTripKeepsValuesAndUnknowns) {
+TEST(FloatFiles, PfmRoundTripKeepsFiniteValuesAndMakesOthersNan) {
     const TempFolder folder;
     const FloatImage image{{3, 2}, {1, -2.5F, kNaN, 0, kInf, 1e-20F}};
     savePfm(folder / "a.pfm", image);
@@ -176,7 +176,7 @@ TEST(FloatFiles, BrokenPfmIsRefused) {
               start + "size 99999x99999 is invalid: width and height must be from 1 to 16384");
 }
 
-TEST(FloatFiles, FloRoundTripKeepsVectorsAndUnknowns) {
+TEST(FloatFiles, FloRoundTripKeepsFiniteVectorsAndMakesOthersNan) {
     const TempFolder folder;
     FlowImage flow{{2, 2}, {{{1, -2}}, {{kNaN, 0}}, {{0.125F, 3e8F}}, {{5, kInf}}}};
     saveFlo(folder / "a.flo", flow);

@@ -56,8 +56,8 @@ public:
         files_.erase(fd);
         if (fd >= 0 && isOurs(file)) files_[fd] = file;
     }
-    /// Does an operation with `call`, which adds it to the log. Holds the lock meanwhile, so that
-    /// the log has the order of the operations.
+    /// Returns call(*this), which makes a system call and adds it to the log. Holds the lock, so
+    /// that the log has the order of the system calls.
     template <class Call>
     auto note(const Call& call) {
         const std::lock_guard lock(mutex_);
@@ -226,7 +226,7 @@ std::size_t safeRows(const std::vector<Operation>& operations, std::size_t count
     return safe > 0 ? safe - 1 : 0;  // without the line of headings
 }
 
-/// For each addition to a list, the number of synchronisations before the next addition or the end.
+/// Number of synchronisations after each addition of rows to `list`, before the next addition.
 std::vector<int> syncsAfterRows(const std::vector<Operation>& operations, const std::string& list) {
     std::vector<int> out;
     for (const Operation& operation : operations) {
@@ -249,8 +249,8 @@ void expectWhole(const std::vector<RecordedImage>& images, Size size) {
 
 class PowerCut : public testing::Test {
 protected:
-    /// Reads the recording that is left after the first `count` operations and a power cut. Empty
-    /// if no picture was synchronised.
+    /// Reads the recording that is left after the first `count` operations and a power cut. Returns
+    /// nullopt if the row of no picture was synchronised.
     std::optional<Recording> leftAfter(std::size_t count) {
         fs::remove_all(cut_.path() / "run");
         for (const char* folder : {"cam0/data", "cam1/data"})

@@ -18,9 +18,9 @@ struct Socket {
     std::atomic<bool> plugged{true};
     std::atomic<bool> sends{true};
     std::atomic<int> asked{0}, open{0}, opened{0};
-    std::atomic<bool> opens{true};    ///< false: opening the device hangs
-    std::atomic<bool> closes{true};   ///< false: closing the device hangs
-    std::atomic<bool> answers{true};  ///< false: getting a picture and stopping hang
+    std::atomic<bool> opens{true};    ///< false: the camera's constructor does not return
+    std::atomic<bool> closes{true};   ///< false: the camera's destructor does not return
+    std::atomic<bool> answers{true};  ///< false: next() and stop() do not return
     Size size{4, 2};
 };
 
@@ -136,7 +136,7 @@ TEST(ReopeningCamera, ASilentCameraIsReportedAndThenReopened) {
     EXPECT_EQ(camera.fault(), std::nullopt);
 }
 
-TEST(ReopeningCamera, ASilentCameraIsReopenedLaterWhileTheLibraryIsBusy) {
+TEST(ReopeningCamera, WhileTheLibraryIsBusyASilentCameraIsNotYetReopened) {
     Socket socket;
     std::atomic<bool> busy{true};
     ReopeningOptions options = quick();
@@ -206,8 +206,8 @@ TEST(ReopeningCamera, AHangingDriverIsReportedAndStopDoesNotWaitForIt) {
     socket.answers = true;
 }
 
-/// The watchdog's report about a camera's opening thread after some time. The thread's time budget
-/// is 10 s.
+/// A watchdog of a ReopeningCamera's opening thread, whose time budget is 10 s. lateAfter() lets
+/// `time` pass and returns the threads that are over their budget.
 struct WatchedOpener {
     [[nodiscard]] std::vector<std::string> lateAfter(std::chrono::seconds time) {
         passed = passed.load() + time.count();

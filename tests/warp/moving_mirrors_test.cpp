@@ -15,7 +15,7 @@ namespace mfar::simd {
 namespace {
 
 constexpr Size kPicture{21, 40};
-constexpr float kTwice = 2;  // light of rough lobes, divided by light of sharp lobes
+constexpr float kTwice = 2;  // light in roughness 1's table, divided by light in roughness 0's
 
 CameraModel camera() {
     return {kPicture, 30, 30, 9.5, 18.5, {-0.1, 0.02, 0, 0, 0}};

@@ -42,7 +42,7 @@ struct Moving {
     /// PSNR inside the balls if the picture's colours are moved with the balls [dB].
     [[nodiscard]] double psnr(const CastScene& now, double degrees) {
         const LayerPicture& layer = warp.run(test::orbit(degrees), posesOf(now));
-        // The colours of a ball belong to points of the ball as it was.
+        // Each point of the moved ball must have the colour that it had before the motion.
         RenderedPicture truth = now.cast({warp.camera(), test::orbit(degrees)}, 3);
         const Eigen::Vector3d moved = now.balls[1].centre - before.balls[1].centre;
         const RigidTransform back{test::orbit(degrees).rotation,
@@ -77,7 +77,7 @@ TEST_F(WarpMovingGl, UnmovedObjectsAreShownAsWithoutMotion) {
     EXPECT_LT(different, 40) << "rounding of the transforms may change a few pixels at edges";
 }
 
-TEST_F(WarpMovingGl, MovingObjectsAreNeverAtRest) {
+TEST_F(WarpMovingGl, WithPosesOfMovingObjectsTheViewNeverCountsAsAtRest) {
     Moving s;
     for (int frame = 0; frame < 20; ++frame) {
         s.warp.run(test::orbit(0), posesOf(s.before));

@@ -94,7 +94,7 @@ TEST_F(WarpGl, NothingIsShownOutsideSilhouetteAndShadow) {
     EXPECT_LT(coverage / pixels, 4) << "mean error of coverage [grey levels]";
 }
 
-TEST_F(WarpGl, DepthOfTheLayerIsThatOfTheCurrentPose) {
+TEST_F(WarpGl, DepthOfTheLayerBelongsToTheCurrentPose) {
     Shown s;
     const RenderedPicture truth = s.scene.cast(s.view(8));
     const auto z = test::valuesOf(s.warp.run(test::orbit(8)).depth);
@@ -125,8 +125,8 @@ TEST_F(WarpGl, HugeMotionAndOddPosesAreHarmless) {
     RigidTransform away = test::orbit(0);
     away.rotation = away.rotation * Eigen::Quaterniond(0, 0, 1, 0);  // the camera looks away
     EXPECT_TRUE(s.warp.run(away).bounds.empty());
-    // Distances inside a ball, on its surface, in the plane and far away. Cameras upside down and
-    // turned by 90 degrees.
+    // The camera is inside a ball, on its surface, near the plane and far away; upright, turned by
+    // 90 degrees and upside down.
     for (const double distance : {0.001, 0.05, 0.09, 0.1001, 0.14, 50.0, 1e5})
         for (const double degrees : {0.0, 90.0, 180.0}) {
             const LayerPicture& layer = s.warp.run(test::orbit(degrees, distance, 1));

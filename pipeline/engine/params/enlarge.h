@@ -40,8 +40,8 @@ inline constexpr float kHighDifference = 25.0F;
 inline constexpr int kCurvatureKinds = 28;
 inline constexpr int kCurvatureAngles = 8;
 
-/// Tangents of 22.5 and 67.5 degrees. Twice the gradient's angle is sorted into bins with these
-/// borders.
+/// Tangents of 22.5 and 67.5 degrees: two borders between the bins into which twice the gradient's
+/// angle is sorted.
 inline constexpr float kLowTangent = 0.414213562F;
 inline constexpr float kHighTangent = kLowTangent + 2.0F;
 
@@ -52,7 +52,7 @@ inline constexpr float kOvershoot = 0.25F;
 struct alignas(16) EnlargeTiles {
     std::int32_t videoWidth, videoHeight;
     std::int32_t columns, rows;
-    std::int32_t firstColumn, firstRow;  ///< tile with which the dispatch begins
+    std::int32_t firstColumn, firstRow;  ///< tile of the dispatch's first workgroup
 };
 
 }  // namespace mfar::params

@@ -9,39 +9,39 @@
 // translates this header to GLSL.
 namespace mfar::params {
 
-/// Search radius at the coarsest pyramid level [px] if the last frame's flow is a candidate. Only
-/// moving objects need this search.
+/// Search radius at the coarsest pyramid level [px] if the last frame's flow is a candidate. It is
+/// small, because only moving objects still need the search then.
 inline constexpr int kTrackingRadius = 3;
 /// Search radius at the coarsest pyramid level [px] in tiles without a reliable match along
-/// epipolar lines. 5 px there are 80 px of the frame. Twice the radius would find objects that have
-/// moved farther since the still, but cost four times as much.
+/// epipolar lines. 5 px at this level are 80 px of the frame. Twice the radius would find objects
+/// that have moved farther since the still, but would take four times as long.
 inline constexpr int kListedRadius = 5;
 /// Number of Gauss-Newton steps from a neighbour's flow vector that costs less than the cell's own.
 inline constexpr int kPropagateSteps = 2;
 /// Number of Gauss-Newton steps from a flow vector whose error is less than a pixel. Four steps are
 /// not more accurate.
 inline constexpr int kAlignSteps = 2;
-/// The backward field is computed down to this pyramid level and no finer. It only verifies the
-/// forward field. A typical error of 0.1 px at this level is 0.2 video px, a tenth of the two-way
-/// error at which the confidence becomes zero (alpha in eq. 2 of the paper).
+/// Finest pyramid level of the backward field. The full resolution is not necessary, because this
+/// field only verifies the forward field: a typical error of 0.1 px at this level is 0.2 video px,
+/// a tenth of the two-way error at which the confidence becomes zero (kTwoWayAlpha).
 inline constexpr int kBackwardFinest = 1;
 inline constexpr int kBackwardPropagations = 1;
 
 /// The cost of an 8x8 patch is meaningful if the patch's texture (see FlowCell) exceeds this
-/// multiple of the noise variance. The multiple is eight times the number of pixels of a patch.
+/// multiple of the noise variance. The variance of its pixels is then above 8 times that of noise.
 inline constexpr float kTexturePerVariance = 8.0F * kPatchPixels;
 inline constexpr float kUnexplainedCost = 0.4F;
-/// Cells with at least this two-way error [px] are outside the still and are not searched. Occluded
-/// cells have a smaller error and are searched, because a cell of a moving object may only seem
-/// occluded: the z-test uses depths from epipolar lines, which are wrong for moving objects.
+/// Cells with at least this two-way error [px] are outside the still and are not searched. Cells
+/// that seem to be occluded have a smaller error and are searched. They can belong to a moving
+/// object, whose depth from epipolar lines is wrong, and with it the test for occlusion.
 inline constexpr float kNotShown = 100.0F;
 /// A tile is searched in both dimensions if at least this number of its 16 cells has no reliable
 /// match.
 inline constexpr int kLeastUnexplained = 3;
 
-/// The z-test is meaningless for a cell of a moving object, so the cell's two-way error is
-/// estimated from the cost of its match. It is 0 px up to kGoodCost, then kErrorPerCost px per unit
-/// of cost. The cell has no confidence if the error reaches alpha in eq. 2 of the paper.
+/// Two-way error [px] of a cell of a moving object. The test for occlusion is meaningless for such
+/// a cell, so the error is computed from the match's cost: max(cost - kGoodCost, 0) *
+/// kErrorPerCost.
 inline constexpr float kGoodCost = 0.1F;
 inline constexpr float kErrorPerCost = 5.0F;
 /// A flow vector within this distance [px] of the match along the epipolar line is the same match.
@@ -55,21 +55,23 @@ inline constexpr float kSteepestFlow = 0.25F;
 
 /// A plane is fitted to the flow of cells within this distance along each axis [cells].
 inline constexpr int kCleanUpRadius = 2;
-/// A neighbour whose flow differs from the fitted plane by more than this [px] belongs to another
-/// surface. The first round uses the larger kFirstPlaneReach, because the plane's slope is not
+/// A neighbour whose flow differs from the fitted plane by more than kPlaneReach [px] belongs to
+/// another surface. The first fit uses kFirstPlaneReach instead, because the plane's slope is not
 /// known yet.
 inline constexpr float kFirstPlaneReach = 1.2F;
 inline constexpr float kPlaneReach = 0.5F;
-/// A cell has half of its full weight if its patch has this texture (see FlowCell) [grey levels^2].
+/// A cell whose patch has this texture (see FlowCell) has half of the full weight in the fit [grey
+/// levels^2].
 inline constexpr float kHalfTrusted = 2000.0F;
 inline constexpr float kLeastPlaneWeight = 1e-4F;
-/// Damping of a plane's slopes, which a single neighbour does not determine. Added to the diagonal
-/// of the equations: a constant, and an amount per unit of weight.
+/// Damping of a plane's slopes, because a single neighbour does not determine them. The sum
+/// kSlopeDamping + kSlopeDampingPerWeight * (sum of weights) is added to the equations' diagonal.
 inline constexpr float kSlopeDamping = 0.5F;
 inline constexpr float kSlopeDampingPerWeight = 0.05F;
 
-/// Parameters of flow_search.comp. A field is a part of cells[]. The members target, coarser,
-/// lastFrame and errors are indices of the field's first cell, or -1 if there is no such field.
+/// Parameters of flow_search.comp. Each flow field is a part of the array cells[]. The members
+/// target, coarser, lastFrame and errors are indices of a field's first cell, or -1 if there is no
+/// such field.
 struct alignas(16) SearchFlow {
     /// Pyramid levels of the patches and of the searched picture.
     LumaLevel from, to;
@@ -81,9 +83,9 @@ struct alignas(16) SearchFlow {
     std::int32_t lastFrameColumns;
     std::int32_t radius;
     std::int32_t candidates, steps;
-    /// Pixels of the searched pyramid level per pixel of the last frame's field, and cells of the
-    /// last frame's field per cell of the target field.
+    /// Factor from the last frame's flow to pixels of the searched pyramid level.
     float perLastFrame;
+    /// Number of columns and rows of the last frame's field divided by that of the target field.
     float lastFrameX, lastFrameY;
     std::int32_t firstGroup;
     std::int32_t errors;
@@ -100,8 +102,8 @@ struct alignas(16) FilterFlow {
     std::int32_t columns, rows;
     std::int32_t target, source;
     std::int32_t planeFits;
-    /// 1: each workgroup processes one tile, and only matched tiles are filtered. 0: all cells are
-    /// filtered.
+    /// 1: each workgroup processes one tile, and only matched tiles are filtered (finest pyramid
+    /// level). 0: all cells are filtered.
     std::int32_t byTile;
 };
 
@@ -117,7 +119,7 @@ struct alignas(16) ListTiles {
     std::int32_t tileColumns, tileRows;
     std::int32_t groupColumns, groupRows;
     std::int32_t tilesPerGroup;
-    std::int32_t margin;  ///< margin around a group [tiles]
+    std::int32_t margin;  ///< a group is listed if a flagged tile is this near [tiles]
     /// Index of the command in commands[] and of the first group in lists[].
     std::int32_t command, first;
 };

@@ -26,14 +26,14 @@ inline constexpr float kLumaBlue = 0.114F;
 /// smoothing, 0.18 gains 0.3 dB on printed text and costs 0.05 dB on photographs.
 inline constexpr float kLumaSmoothing = 0.18F;
 
-/// Number of bilinear samples of the still along each axis of a video pixel, for up to 8 still px
-/// per video pixel.
+/// Number of bilinear samples of the still along each axis of a video pixel. They suffice for video
+/// pixels of up to 8 still pixels along each axis.
 inline constexpr int kFootprintTaps = 4;
 
-/// A ray of depth 1 is rotated into still camera coordinates. If its depth is then smaller than
-/// this limit, it points away from the still's picture.
+/// A video pixel's ray (x, y, 1) is rotated into still camera coordinates. If its z is then smaller
+/// than this limit, it points away from the still's picture.
 inline constexpr float kLeastTurnedDepth = 0.05F;
-/// Position in the still [px] that stands for a ray that points away.
+/// Position in the still [px] that rays which point away from the still's picture get.
 inline constexpr float kFarOutside = -1e6F;
 /// Number of fixed-point iterations that invert the lens's distortion. With the lenses in use, each
 /// iteration adds at least one correct digit.

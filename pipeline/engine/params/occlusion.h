@@ -12,20 +12,19 @@ namespace mfar::params {
 inline constexpr float kLeastInverseDepth = 1e-6F;
 inline constexpr float kMostInverseDepth = 1e6F;
 inline constexpr float kLeastDepthSigma = 1e-20F;
-/// A virtual pixel is drawn if its z is between these limits, exclusive [m].
+/// A virtual pixel is drawn only if kLeastVirtualDepth < z < kMostVirtualDepth [m].
 inline constexpr float kLeastVirtualDepth = 1e-4F;
 inline constexpr float kMostVirtualDepth = 1e6F;
-/// Added to the colour weight of each depth sample. If no sample has a similar colour, the samples'
-/// distances therefore determine the weights.
+/// This value is added to the colour weight of each depth sample. So if no sample has a similar
+/// colour, the samples' distances determine the weights.
 inline constexpr float kLikenessFloor = 1e-3F;
 
 struct alignas(16) Visibility {
     std::int32_t videoWidth, videoHeight;
     std::int32_t outputWidth, outputHeight;
     std::int32_t layerWidth, layerHeight;
-    /// Video pixels per output pixel, and layer pixels per output pixel.
-    float scaleX, scaleY;
-    float layerScaleX, layerScaleY;
+    float scaleX, scaleY;            ///< video pixels per output pixel
+    float layerScaleX, layerScaleY;  ///< layer pixels per output pixel
     float bias, softness;
     float virtualSigma;
     /// The colour weight of a depth sample is exp(-likeness * d^2) + kLikenessFloor, where d is the

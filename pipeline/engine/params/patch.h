@@ -5,14 +5,14 @@
 namespace mfar::params {
 
 inline constexpr float kPatchPixels = 64.0F;
-/// Sum of the squared deviations from the mean that noise causes in a patch [grey levels^2]. A
-/// patch with a smaller sum is flat.
+/// Texture (see FlowCell) that noise causes in a patch [grey levels^2]. A patch with less texture
+/// is flat.
 inline constexpr float kPatchNoise = 128.0F;
-/// Added to the diagonal of the Hessian. It limits the Gauss-Newton steps where there is no
-/// gradient.
+/// This value is added to the diagonal of the Hessian. It limits the length of Gauss-Newton steps
+/// in patches without gradient.
 inline constexpr float kPatchDamping = 64.0F;
-/// The refinement ends after a Gauss-Newton step with a smaller squared length than kShortestStep
-/// [px^2]. Two candidates within the squared distance kSameCandidate [px^2] count as equal.
+/// The refinement ends after a Gauss-Newton step whose squared length is below kShortestStep
+/// [px^2]. Candidates whose squared distance is below kSameCandidate [px^2] count as equal.
 inline constexpr float kShortestStep = 2.5e-5F;
 inline constexpr float kSameCandidate = 0.25F;
 

@@ -15,20 +15,20 @@ inline constexpr float kTwoWayAlpha = 2.0F;
 /// Largest absolute value of a look-up offset along each axis [still px]. Larger ones are clamped.
 inline constexpr float kFarthestOffset = 4e3F;
 
-/// Variance of the error of rounding to 8 bits [grey levels^2].
+/// Variance of the error when a value is rounded to 8 bits [grey levels^2].
 inline constexpr float kByteVariance = 0.083F;
-/// If the still's variance is this multiple of the noise variance, the gain measured at half
-/// resolution has half of its full weight.
+/// The photometric gain is also measured at half resolution. If the still's variance there is this
+/// multiple of the noise variance, that measurement has half of its full weight.
 inline constexpr float kLowContrast = 8.0F;
 inline constexpr float kLargestGain = 2.0F;
-/// Amplifies the still's detail to compensate for the loss in bilinear look-ups.
+/// Factor of the still's detail that compensates for the loss in bilinear look-ups.
 inline constexpr float kLookUpLoss = 1.15F;
 /// Thresholds of the squared correlation of two patches. They certainly differ up to kUnlikePatches
 /// and certainly match from kAlikePatches on.
 inline constexpr float kUnlikePatches = 0.2F;
 inline constexpr float kAlikePatches = 0.6F;
-/// Thresholds of the change of the flow [px per px]. Up to kEvenFlow, it is noise. From kBentFlow
-/// on, the cameras see the surface from different directions.
+/// Thresholds of the change of the flow [px per px]. Changes up to kEvenFlow are noise. From
+/// kBentFlow on, the cameras certainly see the surface from different directions.
 inline constexpr float kEvenFlow = 0.015F;
 inline constexpr float kBentFlow = 0.07F;
 /// Thresholds of the second difference of the flow between neighbouring cells [video px]. Up to
@@ -36,27 +36,27 @@ inline constexpr float kBentFlow = 0.07F;
 /// look-ups between them are invalid.
 inline constexpr float kSmoothStep = 1.0F;
 inline constexpr float kTornStep = 4.0F;
-/// Smaller weights have no visible effect.
+/// Weights below this have no visible effect.
 inline constexpr float kSmallestWeight = 0.004F;
 /// A patch is textured if its variance per pixel is at least this multiple of (noise variance + 1)
 /// [grey levels^2].
 inline constexpr float kTexturedContrast = 8.0F;
-/// A textured cell has no reliable match if its squared correlation times its confidence is at most
-/// this.
+/// A textured cell has no reliable match if (squared correlation) * confidence is at most this.
 inline constexpr float kUnexplainedMatch = 0.25F;
 
-/// The finest detail is the difference of pixels from the mean of their 2x2 block. The finest
-/// detail of video and still is compared at the same position, because this shows look-up errors of
-/// a fraction of a pixel. The result is the variance that the still does not explain. Its limit is
-/// kFineRoom times the usual noise plus kFineShareRoom times the usual share of the detail's
-/// variance (FineMatch). If the variance is larger, the weight is multiplied by limit / variance.
-/// kFineRoom = 4 allows twice the usual deviation. kFineShareRoom is smaller, because otherwise
-/// edges that only the still shows would be accepted.
+/// The finest detail is the difference of pixels from the mean of their 2x2 block. It shows look-up
+/// errors of a fraction of a pixel. For each cell, the variance of the video's finest detail that
+/// the still does not explain is measured. Its limit is kFineRoom * FineMatch::noise +
+/// kFineShareRoom * FineMatch::share * (variance of the video's finest detail). Above the limit,
+/// the weight of the still is multiplied by limit / (measured variance). kFineRoom = 4 allows twice
+/// the usual deviation. kFineShareRoom is smaller, because otherwise edges that only the still
+/// shows would be accepted.
 inline constexpr float kFineRoom = 4.0F;
 inline constexpr float kFineShareRoom = 3.0F;
-/// Only every kFineStep-th row of cells is sampled. Rows between get the mean of both neighbours.
+/// The finest detail is compared only in every kFineStep-th row of cells. The rows between them get
+/// the mean of the rows above and below.
 inline constexpr int kFineStep = 2;
-/// Smaller variances of the finest detail are not significant [grey levels^2].
+/// Variances of the finest detail below this are not significant [grey levels^2].
 inline constexpr float kFineLeast = 0.1F;
 
 struct alignas(16) AssessCells {
@@ -98,7 +98,7 @@ struct alignas(16) SumFine {
 
 struct alignas(16) ConfirmCells {
     std::int32_t columns, rows;
-    float noise, share;  ///< variance that the still usually does not explain, see FineMatch
+    float noise, share;  ///< see FineMatch
 };
 
 }  // namespace mfar::params

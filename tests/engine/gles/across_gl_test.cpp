@@ -11,8 +11,9 @@ namespace {
 
 using AcrossGl = GlTest;
 
-// Limits of the share of bytes that differ by more than one grey level, and of the largest
-// difference. The renderers round in the same way but may add in another order.
+// kDifferentShare: upper limit of the share of bytes that differ by more than one grey level.
+// kLargest: upper limit of the difference of any byte. The renderers round in the same way, but may
+// add numbers in a different order.
 constexpr double kDifferentShare = 1e-4;
 constexpr int kLargest = 4;
 

@@ -4,10 +4,11 @@
 //   V3D_DEBUG=shaderdb mfar-compile-shaders 2>&1
 // BIFROST_MESA_DEBUG=shaderdb does the same on Mali. Usage:
 //   mfar-compile-shaders [--link-only] [FILE...]
-// --link-only: draws and dispatches nothing. Panfrost compiles a shader when it is linked. Without
-// a GPU (Mesa's drm-shim) it crashes at dispatches and at shaders that spill registers. With files,
-// compiles these instead; they have the format of gles_shaders/ with every #include resolved. Exit
-// status 1: a shader did not compile.
+// --link-only: draws and dispatches nothing. This is enough for the driver Panfrost, which compiles
+// a shader when it is linked. On machines without its GPU (with Mesa's drm-shim), Panfrost crashes
+// at dispatches and at shaders that spill registers. FILE: a shader to be compiled instead, in the
+// format of gles_shaders/, but with every #include resolved. Exit status 1: a shader did not
+// compile.
 
 #include "base/gl/buffer.h"
 #include "base/gl/pass.h"

@@ -52,7 +52,8 @@ std::vector<std::array<GLint, 4>> integersOf(const gpu::Texture& texture) {
     return out;
 }
 
-/// The residual on the grid of sub-pixels [grey levels]. This grid has four times the video's size.
+/// The residual that the shaders compute [grey levels]: what the learned filters add to Keys'
+/// cubic. It has 4x4 values (sub-pixels) for each video pixel.
 Grey residualOf(const TestPicture& picture, const FilterBank& bank, const TileWork& work) {
     const Size video = picture.size;
     const Size output{enlarge::kGrid * video.width, enlarge::kGrid * video.height};
@@ -70,8 +71,8 @@ Grey residualOf(const TestPicture& picture, const FilterBank& bank, const TileWo
     });
 }
 
-/// Number of compared pixels. Pixels near the border between two classes are left out, because
-/// single precision decides their class.
+/// pixels: number of compared pixels. all: includes pixels near the border between two classes,
+/// which are not compared, because rounding to single precision decides their class.
 struct Compared {
     int pixels = 0, all = 0;
 };

@@ -105,7 +105,7 @@ TEST_F(Flow, FlowIsFoundInGreyPicturesOfOddSize) {
     }
 }
 
-TEST_F(Flow, SizesThatDoNotFitAreRefused) {
+TEST_F(Flow, PicturesOfDifferentOrTooSmallSizesAreRefused) {
     const TestPicture a({64, 48}), b({64, 47}), tiny({15, 64});
     EXPECT_THROW(static_cast<void>(flowBetween(a.view(), b.view())), std::invalid_argument);
     EXPECT_THROW(static_cast<void>(flowBetween(tiny.view(), tiny.view())), std::invalid_argument);

@@ -148,6 +148,7 @@ std::vector<Cell> align(const LevelPair& pair, const std::vector<Cell>& in, int 
     return cells.read<Cell>(kArea);
 }
 
+// A patch is bent if the flow changes within it, see compareBentPatch().
 TEST_F(FlowPasses, CostsOfBentPatchesMatchTheOracle) {
     const LevelPair pair(Waves(1, 5, 40, 40).shoot(kSize, {}), randomPicture(kSize, 3));
     const auto a = pair.first(), b = pair.second();
@@ -161,8 +162,9 @@ TEST_F(FlowPasses, CostsOfBentPatchesMatchTheOracle) {
     const auto out = align(pair, in, 0);
     for (int i = 0; i < kArea; ++i) {
         const int x = i % 16, y = i / 16;
-        // Beyond the border the flow field is repeated. So one of the two slopes of a border cell
-        // is zero, and the shader must use this one.
+        // Along each axis, the shader computes the slopes to the cells two before and two behind,
+        // and uses the smaller one. Beyond the border the flow is repeated: so the slope is 0 in a
+        // border cell, and half as large in the next cell.
         const Vector2d alongX =
             x < 1 || x > 14 ? Vector2d(0, 0) : dx * (x == 1 || x == 14 ? 0.5 : 1);
         Vector2d alongY = y < 6 ? dy : Vector2d(-dy);

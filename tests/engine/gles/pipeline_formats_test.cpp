@@ -27,7 +27,7 @@ void paint(const TestPicture& grey, YuvRange range, PaddedPicture& out) {
         std::fill(out.plane(i).begin(), out.plane(i).end(), std::uint8_t{128});
 }
 
-TEST_F(PipelineFormats, FramesOfEveryFormatGiveThePictureOfGreyFrames) {
+TEST_F(PipelineFormats, GreyPicturesInEveryFormatGiveTheSameOutput) {
     const PipelineCase c;
     const TestPicture video = c.waves.shoot(c.rig.video.size, {.format = PixelFormat::Gray8});
     const TestPicture still =

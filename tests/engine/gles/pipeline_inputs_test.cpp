@@ -82,7 +82,7 @@ TEST_F(PipelineInputs, OddSizesOfPicturesAreProcessed) {
     }
 }
 
-TEST_F(PipelineInputs, GreyFramesGiveThePictureOfColouredFrames) {
+TEST_F(PipelineInputs, GreyPicturesInFormatsGrayAndRgbaGiveTheSameOutput) {
     const PipelineCase c;
     const auto run = [&](PixelFormat format) {
         Pipeline p(c.rig, {});

@@ -40,8 +40,8 @@ float gaussian(std::size_t at) {
     return table[at % table.size()];
 }
 
-/// Noise of a sensor, which grows with brightness. The share `shared` of its variance is common to
-/// each 2x2 pixels. Processing in a camera has this effect.
+/// Noise of a sensor, which grows with brightness. The share `shared` of its variance comes from
+/// noise that is equal in all pixels of a 2x2 block, as after smoothing in a camera.
 struct NoisySensor {
     double sigma = 1, shared = 0;
     std::mt19937 random{3};
@@ -138,8 +138,8 @@ TEST_F(PlanDrift, SlowChangesLeaveNoStaleTiles) {
                 << name << ", noise " << sigma;
 }
 
-// The sum over many tiles does not contain a change of colour at constant luma. The test of each
-// single tile must detect it.
+// WorkPlan looks for slow changes in two ways: by a sum over many tiles, which contains only luma,
+// and in each tile, in all channels. Only the second can detect a change of colour alone.
 TEST_F(PlanDrift, ChangesOfColourOnlyAreRedrawnBeforeTheyAreVisible) {
     for (const double sigma : {0.5, 2.0})
         EXPECT_LT(watch(brightening(0.3, true), {sigma}, 4, 12).stale,

@@ -11,7 +11,8 @@ namespace {
 using Plan = GlTest;
 
 constexpr Size kSize{100, 60};  // 7x4 tiles, the last ones cut off
-// Thresholds of a frame with unknown noise, for which 0.29 grey levels are assumed.
+// A cell counts as changed above these values of TileChange::mean and TileChange::absolute [grey
+// levels]. They belong to noise of 0.29 grey levels, which is assumed until the noise is measured.
 constexpr double kMeanThreshold = 1.58, kAbsoluteThreshold = 2.37;
 
 struct TileState {
@@ -215,7 +216,8 @@ TEST_F(Plan, ManyChangedTilesAreDrawnAsAWholeFrame) {
     }
 }
 
-/// A noisy slope and columns of dots two tiles apart. Each contrast in `contrasts` has one column.
+/// A noisy brightness ramp with columns of dots, two tiles apart. Column i has the contrast
+/// contrasts[i].
 TestPicture dotted(Size size, const std::vector<int>& contrasts) {
     TestPicture out(size);
     for (int y = 0; y < size.height; ++y)

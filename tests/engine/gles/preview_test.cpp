@@ -63,8 +63,8 @@ twin::DepthPicture depthOf(const VirtualLayer& layer) {
     return out;
 }
 
-/// Silhouettes must agree within a pixel. Depth must be as exact as the triangles. The tolerance is
-/// wider beside a silhouette, where a pixel may show what its neighbour should show.
+/// Silhouettes must agree within a pixel. Depth may have a relative error of `exactness`, because
+/// triangles are flat, and of 3 % beside a silhouette.
 void expectAlike(const twin::DepthPicture& drawn, const twin::DepthPicture& truth,
                  double exactness = 1e-3) {
     ASSERT_EQ(drawn.size, truth.size);

@@ -85,8 +85,8 @@ TEST_F(QualityTest, NeighboursAffectedByAChangeAreRedrawn) {
     EXPECT_TRUE(p.readImage() == whole.readImage());
 }
 
-// All pipelines have processed the same frames before, so that they know the same noise.
-TEST_F(QualityTest, SettingsChangedBetweenFramesGiveThePictureOfInitialSettings) {
+// All pipelines have processed the same frames before, so that they have measured the same noise.
+TEST_F(QualityTest, SettingsChangedBetweenFramesActLikeInitialSettings) {
     const PipelineCase c;
     for (const bool withPoses : {false, true}) {
         Pipeline made(c.rig, madeWith(quick())), usual(c.rig, {}), changed(c.rig, {});
@@ -103,7 +103,7 @@ TEST_F(QualityTest, SettingsChangedBetweenFramesGiveThePictureOfInitialSettings)
     }
 }
 
-TEST_F(QualityTest, WithoutEpipolarLinesPosesAreIgnored) {
+TEST_F(QualityTest, PosesAreIgnoredIfAlongLinesIsOff) {
     const PipelineCase c;
     Pipeline blind(c.rig, {}), posed(c.rig, {});
     posed.setQuality({.alongLines = false});

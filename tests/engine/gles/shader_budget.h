@@ -22,8 +22,8 @@ struct ShaderBudget {
                                                         std::string_view text);
 
 /// Faults of a text with resolved includes: precision, forbidden words, image access, unresolved
-/// #include, and undeclared macros. The text must declare each macro that an #if tests by a line
-/// "// Variant: #define NAME value".
+/// #include, and undeclared macros. A line "// Variant: #define NAME value" in the text must
+/// declare each macro that an #if uses.
 [[nodiscard]] std::vector<std::string> shaderTextFaults(std::string_view text);
 
 /// Faults of the linked shader: its storage blocks, images, bindings, group size and shared memory,

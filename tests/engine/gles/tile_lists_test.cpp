@@ -22,7 +22,7 @@ constexpr int kLevels = 4;
 constexpr int kCount = kCells.width * kCells.height;
 
 /// Fields in the format of refine()'s output: flow, cost and texture of each cell, then the two-way
-/// errors.
+/// errors (lengths of forward plus backward flow).
 std::vector<Cell> randomFields(unsigned seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> unit(0, 1);
@@ -69,8 +69,8 @@ std::vector<bool> twinClosed(const std::vector<bool>& flags) {
     return out;
 }
 
-/// Returns the groups (y * 65536 + x) of the next coarser level that the given groups read: those
-/// at the same position and their neighbours.
+/// A group is a work group (y * 65536 + x) of the flow search. Returns the groups of the next
+/// coarser pyramid level that `groups` read: those at the same position and their neighbours.
 std::set<std::uint32_t> twinAbove(const std::set<std::uint32_t>& groups, Size level) {
     std::set<std::uint32_t> out;
     for (const std::uint32_t g : groups)

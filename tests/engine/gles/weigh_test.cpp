@@ -199,8 +199,8 @@ twin::Cells mixedField() {
     return out;
 }
 
-/// A header (whole frame, changed tiles), then `changed` and `matched` of each tile. Every third
-/// tile is unchanged; every fifth is not matched.
+/// Content of the buffer of tile flags: `whole`, the number of changed tiles, then the flags
+/// `changed` and `matched` of each tile. Every third tile is unchanged; every fifth is not matched.
 std::vector<std::uint32_t> changes(std::uint32_t whole) {
     std::vector<std::uint32_t> out{whole, 0};
     for (unsigned i = 0; i < kTileCount; ++i)

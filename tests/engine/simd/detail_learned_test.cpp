@@ -5,8 +5,8 @@
 namespace mfar::simd {
 namespace {
 
-// Tolerance [grey levels]: luma is rounded to 1/8 grey level. The limits of the residual are a
-// quarter of the difference between two luma values.
+// Tolerance [grey levels]: luma is rounded to 1/8 grey level, and so are the limits between which
+// twin::residualAt() clamps the enlarged luma.
 constexpr double kLearnedError = 1.3;
 
 TEST(DetailStepLearned, FramesEnlargedByFiltersMatchTheOracleWithAndWithoutAStill) {

@@ -110,9 +110,9 @@ private:
         return still.bilinear(std::clamp(px, -1.0, double(still.size.width)),
                               std::clamp(py, -1.0, double(still.size.height)));
     }
-    /// Subtracts the still's detail that guidance adds from `seen`, and adds the video's detail
-    /// that guidance removes. Detail is the difference of a pixel from the mean of those 5x5 pixels
-    /// around it whose cells have a weight.
+    /// Returns seen - guidance.still * d(seen) + guidance.video * d(luma of the video). d(p) is the
+    /// difference of a pixel of p from the mean of the 5x5 pixels around it. Only pixels whose cell
+    /// has a weight above 0 change and count in the mean.
     [[nodiscard]] Grey guided(const Grey& seen) const {
         const Guidance guidance =
             options_.learned != nullptr ? options_.learned->guidance() : Guidance{};
@@ -190,8 +190,8 @@ inline int tileAt(int pixel, int video, int output) {
     return static_cast<int>((pixel + 0.5) * video / output) / kTileSize;
 }
 
-/// All classes have the same filter, so that the class that rounding chooses does not matter. The
-/// filter is symmetric, because classes mirror it.
+/// The same filter for each class, so that the result does not depend on a pixel's class, which
+/// rounding may change. The filter is symmetric: mirroring it, as some classes do, has no effect.
 inline std::vector<FilterBank::Filter> evenFilters() {
     FilterBank::Filter filter;
     for (int tap = 0; tap < enlarge::kTaps; ++tap)

@@ -105,7 +105,8 @@ TEST(FilterBank, TheCubicFilterKeepsFlatPictures) {
     for (int phase = 0; phase < kPhases; ++phase)
         far += std::abs(cubic[filterIndex(tapAt({-2, -2}), phase)]);
     EXPECT_GT(far, 0);
-    EXPECT_EQ(cubic[filterIndex(tapAt({2, 2}), 0)], 0) << "tap of the upper left sub-pixel";
+    EXPECT_EQ(cubic[filterIndex(tapAt({2, 2}), 0)], 0)
+        << "the upper left sub-pixel must not use this neighbour";
 }
 
 }  // namespace

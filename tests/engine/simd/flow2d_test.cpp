@@ -191,7 +191,7 @@ TEST(Flow2d, SkippedTilesDoNotAffectOthers) {
                 ASSERT_EQ(wanted.x, got.x) << x << ", " << y;
                 ASSERT_EQ(wanted.y, got.y) << x << ", " << y;
                 ASSERT_EQ(wanted.cost, got.cost) << x << ", " << y;
-                // Both flows have the same backward vectors around the end of the forward vector.
+                // Where the forward vector ends, both runs must have the same backward vectors.
                 const auto at = [&](int cell, float by, int cells) {
                     const auto end = static_cast<int>(std::floor((4.0F * cell + 2 + by) / 8));
                     return std::clamp(end, 0, cells - 1);

@@ -51,9 +51,11 @@ struct Problem {
     }
 };
 
-// The cost is the difference to the pixel that is nearest to the straight line from the first to
-// the last label of a vector.
-TEST(LabelCosts, CostsOfLabelsAreThoseOfTheNearestPixels) {
+// A label is an inverse depth in steps of LabelLines::perLabel. Labels are processed in vectors of
+// 16, whose points lie evenly on a straight line in the still. Here, a label's cost is the Hamming
+// distance of the pixel's census from that of the still pixel nearest to the label's point. With
+// `slack`, it is the least distance of this and the two pixels one pixel beside the line.
+TEST(LabelCosts, CostOfALabelIsItsCensusDistanceToTheNearestStillPixel) {
     for (const std::size_t width : {1UL, 5UL, 64UL, 150UL}) {
         for (const int vectors : {1, 3}) {
             for (const bool slack : {false, true}) {
@@ -81,7 +83,7 @@ TEST(LabelCosts, CostsOfLabelsAreThoseOfTheNearestPixels) {
                     ++compared;
                     if (costs[n] != expected) ++differing;
                 }
-                EXPECT_EQ(differing, 0U) << "costs differ, of " << compared << " compared costs";
+                EXPECT_EQ(differing, 0U) << "number of wrong costs among " << compared;
                 EXPECT_GT(compared, costs.size() / 2);
             }
         }
@@ -111,7 +113,8 @@ double placeOf(const Problem& p, std::size_t x, const Valley& valley) {
             rise[side] = valley.rise[k < 0 ? k + 2 : k + 1];
         }
     if (rise[0] == Valley::kUnknown || rise[1] == Valley::kUnknown) return own.label;
-    // Vertex of two lines, one falling and one rising, with the slope of the steeper side.
+    // The minimum is where a falling and a rising line meet. Both have the slope of the steeper
+    // side.
     const double left = rise[0] / (own.label - foot[0]), right = rise[1] / (foot[1] - own.label);
     if (!(std::max(left, right) > 0)) return own.label;
     return right > left ? 0.5 * (foot[0] + own.label + rise[0] / right)
@@ -150,7 +153,7 @@ TEST(LabelPlaces, PositionsBetweenLabelsMatchTheOracle) {
     }
 }
 
-TEST(LabelVertices, TheFractionOfALabelIsTheVertexOfTwoLines) {
+TEST(LabelVertices, TheFractionOfALabelIsWhereTwoCostLinesMeet) {
     for (const std::size_t count : test::kLengths) {
         std::vector<Valley> valleys(count);
         for (std::size_t i = 0; i < count; ++i)

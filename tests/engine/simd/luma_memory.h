@@ -11,7 +11,7 @@
 
 namespace mfar::test {
 
-/// The luma pyramids of video and still, with the same margins as those of the passes.
+/// The luma pyramids of video and still, with the margins that the pipeline's pyramids have.
 class LumaMemory {
 public:
     /// `video(x, y)`, `still(x, y)`: grey levels of the finest pyramid levels; the constructor

@@ -18,7 +18,7 @@ std::vector<std::uint8_t> mixedTexels(std::size_t pixels) {
     return out;
 }
 
-TEST(LumaRows, LumaIsThatOfRec601WithinAGreyLevelAtAnyLength) {
+TEST(LumaRows, LumaMatchesRec601WithinAGreyLevelAtAnyLength) {
     for (const std::size_t pixels : {0UL, 1UL, 7UL, 16UL, 33UL, 100UL, 641UL}) {
         const std::vector<std::uint8_t> texels = mixedTexels(pixels);
         std::vector<std::uint8_t> luma(pixels + 1, 99);

@@ -137,7 +137,7 @@ void expectMean(Arrays& a, const std::string& name, const NoiseRule& rule, const
     EXPECT_EQ(to.count[i], std::max(from.count[i], 1.0F));
 }
 
-TEST(FilterNoiseRow, AveragesWhatNoiseMayExplain) {
+TEST(FilterNoiseRow, AveragesPixelsWhoseDifferenceNoiseMayExplain) {
     Arrays a;
     fillSurfaces(a);
     fillPart(a, "first", 10);

@@ -114,7 +114,7 @@ TEST_P(OcclusionSizes, PixelsInsideTheBoundsDoNotDependOnBoundsOrThreads) {
                 const PixelRect& b = layer.bounds;
                 const bool in = x >= b.x0 && x < b.x1 && y >= b.y0 && y < b.y1;
                 if (in) {
-                    // Tolerance: sigma^2 is computed from sigma, which was a square root.
+                    // Tolerance: sigma^2 is computed from the rounded sqrt(sigma^2).
                     ASSERT_NEAR(part.visibleAt(x, y), whole.visibleAt(x, y),
                                 threads == 2 ? 1.01 / 255 : 0);
                 }

@@ -162,7 +162,7 @@ TEST(PatchFlow, ACellTakesTheBestVectorOfItsNeighbours) {
     EXPECT_GT(moved, kCells.width * kCells.height / 4);
 }
 
-/// Checks the costs of seed vectors that change by dx and dy per pixel. `span`: see
+/// Checks the costs of bent patches: the flow changes by dx and dy per pixel. `span`: see
 /// compareBentPatch(). Cells at the border are left out.
 void expectBentCosts(const Vector2d& dx, const Vector2d& dy, int span) {
     const FlowPicture first = wavesMoved(kSize, {0, 0}), second = noiseOf(kSize, 3);

@@ -160,9 +160,9 @@ void expectOracle(const WeighCase& c, bool givenErrors) {
             const TrustCell& trust = c.step.trust()[y][x];
             EXPECT_EQ(w.x, c.forward[y][x].x);
             EXPECT_EQ(w.y, c.forward[y][x].y);
-            // Tolerance: at low contrast a weight grows with the fifth power of the covariance. The
-            // rounding of pixels to 1/64 grey level adds up to 0.1 % to the covariance. Weights
-            // below the smallest are set to zero.
+            // Tolerance: the kernels round pixels to 1/64 grey level, which changes the covariance
+            // by up to 0.1 %. At low contrast a weight grows with its fifth power. A weight below
+            // kSmallestWeight is set to 0, so that only one of the two weights may be 0.
             EXPECT_NEAR(w.weight, t.weight,
                         w.weight == 0 || t.weight == 0 ? 1.001 * params::kSmallestWeight
                                                        : 2e-3 * t.weight + 1e-4);
@@ -254,8 +254,9 @@ TEST(WeighStep, WithoutChangedTilesNothingIsComputed) {
     EXPECT_TRUE(same(c.step.weighed(), before));
 }
 
-// Patches of low contrast are weighed with the gain at half resolution. This gain must not change
-// where no changed tile is matched, even if the flow changes.
+// The weight of a patch of low contrast uses the photometric gain between the sensors, measured at
+// half resolution. This gain must not change where no changed tile is matched, even if the flow
+// changes.
 TEST(WeighStep, TheGainStaysWhereNoChangedTileIsMatched) {
     WeighCase kept = plainCase(), renewed = plainCase(), first = plainCase();
     kept.run();

@@ -24,11 +24,12 @@ struct StageSummary {
 struct CaseResult {
     std::string name;
     Summary frame;
-    std::vector<StageSummary> stages;  ///< from a separate run that waits after each stage
+    std::vector<StageSummary> stages;  ///< measured in a separate run that waits after each stage
     std::array<double, kTileClasses> tileShare{};  ///< share of each TileClass in all tiles
 };
 
-/// Times of the paper's method, built on OpenCV. It processed each frame right after the product.
+/// Times of a peer: the paper's method, built on OpenCV. The peer processed each frame right after
+/// the product.
 struct PeerResult {
     std::string name;
     std::string of;  ///< name of the CaseResult with which the peer is compared
@@ -47,7 +48,7 @@ struct ScalingResult {
 
 struct BenchResult {
     std::string workload;  ///< workload of the cases "moving", "rest" and "rest-noise"
-    std::string posed;     ///< workload of the case "handheld"; may be empty
+    std::string posed;     ///< workload of the case "handheld"; empty if this case is left out
     std::string renderer;
     Size video, still, output;
     Summary setStill;
@@ -64,9 +65,10 @@ struct BenchResult {
 /// stderr. Returns null if there is no lesson.
 [[nodiscard]] std::shared_ptr<const FilterBank> learnedFrom(const Workload& work);
 
-/// Measures all cases. The first frames of each case warm up and are not counted. "moving" and
-/// "rest" use the frames of `moving` without poses. "handheld" uses frames and poses of `posed` and
-/// is left out if there are none. Needs a current GL context, which `renderer` describes.
+/// Measures all cases. The first frames of each case warm up and are not counted. "moving", "rest"
+/// and "rest-noise" use the frames of `moving` without poses. "handheld" uses frames and poses of
+/// `posed`; it is left out if `posed` has no frames. Needs a current GL context, which `renderer`
+/// describes.
 [[nodiscard]] BenchResult runBench(const Workload& moving, const Workload& posed, SuperResMode mode,
                                    EngineKind engine, const std::string& renderer,
                                    const ProgressPart& progress = {});

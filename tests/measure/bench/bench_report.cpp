@@ -77,7 +77,7 @@ std::string toTable(const RenderFigures& render) {
                            "{:.2f}\n",
                            r.triangles, r.bare, r.ours, 100 * r.ours / r.bare, r.samples);
     for (const SamplingError& e : render.errors)
-        out += fmt::format("RMSE of radiance at 16 samples per pixel, {:<30} mfar {:.5f}, "
+        out += fmt::format("RMSE of radiance at 16 samples per pixel, {:<36} mfar {:.5f}, "
                            "independent random samples {:.5f} = {:.1f} times mfar's\n",
                            e.scene + ":", e.ours, e.independent, e.independent / e.ours);
     return out;

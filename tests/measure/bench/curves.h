@@ -15,7 +15,7 @@ struct CurvePoint {
     bool isDefault = false;
     double ms = 0;    ///< median run time of three runs
     double epe = 0;   ///< end-point error [px]
-    double bad1 = 0;  ///< share of the known pixels whose error exceeds 1 px
+    double bad1 = 0;  ///< see FlowError::bad1
 };
 
 struct Curve {
@@ -24,8 +24,8 @@ struct Curve {
     std::vector<CurvePoint> points;
 };
 
-/// One of OpenCV's flow algorithms, computed in one direction. It is measured on the same samples
-/// as the curves.
+/// One of OpenCV's flow algorithms, measured on the same samples as the curves. It computes only
+/// the flow from the frame to the still.
 struct CurvePeer {
     std::string name;
     CurvePoint point;

@@ -6,8 +6,8 @@
 namespace mfar::bench {
 
 /// Time per frame to find depth from a keyframe (an earlier frame) instead of a still. It includes
-/// luma, search, filter, and the step that moves depth edges to picture edges. Depth is searched
-/// in every frame. A summary with 0 runs was not measured.
+/// all steps: luma, search, filter, and moving depth edges to picture edges. Depth is searched in
+/// every frame. If `runs` of a summary is 0, it was not measured.
 struct DepthTimes {
     Summary tenth;  ///< search in a tenth of the picture, around its centre
     Summary whole;

@@ -14,7 +14,8 @@ public:
     explicit GovernorCommand(CLI::App& app);
 
     [[nodiscard]] bool asked() const { return command_->parsed(); }
-    /// Throws ConfigError for an invalid table, Failure for an unreadable one.
+    /// Throws ConfigError if the file with the quality levels is invalid, and Failure if it cannot
+    /// be read.
     void run(Progress& progress);
 
 private:

@@ -8,7 +8,7 @@
 namespace mfar::bench {
 namespace {
 
-constexpr std::size_t kSettling = 30;  // frames to settle after a change of scene
+constexpr std::size_t kSettling = 30;  // frames that the governor gets to adapt to a new scene
 
 double percentile(std::vector<double> values, double share) {
     if (values.empty()) return 0;

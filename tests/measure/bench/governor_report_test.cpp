@@ -5,7 +5,7 @@
 namespace mfar::bench {
 namespace {
 
-TEST(GovernorReport, IsSettledOnceAtMostOneFrameInTwentyIsLate) {
+TEST(GovernorReport, SettledAfterCountsFramesUntilAtMostOneInTwentyIsLate) {
     std::vector<double> ms(100, 30);
     EXPECT_EQ(settledAfter(ms, 33), 0);
     ms[0] = ms[1] = ms[2] = 40;
@@ -17,7 +17,7 @@ TEST(GovernorReport, IsSettledOnceAtMostOneFrameInTwentyIsLate) {
     EXPECT_EQ(settledAfter(ms, 33), 9);
 }
 
-TEST(GovernorReport, NeverSettlesIfTheDeadlineIsMissed) {
+TEST(GovernorReport, IfAllFramesAreLateSettledAfterReturnsTheirNumber) {
     const std::vector<double> ms(50, 40);
     EXPECT_EQ(settledAfter(ms, 33), 50);
     EXPECT_EQ(settledAfter({}, 33), 0);

@@ -34,8 +34,8 @@ struct GovernorRequest {
 [[nodiscard]] std::vector<GovernedRun> measureGovernor(const GovernorRequest& request,
                                                        const std::vector<QualityLevel>& levels);
 
-/// Number of frames before the governor has settled. From then on, at most one frame in twenty is
-/// late. If it never settles, this is the number of all frames.
+/// Number of frames after which the governor has settled: at most one in twenty of the remaining
+/// frames takes longer than the deadline. If it never settles, returns the number of all frames.
 [[nodiscard]] int settledAfter(std::span<const double> ms, double deadlineMs);
 
 /// 95th percentile of the frame times [ms], without the first `from` frames of each scene.

@@ -20,8 +20,8 @@ public:
     /// Only one Timer of a context may measure at a time.
     void start();
     void stop();
-    /// Time of the last measurement [ms]. Empty while the GPU is working, and if the GPU changed
-    /// its clock meanwhile.
+    /// Time of the last measurement [ms]. Empty as long as the GPU has not finished, and if the GPU
+    /// changed its clock during the measurement.
     [[nodiscard]] std::optional<double> read() const;
 
 private:

@@ -32,9 +32,9 @@ constexpr const char* kHelp =
     "with its poses; rest: the same frame again and again; rest-noise: the same view with sensor "
     "noise of sigma 2 grey levels.\n"
     "mfar learns its filters from stills before the measurement. Whole frames are timed without "
-    "interruption until the picture is finished; stages are timed in a separate run. The peers are "
-    "the paper's method with OpenCV's flow (DIS medium, DIS fast). They process each frame right "
-    "after mfar.";
+    "interruption until the picture is finished; stages are timed in a separate run. Rows `peer "
+    "paper` and `peer paper-fast` are for comparison: the paper's method with OpenCV's flow (DIS "
+    "medium, DIS fast). It processes each frame right after mfar.";
 
 struct Options {
     std::string recording, json, mode = "detail", engine = "auto";
@@ -91,11 +91,11 @@ void addOptions(CLI::App& app, Options& o) {
                    "use the frames and stills of this recording instead of the synthetic board's");
     app.add_option("--frames", o.frames, "number of frames per case (default 40, with --quick 4)")
         ->check(CLI::Range(1, 100000));
-    app.add_option("--mode", o.mode, "super-resolution mode, as the key mode of [superres]")
+    app.add_option("--mode", o.mode, "super-resolution mode, see superres.mode in mfard's manual")
         ->check(CLI::IsMember({"detail", "blend"}))
         ->capture_default_str();
     app.add_option("--engine", o.engine,
-                   "engine of all steps; auto: simd if GLES is a software renderer")
+                   "engine of all steps; auto: simd if OpenGL ES runs on the CPU, otherwise gles")
         ->check(CLI::IsMember({"auto", "gles", "simd"}))
         ->capture_default_str();
     app.add_flag("--as-shipped", o.shipped,
@@ -107,8 +107,8 @@ void addOptions(CLI::App& app, Options& o) {
     app.add_flag("--quick", o.quick,
                  "measure few small frames, only to check that the program runs");
     app.add_option("--curves", o.curves,
-                   "make no other measurement; write curves.csv and curves.svg into this folder: "
-                   "time against error of the flow for each of its options");
+                   "measure only the flow: time against error for several values of each option; "
+                   "write curves.csv and curves.svg into this folder");
     app.add_option(
            "--data", o.data,
            "recordings or pairs on which the curves are measured, as for mfar-eval flow; "

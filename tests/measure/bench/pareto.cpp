@@ -44,8 +44,9 @@ std::string summaryOf(const ParetoStage& stage) {
         return fmt::format(" {}\n{}", title, lines.empty() ? "  none\n" : lines);
     };
     return fmt::format("{} ({}; {})\n", stage.name, stage.measure, stage.samples) +
-           part("settings of mfar that no peer dominates:", free) +
-           part("settings of mfar that a peer dominates:", dominated) + part("peers:", peers);
+           part("settings of mfar that no other method dominates:", free) +
+           part("settings of mfar that another method dominates:", dominated) +
+           part("other methods:", peers);
 }
 
 }  // namespace

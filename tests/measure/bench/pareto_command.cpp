@@ -44,9 +44,9 @@ std::vector<QualityLevel> levelsOf(const ParetoStage& superres) {
 
 ParetoCommand::ParetoCommand(CLI::App& app)
     : command_(app.add_subcommand("pareto",
-                                  "run time against error: measures every setting and peer of "
-                                  "flow, super-resolution, depth, slicing and warp; each gives a "
-                                  "point (median time, error)")) {
+                                  "run time against error: measures flow, super-resolution, depth, "
+                                  "slicing and warp with every setting of mfar and with other "
+                                  "methods; each gives a point (median time, error)")) {
     command_
         ->add_option("--stages", stages_,
                      fmt::format("stages to measure: any of {}", fmt::join(stages_, ", ")))

@@ -109,8 +109,8 @@ std::string paretoSvg(const std::vector<ParetoStage>& stages) {
         left += kWide + kBetween;
     }
     body += draw::text(kMarginLeft, 24, "start",
-                       "Run time against error. Discs: mfar (ring: default). Diamonds: peers. "
-                       "Line: points that no other dominates.",
+                       "Run time against error. Discs: mfar (ring: default). Diamonds: other "
+                       "methods. Line: undominated points.",
                        16);
     return draw::document(left, kMarginTop + kHigh + kMarginBelow, body);
 }

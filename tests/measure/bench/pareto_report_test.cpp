@@ -46,9 +46,9 @@ TEST(Pareto, SummaryNamesThePeersThatDominateAPoint) {
     EXPECT_TRUE(dominatingPeers(stage, stage.points[1]).empty());
     const std::string text = paretoSummary({stage});
     const auto at = [&](const char* what) { return text.find(what); };
-    EXPECT_LT(at("no peer dominates"), at("usual"));
-    EXPECT_LT(at("quick"), at(" a peer dominates"));
-    EXPECT_LT(at(" a peer dominates"), at("dominated by slow peer"));
+    EXPECT_LT(at("no other method dominates"), at("usual"));
+    EXPECT_LT(at("quick"), at(" another method dominates"));
+    EXPECT_LT(at(" another method dominates"), at("dominated by slow peer"));
 }
 
 TEST(Pareto, CsvHasALineForEachPoint) {

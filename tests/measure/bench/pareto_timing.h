@@ -37,8 +37,8 @@ private:
     int count_ = 0;
 };
 
-/// Points of a stage. `times` has an entry for each of our settings, the default first, and then
-/// for each peer.
+/// Points of a stage. `ours`: names of mfar's settings, the default first. `times`: one entry for
+/// each setting of `ours`, followed by one for each peer.
 [[nodiscard]] inline std::vector<ParetoPoint> pointsOf(const std::vector<std::string>& ours,
                                                        const std::vector<std::string>& peers,
                                                        const std::vector<WayTimes>& times) {
@@ -80,8 +80,8 @@ class PipelinePool {
 public:
     explicit PipelinePool(const StereoRig& rig) : rig_(rig) {}
 
-    /// Returns a pipeline that uses `options` from its next run on. In all calls, `options` must be
-    /// equal, except for the options of Quality and those that `fits` compares below.
+    /// Returns a pipeline that uses `options` from its next run on. All calls must pass the same
+    /// options, except for those of Quality and those that `fits` compares below.
     Pipeline& with(const PipelineOptions& options) {
         for (auto& [made, pipeline] : made_) {
             const bool fits = made.flow2d.levels == options.flow2d.levels &&

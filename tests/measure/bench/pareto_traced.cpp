@@ -54,7 +54,7 @@ ParetoStage warpStage(bool quick) {
         ++sum.scenes;
     }
     sums.at(kInpainting).ms += sums.at("none").ms;
-    ParetoStage out{"warp with filled holes",
+    ParetoStage out{"warp of a path-traced picture",
                     "RMSE inside the silhouette [grey levels]",
                     fmt::format("{}, turned by 10 degrees, {}x{}, wall clock",
                                 fmt::join(request.scenes, " and "), request.size.width,
@@ -71,7 +71,7 @@ ParetoStage warpStage(bool quick) {
 
 ParetoStage slicingStage(bool quick) {
     eval::SlicingRequest request;
-    request.frames = 8;  // few, because only the times and errors of pictures are used below
+    request.frames = 8;  // few, because the rows `budget`, which need many, are not used below
     if (quick) {
         request.size = {48, 36};
         request.samples = 8;

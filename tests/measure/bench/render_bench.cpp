@@ -166,10 +166,10 @@ std::vector<SamplingError> errors(bool quick) {
     outside->lighting.environment = unevenLight();
     return {errorOf("sun, surfaces only", scene, 1, close, quick),
             errorOf("sun, whole picture", scene, 1, wide, quick),
-            errorOf("sun, indirect", scene, 5, wide, quick),
-            errorOf("sun, indirect, surfaces only", scene, 5, close, quick),
+            errorOf("sun, indirect light", scene, 5, wide, quick),
+            errorOf("sun, indirect light, surfaces only", scene, 5, close, quick),
             errorOf("sun and environment", outside, 1, wide, quick),
-            errorOf("sun and environment, indirect", outside, 5, wide, quick)};
+            errorOf("sun and environment, indirect light", outside, 5, wide, quick)};
 }
 
 }  // namespace

@@ -5,17 +5,17 @@
 
 namespace mfar::bench {
 
-/// Rates of one thread with the rays of a 640x480 camera that looks at a sphere. `bare`: Embree's
-/// rtcIntersect1 in a plain loop. `ours`: the product's camera rays, which include the lens and are
-/// traced in packets. `samples`: whole paths of a matt surface in sunlight.
+/// Rays and samples per second in one thread, for a 640x480 camera that looks at a sphere. `bare`:
+/// Embree's rtcIntersect1 in a plain loop. `ours`: the product's camera rays, which include the
+/// lens and are traced in packets. `samples`: whole paths of a matt surface in sunlight.
 struct RayRates {
     int triangles = 0;
     double bare = 0, ours = 0;  ///< [million rays/s]
     double samples = 0;         ///< [million samples/s]
 };
 
-/// RMS error of a picture's radiance at 16 samples per pixel. `ours`: with the product's samples.
-/// `independent`: with independent random samples.
+/// RMS error of a picture's radiance at 16 samples per pixel. `ours`: with the product's random
+/// numbers. `independent`: with PathTracerOptions::independentSamples.
 struct SamplingError {
     std::string scene;
     double ours = 0, independent = 0;
@@ -26,7 +26,8 @@ struct RenderFigures {
     std::vector<SamplingError> errors;
 };
 
-/// `quick`: small pictures, only to check that the program runs. Empty without path tracer.
+/// `quick`: small pictures, only to check that the program runs. Returns an empty result if the
+/// path tracer is not built.
 [[nodiscard]] RenderFigures measureRender(bool quick);
 
 }  // namespace mfar::bench

@@ -56,8 +56,11 @@ std::string verdicts(const SkipReport& report) {
 }  // namespace
 
 std::string skipTable(const SkipReport& report) {
-    std::string out = fmt::format("{:<14}{:>9}{:>13}{:>9}{:>10}\n", "case", "ms", "depth tiles",
-                                  "in view", "changed");
+    std::string out =
+        fmt::format("With all skips: time of a frame [ms], number of tiles in which depth was "
+                    "searched, number of frames with an object in view, share of changed tiles\n"
+                    "{:<14}{:>9}{:>13}{:>9}{:>10}\n",
+                    "case", "ms", "depth tiles", "in view", "changed");
     for (const SkipCase& c : report.cases)
         out += fmt::format("{:<14}{:>9.2f}{:>13}{:>9}{:>9.1f}%\n", c.scene, c.ms, c.depthTiles,
                            c.framesInView, 100 * c.changed);

@@ -27,7 +27,8 @@ using synthetic::Path;
 /// The first frames are not scored, because the first still must arrive and depth must settle.
 constexpr std::size_t kSettled = 8;
 constexpr std::size_t kScoredFrames = 4;  // every fourth frame is scored
-// bad-1 of depth counts errors above 1 px of disparity between cameras at this distance [m].
+// Distance between two imagined cameras [m]. bad-1 of depth counts pixels whose disparity between
+// these cameras is wrong by more than 1 px.
 constexpr double kBaseline = 0.05;
 
 struct Skip {
@@ -116,9 +117,9 @@ std::optional<double> difference(std::optional<double> a, std::optional<double> 
 }
 
 struct FrameTruth {
-    cv::Mat luma;     ///< at the output's size, CV_64F
-    cv::Mat without;  ///< pixels where no object can be shown; CV_8U at the output's size
-    cv::Mat visible;  ///< pixels that show an object; CV_8U at the video's size
+    cv::Mat luma;     ///< luma of the true picture; CV_64F at the output's size
+    cv::Mat without;  ///< 255 where no object can be shown, else 0; CV_8U at the output's size
+    cv::Mat visible;  ///< 255 where an object should be visible, else 0; CV_8U at the video's size
     cv::Mat silhouette, undecided, inverseDepth;
 };
 

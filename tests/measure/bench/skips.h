@@ -10,7 +10,8 @@
 namespace mfar::bench {
 
 struct SkipResult {
-    std::string skip, scene;  ///< name of the skip (a kind of work that is left out), of the case
+    /// Names of the skip (a type of work that the pipeline leaves out) and of the case.
+    std::string skip, scene;
     /// Median frame time with and without the skip.
     double ms = 0, msWithout = 0;
     /// Loss of PSNR by the skip [dB], outside virtual objects. This value and the next two are
@@ -27,9 +28,9 @@ struct SkipResult {
 struct SkipCase {
     std::string scene;
     double ms = 0;
-    long depthTiles = 0;  ///< number of tiles in which depth was searched, summed over the frames
-    long framesInView = 0;
-    double changed = 0;
+    long depthTiles = 0;    ///< number of tiles in which depth was searched, summed over the frames
+    long framesInView = 0;  ///< number of frames with an object in view
+    double changed = 0;     ///< mean share of tiles whose video changed since they were drawn
 };
 
 struct SkipReport {

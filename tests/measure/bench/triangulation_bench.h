@@ -6,11 +6,12 @@ namespace mfar::bench {
 
 /// Median time to triangulate one point [ns].
 struct TriangulationTimes {
-    double flow = 0, midpoint = 0;  ///< the product's methods, on every video pixel in one thread
+    double flow = 0, midpoint = 0;  ///< methods of Triangulation, every video pixel, one thread
     double opencv = 0;              ///< cv::triangulatePoints, on undistorted points
 };
 
-/// Triangulates the flow of a hand-held camera with distorting lenses. The methods take turns.
+/// Triangulates the flow of a hand-held camera with distorting lenses. Each round times all
+/// methods, one after the other.
 [[nodiscard]] TriangulationTimes measureTriangulation(Size video);
 
 }  // namespace mfar::bench

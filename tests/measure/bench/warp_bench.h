@@ -6,12 +6,11 @@
 
 namespace mfar::bench {
 
-/// Times per frame [ms] until all work is finished. If a member does not say otherwise, a picture
-/// of two balls on a plane is warped to a camera that has turned by 2 degrees.
+/// Times per frame [ms] until all work is finished.
 struct WarpTimes {
-    Summary objects;  ///< balls with shadows that cover a ninth of the picture
-    Summary whole;
-    Summary still;       ///< picture of `objects`, warped to the view in which it was traced
+    Summary objects;     ///< balls and shadows on a ninth of the picture; view turned by 2 degrees
+    Summary whole;       ///< one ball that fills the whole picture; view turned by 2 degrees
+    Summary still;       ///< scene of `objects`, shown in the view in which it was traced
     Summary newPicture;  ///< CPU work and upload when the picture of `objects` is replaced
     Summary remap;       ///< peer: cv::remap of the whole picture, bilinear
 };

@@ -161,8 +161,10 @@ Workload recordedWorkload(const std::filesystem::path& folder, int frames) {
     for (std::size_t i = 0; i < distinct; ++i) {
         const auto still = eval::referenceStill(recording, recording.video[i].time);
         if (!still)
-            throw eval::EvalError(fmt::format("{}: no still shows another view than frame {}",
-                                              folder.string(), recording.video[i].time.ns));
+            throw eval::EvalError(
+                fmt::format("{}: frame {} cannot be measured: every still was taken from the same "
+                            "pose as the frame, or the recording has no stills",
+                            folder.string(), recording.video[i].time.ns));
         const RecordedImage& reference = recording.stills[*still];
         const auto poses = eval::posesOf(recording, recording.video[i].time, reference.time);
         out.framePoses.push_back(poses.frame);

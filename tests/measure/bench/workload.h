@@ -38,7 +38,7 @@ struct Workload {
     std::shared_ptr<const FilterBank> filters{};  ///< learned from `lessons`; null: shipped filters
 };
 
-/// Number of lessons. Learning guidance needs at least two stills.
+/// Number of lessons in benchmarks. Learning guidance needs at least two stills.
 inline constexpr int kLessons = 4;
 
 /// Synthetic textured plane seen by a hand-held camera, with one still before the frames.
@@ -59,8 +59,8 @@ inline constexpr int kLessons = 4;
 /// EvalError and RecordingError.
 [[nodiscard]] Workload recordedWorkload(const std::filesystem::path& folder, int frames);
 
-/// Repeats the first frame, as a camera at rest would see it. `noise`: standard deviation of sensor
-/// noise, which differs in every frame [grey levels].
+/// Repeats the first frame of `moving`, as a camera at rest would see it. `noise`: standard
+/// deviation of added sensor noise, which differs in every frame [grey levels].
 [[nodiscard]] Workload atRest(const Workload& moving, double noise);
 
 }  // namespace mfar::bench

@@ -241,7 +241,8 @@ void recordDraw(std::int64_t vertices, std::int64_t pixels) {
     recorder->add(std::move(work));
 }
 
-/// Number of target pixels per video tile. The target may have another resolution than the video.
+/// Number of pixels of the render target per video tile. The render target can have another
+/// resolution than the video.
 std::int64_t pixelsOfTile(const PassWork& work) {
     std::array<GLint, 4> viewport{};
     glGetIntegerv(GL_VIEWPORT, viewport.data());

@@ -22,7 +22,7 @@ struct PassWork {
 
 /// Records all work that this thread's GL context receives while the object exists. The linker's
 /// option --wrap redirects the GL functions that start work. Only one object may exist at a time.
-/// Waits for the GPU where a list on the GPU determines the amount of work.
+/// If a list on the GPU determines the amount of work, the recorder waits for the GPU to read it.
 class PassRecorder {
 public:
     PassRecorder();

@@ -7,11 +7,11 @@
 
 namespace mfar::eval {
 
-/// A bar with its label. If `value` is NaN, the bar is drawn as not measured.
+/// A bar with its label. If `value` is NaN, the text "not measured" replaces the bar.
 struct Bar {
     std::string label;
     double value = 0;
-    std::vector<double> dots{};  ///< single values behind the mean, for example of frames
+    std::vector<double> dots{};  ///< values whose mean is `value`, for example those of frames
     std::size_t colour = 0;
 };
 
@@ -21,9 +21,9 @@ struct BarPanel {
     int decimals = 2;
 };
 
-/// Draws panels of horizontal bars as one SVG document. An axis begins at 0. If all values lie
-/// close together and far from 0, the axis begins near them and points replace the bars, whose
-/// lengths would mislead.
+/// Draws panels of horizontal bars as one SVG document. The axis begins at 0, unless all values of
+/// a panel lie close together and far from 0. Then the axis begins near the values, and points
+/// replace the bars, because bars that do not begin at 0 mislead.
 [[nodiscard]] std::string barsSvg(const std::string& title, const std::vector<BarPanel>& panels,
                                   const std::string& footnote);
 

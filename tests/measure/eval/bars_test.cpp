@@ -41,7 +41,7 @@ TEST(Bars, EachMeasuredColumnOfAReportGetsAPanel) {
     EXPECT_EQ(panels[1].bars[0].dots.size(), 2U) << "one for each frame";
 }
 
-TEST(Bars, DotsAreTheMeansOfSeveralRecordings) {
+TEST(Bars, WithSeveralRecordingsEachDotIsTheMeanOfOneRecording) {
     const auto panels = barsOf(twoMethods({"office", "shelf", "outdoor"}));
     EXPECT_EQ(panels[0].bars[1].value, 2);
     EXPECT_EQ(panels[0].bars[1].dots.size(), 3U);

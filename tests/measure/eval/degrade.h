@@ -11,7 +11,7 @@ namespace mfar::eval {
 /// (tone curve), noise (read-out).
 struct Degradation {
     double gain = 1;   ///< factor of the pixel value, > 0
-    double gamma = 1;  ///< v -> v^gamma with v in [0, 1], > 0
+    double gamma = 1;  ///< exponent > 0: v -> v^gamma for pixel values v scaled to [0, 1]
     double blur = 0;   ///< standard deviation of a Gaussian [px], >= 0
     double noise = 0;  ///< standard deviation of white noise in each channel [grey levels], >= 0
     bool operator==(const Degradation&) const = default;

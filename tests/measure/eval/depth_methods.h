@@ -8,8 +8,8 @@
 
 namespace mfar::eval {
 
-/// A method that computes the depth of video frames from a still, for one rig. Frames come in the
-/// order of their times, so a method may use earlier frames.
+/// A method that computes the depth of video frames from a still, for one rig. run() must get the
+/// frames in the order of their times, because some methods use earlier frames.
 class DepthMethod {
 public:
     virtual ~DepthMethod() = default;

@@ -131,7 +131,7 @@ Figure7Scene ofRecording(const Figure7Request& request, const std::filesystem::p
 }  // namespace
 
 std::vector<Figure7Scene> evaluateFigure7(const Figure7Request& request) {
-    SuperResFactory factory(2);  // alpha of the paper's experiments [video px]
+    SuperResFactory factory(2);  // PaperOptions::alpha in the paper's experiments
     if (request.learn > 0) factory.requireContext();
     std::vector<Figure7Scene> out;
     const auto labels = labelsOf(request.recordings);

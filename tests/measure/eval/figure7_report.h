@@ -8,7 +8,7 @@
 
 namespace mfar::eval {
 
-/// A method, in the order of the figure. The first is the truth, the second the product.
+/// A method of the figure. In figure7Methods(), the first is the truth and the second the product.
 struct Figure7Method {
     const char* name;
     const char* title;

@@ -5,8 +5,8 @@
 
 namespace mfar::eval {
 
-/// Measures the requested methods on every sample of flowSamplesOf(). The columns are those of
-/// FlowError and Sparsification. Throws EvalError and RecordingError.
+/// Measures the requested methods on every sample of flowSamplesOf(). The columns are the members
+/// of FlowError and the areas of Sparsification. Throws EvalError and RecordingError.
 [[nodiscard]] Report evaluateFlow(const SampleRequest& request);
 
 }  // namespace mfar::eval

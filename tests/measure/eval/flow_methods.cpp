@@ -32,7 +32,7 @@ struct PlainFlows {
 };
 using PlainFlow = std::function<PlainFlows(const cv::Mat& a, const cv::Mat& b)>;
 
-constexpr double kAlpha = 2;  // alpha of the paper's confidence [px]
+constexpr double kAlpha = 2;  // see PaperOptions::alpha
 
 class PlainMethod final : public FlowMethod {
 public:

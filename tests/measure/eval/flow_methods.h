@@ -9,8 +9,8 @@
 
 namespace mfar::eval {
 
-/// A method that computes the flow from video frames to a still, for one rig. Frames come in the
-/// order of their times, so a method may use earlier frames.
+/// A method that computes the flow from video frames to a still, for one rig. run() must get the
+/// frames in the order of their times, because some methods use earlier frames.
 class FlowMethod {
 public:
     virtual ~FlowMethod() = default;
@@ -27,8 +27,8 @@ public:
 
 [[nodiscard]] const std::vector<std::string>& flowMethodNames();
 
-/// Makes flow methods. The product's methods need a GL context. It is created for the first of them
-/// and stays current. create() throws std::invalid_argument for an unknown name.
+/// Makes flow methods. For the first of the product's methods, the factory creates a GL context,
+/// which stays current. create() throws std::invalid_argument for an unknown name.
 class FlowFactory {
 public:
     [[nodiscard]] std::unique_ptr<FlowMethod> create(const std::string& name, const StereoRig& rig);

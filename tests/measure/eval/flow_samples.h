@@ -25,16 +25,16 @@ struct FlowSet {
 };
 
 /// Finds the samples of a recording, or of a folder with flowNN.flo, frameNN.png and frameMM.png of
-/// the next higher number. A still with the frame's own view is never used. Both pictures of a pair
-/// get the same pinhole camera. Throws EvalError and RecordingError.
+/// the next higher number. Stills for which showsOwnView() is true are not used. Both pictures of a
+/// pair get the same pinhole camera. Throws EvalError and RecordingError.
 ///
-/// The truth of a recording is the first of these that exists. 1. truth/flow/<ns>_<ns>.flo from a
-/// video frame to a still. 2. truth/inverse_depth of a video frame in a scene at rest, if the pose
-/// relative to the still of referenceStill() is known. 3. truth/flow between two video frames: the
-/// second frame serves as the still, and both cameras are the video camera.
+/// The truth of a recording is the first that exists of: 1. truth/flow/<ns>_<ns>.flo from a video
+/// frame to a still; 2. truth/inverse_depth of a video frame in a scene at rest, if the pose
+/// relative to the still of referenceStill() is known; 3. truth/flow between two video frames, of
+/// which the second serves as the still (both cameras are then the video camera).
 [[nodiscard]] FlowSet flowSamplesOf(const std::filesystem::path& folder);
 
-/// Like flowSamplesOf(), but uses only truth/inverse_depth (kind 2), with known poses.
+/// Finds samples as flowSamplesOf() does, but uses only truth/inverse_depth with known poses.
 [[nodiscard]] FlowSet depthSamplesOf(const std::filesystem::path& folder);
 
 /// Returns CV_32FC2 [video px] at the video's size; NaN or above 1e9: unknown. Throws EvalError if

@@ -98,12 +98,12 @@ TEST(FlowSamples, ARecordingWithoutTruthIsRefused) {
     const TempFolder folder;
     writeRecording(folder / "r");
     EXPECT_THROW((void)flowSamplesOf(folder / "r"), EvalError);
-    // Depth gives the flow to a still of another time only if poses are known.
+    // The flow to a still of another time follows from depth only if both poses are known.
     writeDepth(folder / "r/truth/inverse_depth/100.pfm", 1);
     EXPECT_THROW((void)flowSamplesOf(folder / "r"), EvalError);
 }
 
-TEST(FlowSamples, TrueFlowIntoAStillGoesBeforeDepthAndFlowBetweenFrames) {
+TEST(FlowSamples, TrueFlowToAStillIsPreferredToDepthAndToFlowBetweenFrames) {
     const TempFolder folder;
     const auto truth = folder / "r/truth";
     writeRecording(folder / "r", true);

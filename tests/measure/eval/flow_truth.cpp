@@ -9,8 +9,8 @@ namespace mfar::eval {
 namespace {
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-// A point is rejected if its depth in the still's camera is at most this share of its depth in the
-// frame's camera.
+// A point is accepted if its depth in the still's camera exceeds kNearPlane times its depth in the
+// frame's camera. Otherwise it is behind or too close to the still's camera.
 constexpr double kNearPlane = 1e-3;
 constexpr double kSplatWeight = 0.25;  // a point covers pixels with a larger bilinear weight
 

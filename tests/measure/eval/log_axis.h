@@ -13,7 +13,7 @@ public:
         least_ = std::min(least_, value);
         most_ = std::max(most_, value);
     }
-    /// Position of a value on the axis. The axis is [0, 1] and has a margin at both ends.
+    /// Position of a value on the axis, from 0 to 1. Both ends have a margin without values.
     [[nodiscard]] double at(double value) const {
         if (!(least_ <= most_)) return 0;
         return (std::log(value / least_) + kMargin) / (std::log(most_ / least_) + 2 * kMargin);

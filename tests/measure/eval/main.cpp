@@ -41,10 +41,10 @@ constexpr const char* kSuperResHelp =
     "--classes divides the pixels into three classes: outside of the still's view; unmatched\n"
     "(occluded in the still, or confidence below 0.5); matched. For each class, the table\n"
     "shows its share of the pixels and the gain of every method over bicubic.\n"
-    "The reference of a frame is the still nearest to it in time that does not show the\n"
-    "frame's own view. A still shows the frame's own view if their relative pose is below\n"
-    "1e-6 (radians, metres). At equal times the rig gives this pose, otherwise the recorded\n"
-    "poses do.\n"
+    "The reference of a frame is the still nearest to it in time. Stills taken from the same\n"
+    "viewpoint and direction (less than 1e-6 m and 1e-6 rad away) are left out: such a still\n"
+    "would be the true picture itself. If still and frame have the same time, their relative\n"
+    "pose is that of the rig; otherwise it also depends on the recorded poses.\n"
     "ms: time of a second run on the same frame, in which every tile is computed, without the\n"
     "work per still.\n";
 
@@ -109,7 +109,7 @@ struct Options {
     std::filesystem::path svg;
 };
 
-/// Checks an angle [degrees]. CLI::Range would accept NaN.
+/// Validator of an angle [degrees]. CLI::Range is not used because it accepts NaN.
 std::string isAngle(const std::string& text) {
     double degrees = -1;
     const bool number = CLI::detail::lexical_cast(text, degrees);
@@ -157,8 +157,8 @@ CLI::App* addSuperRes(CLI::App& app, Options& o) {
         ->delimiter(',');
     sub->add_option(
         "--dnn-model", o.superres.dnnModels,
-        "model files for OpenCV's dnn_superres, measured as further peers; a file's name is EDSR, "
-        "ESPCN, FSRCNN or LapSRN and the factor, as in EDSR_x4.pb");
+        "model files for OpenCV's dnn_superres, measured as further methods; a file's name is "
+        "EDSR, ESPCN, FSRCNN or LapSRN and the factor, as in EDSR_x4.pb");
     sub->add_flag("--classes", o.superres.classes,
                   "report three groups of pixels separately: matched with the still, unmatched, "
                   "and outside of the still's view");
@@ -169,7 +169,7 @@ CLI::App* addSuperRes(CLI::App& app, Options& o) {
     addPictureMetrics(*sub, o.superres.metrics);
     sub->add_option(
            "--alpha", o.superres.alpha,
-           "two-way error of the flow at which the confidence of the peer `paper` is zero [video "
+           "two-way error of the flow at which the confidence of the method `paper` is zero [video "
            "px]")
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
@@ -257,7 +257,8 @@ std::vector<EvalCommand> addCommands(CLI::App& app, Options& o) {
 }
 
 int run(int argc, char** argv) {
-    CLI::App app("mfar-eval: measures accuracy and run time of mfar and its peers on recordings");
+    CLI::App app(
+        "mfar-eval: measures accuracy and run time of mfar and of other methods on recordings");
     app.require_subcommand(1);
     Options o;
     const std::vector<EvalCommand> commands = addCommands(app, o);

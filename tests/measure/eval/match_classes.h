@@ -35,8 +35,9 @@ inline constexpr int kMatchClasses = 3;
 [[nodiscard]] std::string matchClassesHead();
 /// Columns of each class: its share of the pixels, and its gain in luma PSNR over bicubic [dB].
 [[nodiscard]] std::vector<Column> matchClassColumns();
-/// Values of matchClassColumns(). Lumas are CV_64F, classes CV_8U, all of the same size. A class
-/// has no gain if it is too small, or if a picture equals the truth there.
+/// Values of matchClassColumns(). Lumas are CV_64F, classes CV_8U, all of the same size. The gain
+/// of a class is empty if its share is below kSmallestClass, or if a picture equals the truth in
+/// it.
 [[nodiscard]] std::vector<std::optional<double>> matchClassValues(const cv::Mat& classes,
                                                                   const cv::Mat& picture,
                                                                   const cv::Mat& bicubic,

@@ -27,7 +27,7 @@ int count(const cv::Mat& classes, int of) {
     return cv::countNonZero(classes == of);
 }
 
-TEST(MatchClasses, ConfidenceDistinguishesMatchedFromUnmatched) {
+TEST(MatchClasses, ConfidenceDistinguishesMatchedFromUnmatchedPixels) {
     StillMatch match = evenMatch({0, 0}, kWellMatched);
     match.confidence.at<float>(2, 5) = 0.49F;
     match.confidence.at<float>(3, 5) = NAN;

@@ -53,7 +53,7 @@ Report evaluateMetric(const MetricRequest& request) {
     PictureScores scores = scoreOf(luma(test), luma(reference), metrics);
     if (colours) scoreColours(test, reference, metrics.display, scores);
     auto further = furtherValues(scores, request.metrics);
-    if (colours) further.back().reset();  // sRGB has no single gamma value
+    if (colours) further.back().reset();  // hdrvdp_gamma: sRGB has no single gamma value
     Report report(followedBy<Column>({{"psnr_db", 2}, {"ssim", 4}, {"lpc_si", 4}, {"hdrvdp_q", 2}},
                                      furtherColumns(request.metrics)));
     report.add(request.reference.filename().string(), request.test.filename().string(),

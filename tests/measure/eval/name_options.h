@@ -25,7 +25,9 @@ void addNames(CLI::App& sub, const char* option, std::vector<T>& values, const c
            what)
         ->delimiter(',')
         ->check([named](const std::string& name) {
-            return named(name) ? std::string() : fmt::format("unknown name '{}'", name);
+            return named(name)
+                       ? std::string()
+                       : fmt::format("unknown name '{}'; mfar-sim --help lists the names", name);
         });
 }
 

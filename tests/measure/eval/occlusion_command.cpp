@@ -18,7 +18,7 @@ constexpr const char* kOcclusionHelp =
     "needs neither stage.\n"
     "The first 8 frames are not scored; the still is requested in the first of them.";
 
-/// Checks a factor of the noise. CLI::Range would accept NaN.
+/// Validator of a factor of the noise. CLI::Range is not used because it accepts NaN.
 std::string isNoise(const std::string& text) {
     double factor = -1;
     const bool number = CLI::detail::lexical_cast(text, factor);

@@ -41,7 +41,8 @@ private:
 };
 
 /// Confidence by eq. 2 of the paper, CV_32F in [0, 1]; 0 where the flow leads outside the picture.
-/// `forward` is the flow from a to b, `backward` from b to a, both CV_32FC2 [px].
+/// `forward`: flow from one picture to another, `backward`: flow in the opposite direction, both
+/// CV_32FC2 [px].
 [[nodiscard]] cv::Mat twoWayConfidence(const cv::Mat& forward, const cv::Mat& backward,
                                        double alpha);
 

@@ -28,13 +28,13 @@ struct PictureScores {
     std::optional<LpcTiles> tiles;
 };
 
-/// Both pictures are CV_64F in grey levels, of the same size. Throws EvalError if they are too
-/// small for a metric.
+/// Compares the luma of two pictures, CV_64F in grey levels, of the same size. Throws EvalError if
+/// the pictures are too small for a requested metric.
 [[nodiscard]] PictureScores scoreOf(const cv::Mat& picture, const cv::Mat& truth,
                                     const PictureMetrics& metrics);
 
-/// Further columns of a report for the requested metrics, with their parameters. They follow
-/// psnr_db, ssim, lpc_si and hdrvdp_q.
+/// Columns of a report that follow psnr_db, ssim, lpc_si and hdrvdp_q: further scores of the
+/// requested metrics, and the parameters with which they were computed.
 [[nodiscard]] std::vector<Column> furtherColumns(const PictureMetrics& metrics);
 [[nodiscard]] std::vector<std::optional<double>> furtherValues(const PictureScores& scores,
                                                                const PictureMetrics& metrics);

@@ -7,7 +7,7 @@
 namespace mfar::eval {
 namespace {
 
-/// Checks the range of a number. CLI::Range would accept NaN.
+/// Validator of a number in [least, most]. CLI::Range is not used because it accepts NaN.
 CLI::Validator within(double least, double most) {
     return CLI::Validator(
         [least, most](const std::string& text) {

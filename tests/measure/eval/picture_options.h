@@ -9,7 +9,7 @@
 
 namespace mfar::eval {
 
-/// Checks a budget of processor time [ms]. CLI::Range would accept NaN.
+/// Validator of a budget of processor time [ms]. CLI::Range is not used because it accepts NaN.
 inline std::string isBudget(const std::string& text) {
     double ms = -1;
     const bool number = CLI::detail::lexical_cast(text, ms);

@@ -6,7 +6,7 @@
 
 namespace mfar::eval {
 
-/// A point of a plot. It is not drawn if a value is not finite or x is not above 0.
+/// A point of a plot. It is drawn if x and y are finite and x is above 0.
 struct PlotPoint {
     double x = 0, y = 0;
     std::string tip;
@@ -20,7 +20,7 @@ struct PlotLine {
 
 struct PlotPanel {
     std::string title, xLabel, yLabel;
-    double leastY = 1e-9;  ///< smaller y are drawn here, because 0 has no logarithm
+    double leastY = 1e-9;  ///< smaller y are drawn at this value, because 0 has no logarithm
     std::vector<PlotLine> lines;
     std::vector<PlotPoint> diamonds;
     std::optional<PlotPoint> ringed;

@@ -47,7 +47,7 @@ Values none() {
     return Values(kColumns.size());
 }
 
-/// Motion from the true pose to the measured pose, in the frame of the camera.
+/// Motion from the true pose to the measured pose, in coordinates of the true camera.
 RigidTransform errorOf(const Pose& measured, const Pose& truth) {
     return truth.T_world_video.inverse() * measured.T_world_video;
 }

@@ -17,8 +17,8 @@ enum class PoseSource {
 class KnownPoses {
 public:
     /// `recording` must outlive this object. With PoseSource::Tags, all pictures are tracked in the
-    /// order of their times, with the recording's tags.toml. A still's pose comes from the still
-    /// itself. Throws TagMapError and ImageFileError.
+    /// order of their times, with the recording's tags.toml. A still's pose is found from the tags
+    /// in the still. Throws TagMapError and ImageFileError.
     KnownPoses(const Recording& recording, PoseSource source);
 
     /// Poses at two times. `still` may also be the time of a video frame.

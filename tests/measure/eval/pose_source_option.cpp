@@ -10,8 +10,9 @@ void addPoseSource(CLI::App& sub, PoseSource& source) {
         {"recorded", PoseSource::Recorded}, {"tags", PoseSource::Tags}, {"none", PoseSource::None}};
     sub.add_option_function<std::string>(
            "--poses", [&source, sources](const std::string& name) { source = sources.at(name); },
-           "poses that the methods get: recorded (default), tags (found by the tracker in the "
-           "pictures with tags.toml; a still's pose is found in the still itself) or none")
+           "source of the poses that the methods get: recorded: the recording (default); tags: the "
+           "tracker, which detects the tags of the recording's tags.toml in every picture, stills "
+           "included; none: no poses")
         ->check(CLI::IsMember({"recorded", "tags", "none"}))
         ->option_text("recorded|tags|none");
 }

@@ -63,8 +63,8 @@ bool Rectification::fit(int disparities) {
     if (flat || !((high.x() - low.x()) < kLargest * camera_.size.width) ||
         !((high.y() - low.y()) < kLargest * camera_.size.width))
         return false;
-    // Shifts are whole pixels, so views that are already rectified are not interpolated. The margin
-    // of 1e-6 keeps rounding errors from adding a row or column.
+    // `left` and `top` are whole pixels, so views that are already rectified are not interpolated.
+    // The margin of 1e-6 keeps rounding errors from adding a row or column.
     const double left = std::floor(low.x() + 1e-6) - disparities, top = std::floor(low.y() + 1e-6);
     size_ = {static_cast<int>(std::ceil(high.x() - 1e-6) - left) + 1,
              static_cast<int>(std::ceil(high.y() - 1e-6) - top) + 1};

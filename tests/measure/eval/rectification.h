@@ -14,9 +14,9 @@ namespace mfar::eval {
 class Rectification {
 public:
     /// Both views have the lens and size of `camera`. `T_second_first` maps camera coordinates of
-    /// the first view to the second. `disparities`: width of a margin on the left [px], into which
-    /// points at the first view's left border move in the second view. Empty if the views cannot be
-    /// rectified, because the baseline is zero or points into or near a picture.
+    /// the first view to the second. `disparities`: largest disparity d [px]; the rectified
+    /// pictures get a margin of this width on the left. Empty if the views cannot be rectified,
+    /// because the baseline is zero or points into or near a picture.
     [[nodiscard]] static std::optional<Rectification>
     of(const CameraModel& camera, const RigidTransform& T_second_first, int disparities);
 
@@ -25,7 +25,7 @@ public:
     [[nodiscard]] cv::Mat firstMap() const { return mapOf(firstTurn_); }
     [[nodiscard]] cv::Mat secondMap() const { return mapOf(secondTurn_); }
     /// ofFirst() rectifies a pixel of the first view. toSecond() returns the second view's pixel
-    /// for a rectified pixel; it is far outside if the point is behind that camera.
+    /// for a rectified pixel, or (-1e6, -1e6) if the ray points behind the second camera.
     [[nodiscard]] Eigen::Vector2d ofFirst(const Eigen::Vector2d& pixel) const;
     [[nodiscard]] Eigen::Vector2d toSecond(const Eigen::Vector2d& rectified) const {
         return toView(rectified, secondTurn_);

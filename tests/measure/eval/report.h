@@ -33,7 +33,7 @@ public:
     /// Appends the means of each recording and method, with `frame` = "mean". With several
     /// recordings, also appends the means over all frames, with `recording` = "all".
     void addMeans();
-    /// Appends medians over frames in the same way, with `frame` = "median".
+    /// Appends medians for the same recordings and methods as addMeans(), with `frame` = "median".
     void addMedians();
 
     void setHead(std::string head) { head_ = std::move(head); }

@@ -18,7 +18,7 @@ struct SampleRequest {
     Degradation degradation;  ///< applied to every still, or to the second picture of a pair
     PoseSource poses = PoseSource::Recorded;
     PoseNoise poseNoise;
-    int frames = 0;  ///< number of frames per folder; 0: all with truth
+    int frames = 0;  ///< largest number of frames per folder; 0: all frames with truth
     ProgressPart progress{};
 };
 

@@ -13,9 +13,9 @@ namespace mfar::eval {
 
 /// A picture for the evaluated methods, with the video camera's pose at the time of the picture.
 struct Shot {
-    cv::Mat picture;  ///< CV_8UC3, B G R, in the sensor's size
+    cv::Mat picture;  ///< CV_8UC3, B G R, of the sensor's size
     Timestamp time;
-    /// Empty if unknown. Both shots of a sample share an arbitrary world frame.
+    /// Empty if unknown. Both shots of a sample share an arbitrary world coordinate system.
     std::optional<Pose> pose = std::nullopt;
 };
 
@@ -24,8 +24,9 @@ struct PosePair {
     std::optional<Pose> frame, still;
 };
 
-/// Interpolates recorded poses; empty outside their time range. Without recorded poses, the still's
-/// view is the world frame, and a frame's pose is known only if its time equals the still's.
+/// Interpolates the recorded poses; a pose outside their time range is empty. Without recorded
+/// poses, the video camera's coordinates at the still's time are the world's coordinates, and a
+/// frame's pose is known only if its time equals the still's.
 [[nodiscard]] PosePair posesOf(const Recording& recording, Timestamp frame, Timestamp still);
 
 /// Maps video camera coordinates at the frame's time to still camera coordinates at the still's
@@ -33,15 +34,16 @@ struct PosePair {
 [[nodiscard]] RigidTransform stillFromFrame(const StereoRig& rig, const Pose& frame,
                                             const Pose& still);
 
-/// Pose errors that test robustness: each frame's pose is rotated about an axis of its own.
+/// Errors added to poses to test robustness: turned() rotates each frame's pose by `degrees` about
+/// a random axis, which depends on `seed` and on the frame.
 struct PoseNoise {
     double degrees = 0;
     std::uint64_t seed = 0;
 };
 
-/// Rotates a pose about a random axis with uniformly distributed directions. The pose relative to
-/// any still is then wrong by exactly this angle. Equal recording, time and seed give the same
-/// axis.
+/// Rotates the pose by noise.degrees about a random axis; all directions of the axis are equally
+/// likely. The pose relative to any still is then wrong by exactly noise.degrees. Equal recordings,
+/// times and seeds give the same axis.
 [[nodiscard]] Pose turned(const Pose& pose, const PoseNoise& noise, std::string_view recording);
 
 }  // namespace mfar::eval

@@ -29,8 +29,8 @@ struct ErrorAt {
     double filtered = 0;  ///< RMS error after the noise was smoothed
 };
 
-/// Errors of the unfinished picture. Time slices: after 1, 2, 4, ... samples. Spatial slices: after
-/// 1, 2, 4, ... of 16 parts and at the end; parts that are not traced yet are empty.
+/// Errors of the unfinished picture. Time slices: after 1, 2, 4, ... samples per pixel. Spatial
+/// slices: after 1, 2, 4, ... sixteenths of the picture and at the end; the rest is still empty.
 [[nodiscard]] std::vector<ErrorAt> slicedErrors(const SlicedScene& scene,
                                                 const SliceOptions& slices);
 
@@ -42,11 +42,11 @@ struct ErrorAt {
 [[nodiscard]] std::vector<double> frameTimes(const SlicedScene& scene, const SliceOptions& slices,
                                              int frames);
 
-/// Use of the budget by the product's renderer. It works in its threads for `frames` frames at 30
-/// per second. The view rotates by `degreesPerSecond`, so new pictures are needed.
+/// Result of budgetRun(), which lets the product's renderer work in its threads for `frames` frames
+/// at 30 per second. The view rotates by `degreesPerSecond`, so new pictures are needed.
 struct BudgetRun {
     double mean = 0, deviation = 0;  ///< see BudgetKept
-    double samplesPerSecond = 0;     ///< per second of processor time
+    double samplesPerSecond = 0;     ///< samples per second of processor time
 };
 [[nodiscard]] BudgetRun budgetRun(const SliceOptions& slices, Size size, double budgetMs,
                                   int threads, int frames, double degreesPerSecond);

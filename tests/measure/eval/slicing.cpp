@@ -17,8 +17,8 @@ namespace {
 constexpr const char* kSceneName = "still-life";
 // The paper traces one picture over this many frames.
 constexpr int kFramesOfPicture = 64;
-// Turns fast enough that a new picture is needed every few seconds, so starts and ends of pictures
-// are measured too.
+// Turn of the camera [degrees/s]. It is so fast that a new picture is needed every few seconds, so
+// starts and ends of pictures are measured too.
 constexpr double kTurnPerSecond = 3;
 
 struct SlicingMethod {

@@ -14,7 +14,7 @@ struct SlicingRequest {
     int truthSamples = 512;
     double budgetMs = 4;
     int frames = 300;
-    int threads = 2;            ///< threads for the frames under the budget and for the truth
+    int threads = 2;            ///< number of threads for the row `budget` and for the truth
     std::filesystem::path svg;  ///< plot of error against time; empty: not written
     ProgressPart progress{};
 };
@@ -25,8 +25,8 @@ struct SlicingRequest {
 /// objects' bounds].
 ///
 /// Row `frames`: times of frames with equally many samples, as coefficient of variation, 95th
-/// percentile over the mean, and maximum over the mean. Row `budget`: used share of the budget, and
-/// 95th percentile of its deviation. Throws EvalError if the plot cannot be written.
+/// percentile over the mean, and maximum over the mean. Row `budget`: `mean` and `deviation` of
+/// BudgetKept. Throws EvalError if the plot cannot be written.
 [[nodiscard]] Report evaluateSlicing(const SlicingRequest& request);
 
 }  // namespace mfar::eval

@@ -28,8 +28,10 @@ constexpr const char* kSlicingHelp =
 }  // namespace
 
 CLI::App* addSlicingCommand(CLI::App& app, SlicingRequest& request) {
-    CLI::App* sub =
-        app.add_subcommand("slicing", "compare time slices, spatial slices and full renderings");
+    CLI::App* sub = app.add_subcommand(
+        "slicing",
+        "compare orders of path tracing: a few samples of every pixel in turn, tile by tile, and "
+        "the whole picture at once");
     sub->footer(kSlicingHelp);
     addSize(*sub, request.size, "picture");
     sub->add_option("--samples", request.samples, "samples per pixel of a finished picture")

@@ -15,7 +15,7 @@ namespace {
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
-/// The penalties are those of OpenCV's documentation.
+/// The penalties for changes of the disparity are those that OpenCV's documentation recommends.
 cv::Ptr<cv::StereoMatcher> createMatcher(int disparities, StereoPeer::Matcher matcher) {
     if (matcher == StereoPeer::Matcher::Block) return cv::StereoBM::create(disparities, 21);
     constexpr int kBlock = 5, kArea = kBlock * kBlock;

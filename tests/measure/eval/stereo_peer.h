@@ -22,7 +22,7 @@ public:
         cv::Mat flow;  ///< CV_32FC2 [video px], see FlowField in pipeline/results.h; NaN: no result
         double ms = 0;  ///< time of rectifying both pictures and matching, without making the maps
     };
-    /// No pixel has a result if the views cannot be rectified. `video`: CV_8UC3. `T_still_frame`
+    /// The whole flow is NaN if the views cannot be rectified. `video`: CV_8UC3. `T_still_frame`
     /// maps video camera coordinates at the frame's time to still camera coordinates at the still's
     /// time.
     [[nodiscard]] Result run(const cv::Mat& video, const RigidTransform& T_still_frame);

@@ -73,7 +73,7 @@ TEST(StereoPeer, FindsTheFlowOfMotionsAcrossTheOpticalAxis) {
 TEST(StereoPeer, StereoBmFindsTheFlowToo) {
     const FlowError error =
         errorAfter(moved(3, {1, 2, 1}, {-0.1, 0, 0}), StereoPeer::Matcher::Block);
-    EXPECT_GT(error.coverage, 0.9);  // no result for half a block at the top and bottom
+    EXPECT_GT(error.coverage, 0.9);  // rows within half a block of the border have no result
     EXPECT_LT(error.epe, 0.3);
 }
 
@@ -83,7 +83,7 @@ TEST(StereoPeer, HasNoResultWithoutEnoughMotionAcrossTheOpticalAxis) {
     EXPECT_EQ(errorAfter(moved(0, {1, 0, 0}, {0.05, 0, 0.2})).coverage, 0);
 }
 
-TEST(Rectification, PutsEveryPointOnTheSameRowAndNearerPointsFartherLeft) {
+TEST(Rectification, APointHasTheSameRowInBothViewsAndMovesLeftByItsDisparity) {
     const CameraModel camera = crookedPairRig().video;
     const RigidTransform motion = moved(4, {1, -1, 2}, {0.03, 0.1, -0.02});
     const auto views = Rectification::of(camera, motion, 32);

@@ -33,19 +33,19 @@ TEST(SecondStill, IsTheNextNearestThatDoesNotShowTheFramesOwnView) {
     EXPECT_EQ(secondStill(withStillsAt({100, 200}), {200}), std::nullopt);
 }
 
-TEST(ReferenceStill, NeverShowsTheFramesOwnViewAtEqualTime) {
+TEST(ReferenceStill, WithoutABaselineTheStillOfTheSameTimeIsNotChosen) {
     const Recording recording = withStillsAt({100, 300});
     EXPECT_EQ(referenceStill(recording, {100}), 1U);
     EXPECT_EQ(referenceStill(withStillsAt({100}), {100}), std::nullopt);
 }
 
-TEST(ReferenceStill, WithABaselineTheStillOfTheSameTimeShowsAnotherView) {
+TEST(ReferenceStill, WithABaselineTheStillOfTheSameTimeIsChosen) {
     Recording recording = withStillsAt({100, 300});
     recording.rig.T_still_video.translation = {-0.014, 0, 0};
     EXPECT_EQ(referenceStill(recording, {100}), 0U);
 }
 
-TEST(ReferenceStill, PosesRevealTheSameViewAtAnotherTime) {
+TEST(ReferenceStill, AStillWithTheFramesPoseIsNotChosen) {
     Recording recording = withStillsAt({100, 300});
     recording.poses = {poseAt(90, 0.5), poseAt(100, 0.5), poseAt(300, 0.7)};
     EXPECT_EQ(referenceStill(recording, {90}), 1U);

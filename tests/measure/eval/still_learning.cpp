@@ -39,8 +39,8 @@ void StillLearning::report(const char* program) const {
         "learned filter; gain over bicubic on pixels that were kept for the check: learned filters "
         "{:.2f} dB, shipped filters {:.2f} dB; guidance: {:.2f} of the still's finest detail "
         "added, {:.2f} of the video's removed, learned from {} pairs of stills, gain on pixels of "
-        "the check {:.2f} dB; variance of the video's finest detail that a matched still leaves "
-        "unexplained: {:.2f} grey levels^2 + {:.3f} of the variance\n",
+        "the check {:.2f} dB; variance of the video's finest detail that a well matched still does "
+        "not predict: {:.2f} grey levels^2 + {:.3f} times the whole variance\n",
         program, counts.stills, counts.refused, counts.repeated, counts.classes, enlarge::kUnique,
         counts.gainDb, counts.priorDb, counts.guidance.still, counts.guidance.video, counts.pairs,
         counts.guidanceGainDb, counts.fineMatch.noise, counts.fineMatch.share);

@@ -16,8 +16,8 @@ class StillLearning final : public MatchListener {
 public:
     /// Call this before the first still of a pipeline with this rig.
     void begin(const StereoRig& rig);
-    /// Permits (default) or forbids that the next still serves as the truth of the last frame. It
-    /// must be forbidden if that still shows the frame's own view.
+    /// True (default): the next still serves as the truth of the last frame, to learn guidance.
+    /// False: it does not. Set false if that still shows the frame's own view, see showsOwnView().
     void setMayUseOlder(bool may) { mayUseOlder_ = may; }
     [[nodiscard]] std::shared_ptr<const FilterBank> filters() const { return learner_.filters(); }
     /// Prints one line on what was learned to stderr.

@@ -19,16 +19,17 @@ struct SuperResRequest {
     std::vector<std::filesystem::path> dnnModels;
     bool classes = false;
     bool noStill = false;
-    int stills = 1;           ///< 2: also use the second-nearest still in time
+    int stills = 1;           ///< 1: reference only; 2: secondStill() too
     Degradation degradation;  ///< applied to every still
     Degradation videoDegradation;
-    int learn = 0;  ///< number of matched stills to learn from; 0: shipped filters
+    /// Number of matched stills to learn from, or kEachOnce; 0: shipped filters.
+    int learn = 0;
     /// Recordings to learn from. Empty: each recording learns from its own stills.
     std::vector<std::filesystem::path> learnFrom;
     PoseSource poses = PoseSource::Recorded;
     PoseNoise poseNoise;
-    double alpha = 2;            ///< alpha of the paper's confidence [video px]
-    int frames = 0;              ///< number of frames per recording; 0: all with truth
+    double alpha = 2;            ///< see PaperOptions::alpha
+    int frames = 0;              ///< largest number of frames per recording; 0: all with truth
     std::filesystem::path save;  ///< folder for the pictures; empty: not saved
     PictureMetrics metrics{{"psnr", "ssim"}, {}};
     ProgressPart progress{};

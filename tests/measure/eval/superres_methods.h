@@ -21,7 +21,7 @@ public:
     virtual void setStills(const Shot& newest, const Shot* second) = 0;
     struct Result {
         cv::Mat picture;
-        double ms = 0;  ///< wall time of a second run on the same frame
+        double ms = 0;  ///< wall time of a second run on the same frame; the first warms up
     };
     [[nodiscard]] virtual Result run(const Shot& frame) = 0;
 };
@@ -38,7 +38,7 @@ public:
 /// True if this method, without a still, gives no result or only a plain enlargement.
 [[nodiscard]] bool needsStill(const std::string& method);
 
-/// Makes methods. The product's methods need a GL context. It is created for the first of them and
+/// Makes methods. For the first of the product's methods, the factory creates a GL context, which
 /// stays current. create() throws std::invalid_argument for an unknown name.
 class SuperResFactory {
 public:

@@ -23,7 +23,8 @@ std::vector<SuperResSample> superResSamplesOf(const Recording& recording, int li
         if (!still) {
             fmt::print(
                 stderr,
-                "mfar-eval: {}: frame {} is skipped: no still shows another view than this frame\n",
+                "mfar-eval: {}: frame {} is skipped: every still was taken from the same pose as "
+                "the frame, or the recording has no stills\n",
                 recording.root.string(), video.time.ns);
             continue;
         }
@@ -35,8 +36,10 @@ std::vector<SuperResSample> superResSamplesOf(const Recording& recording, int li
         throw EvalError(fmt::format("{}: no truth: truth/highres has no picture of a video frame",
                                     recording.root.string()));
     if (out.empty())
-        throw EvalError(fmt::format("{}: there is no frame for which a still shows another view",
-                                    recording.root.string()));
+        throw EvalError(
+            fmt::format("{}: no frame can be evaluated: every still was taken from the same pose "
+                        "as the frame, or the recording has no stills",
+                        recording.root.string()));
     return out;
 }
 

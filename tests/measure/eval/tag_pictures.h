@@ -18,7 +18,7 @@ struct KnownTag {
 };
 
 /// A photograph and the tags that it shows. Its text file has one line "id, (x y), (x y), (x y), (x
-/// y)" per tag. As in libapriltag, the centre of the first pixel is at (0.5, 0.5).
+/// y)" per tag. In the text file, as in libapriltag, the centre of the first pixel is (0.5, 0.5).
 struct TagPictureFile {
     std::filesystem::path image;
     std::vector<KnownTag> tags;
@@ -31,7 +31,7 @@ struct TagPictureFile {
 struct TagScore {
     double ms = 0;
     double cornerPx = 0;
-    int found = 0;  ///< tags found with the same id and a centre closer than half an edge
+    int found = 0;  ///< known tags found with their id, and their centre within half an edge
     int missed = 0;
     int wrong = 0;
 };

@@ -128,8 +128,8 @@ double hdrVdpOf(const Picture& shown, const Picture& exact, Size size) {
     return hdrVdp(lightOf(shown), lightOf(exact), display.pixelsPerDegree).q;
 }
 
-/// Flow of the objects' pixels to the frame before, CV_32FC2. NaN if that frame does not show the
-/// object there.
+/// Flow of the objects' pixels from the frame `now` to the frame `before`, CV_32FC2 [px]. NaN where
+/// `before` does not show the same object.
 cv::Mat motionTo(const RenderedPicture& before, const RenderedPicture& now) {
     const Size size = now.camera.size;
     const LensProjection lens(now.camera);
@@ -212,7 +212,8 @@ private:
         const auto end = std::chrono::steady_clock::now() + kPatience;
         while (!layer_.rests()) {
             if (std::chrono::steady_clock::now() > end)
-                throw EvalError("the path tracer did not finish its work within 20 s");
+                throw EvalError("the path tracer did not finish a frame's work within 20 s; end "
+                                "other programs or reduce --budget");
             std::this_thread::sleep_for(std::chrono::microseconds(200));
         }
         if (const auto error = layer_.takeError()) throw EvalError(*error);

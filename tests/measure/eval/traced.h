@@ -21,7 +21,7 @@ struct TracedRequest {
     int every = 10;       ///< frames between comparisons; each compares two consecutive frames
     int truthSamples = 256;
     bool hdrVdp = false;
-    std::filesystem::path truth;  ///< folder that keeps the truth; empty: traced again
+    std::filesystem::path truth;  ///< folder that keeps the truth for later runs; empty: not kept
     std::filesystem::path save;   ///< folder for compared frames and truth; empty: not saved
     std::filesystem::path video;  ///< folder for a Y4M file of each path; empty: not written
     ProgressPart progress{};

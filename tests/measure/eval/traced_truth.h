@@ -12,7 +12,8 @@
 
 namespace mfar::eval {
 
-/// Path-traced pictures for the views of frames. A folder keeps them between runs.
+/// True pictures, path-traced for the view of each frame. A folder keeps them for later runs of the
+/// program.
 class TracedTruth {
 public:
     /// `name`: name of the path, for file names. Without a folder, nothing is kept.

@@ -51,7 +51,7 @@ double throughQuad(const LocalRay& r) {
 
 }  // namespace
 
-// The ray has z = 1 in the camera's frame, so t is the depth.
+// The ray has z = 1 in camera coordinates, so its parameter t is the depth.
 double surfaceDepth(const VirtualObject& object, const RigidTransform& T_world_camera,
                     const Eigen::Vector2d& ray) {
     const LocalRay local = localRay(object, T_world_camera, ray);

@@ -22,9 +22,9 @@ struct WarpRequest {
 
 [[nodiscard]] std::vector<std::string> warpMethodNames();
 
-/// Warps a path-traced picture of each scene to views that are turned by `degrees`, and compares it
-/// with a picture that was traced there with truthSamples. Rows are SCENE/DEGREES. Needs a current
-/// GL context. Throws EvalError.
+/// Warps a path-traced picture of each scene to views that are turned by `degrees`. Compares each
+/// warped picture with one that was traced for the same view with truthSamples. Rows are
+/// SCENE/DEGREES. Needs a current GL context. Throws EvalError.
 ///
 /// Columns: psnr_db inside the objects' silhouette; hole_share: pixels without a rendered sample,
 /// divided by the silhouette's pixels; reray_share: rays for individually rendered pixels, divided

@@ -20,7 +20,7 @@
 namespace mfar::eval {
 namespace {
 
-// Camera's elevation [degrees], focal length [picture widths]
+// Elevation [degrees] and focal length [picture widths] of the camera.
 constexpr double kElevation = 35, kFocal = 1.2;
 constexpr double kFill = 0.6;  // diameter of the objects' bounding sphere / picture's height
 

@@ -11,8 +11,8 @@
 
 namespace mfar::eval {
 
-/// `still-life`: balls and boxes next to and behind each other. `showpiece`: the daemon's own
-/// object on a plane that catches its shadow.
+/// "still-life": balls and boxes next to and behind each other. "showpiece": the model of
+/// showpiece() on a plane that catches its shadow.
 [[nodiscard]] std::vector<std::string> warpSceneNames();
 /// Loads a scene of warpSceneNames(), or a glTF file. The file's model keeps its size and stands on
 /// a plane. Throws EvalError.

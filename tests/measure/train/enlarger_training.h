@@ -19,8 +19,8 @@ public:
     struct Outcome {
         std::vector<FilterBank::Filter> filters;  ///< kUnique filters, see FilterBank
         int used = 0;
-        /// Sums of squared errors on held-out pairs: [0] of classes by gradient, [1] of classes by
-        /// curvature.
+        /// Sums of squared errors on held-out pairs, with Keys' cubic and with the learned filters.
+        /// [0]: classes by gradient; [1]: classes by curvature.
         double cubicError[2] = {}, error[2] = {};
     };
     /// `ridge`: weight of the regularisation [grey levels^2]. A class's filter is zero if it is not

@@ -18,8 +18,8 @@ class TrainingPair {
 public:
     static constexpr int kMargin = 64;
 
-    /// `sharp`: luma in grey levels, at least 64x64. The video has kScale times this size. Its
-    /// pixels are means of `sharp` over their areas, rounded to whole grey levels.
+    /// `sharp`: luma in grey levels, at least 64x64. The video has kScale times this size. A video
+    /// pixel is the mean of `sharp` over the pixel's area, rounded to a whole grey level.
     TrainingPair(const twin::Grey& sharp, const Sensor& sensor);
 
     [[nodiscard]] Size size() const { return size_; }

@@ -14,9 +14,9 @@ using Eigen::Vector2f;
 using Eigen::Vector3f;
 
 constexpr double kShortest = 1e-9;     // shorter baselines count as zero [m]
-constexpr double kLongestLine = 1e30;  // limit of lengths, so that float stays finite [m]
-constexpr float kLargestRho = 1e6F;    // larger inverse depths are rejected [1/m]
-constexpr float kNearPlane = 0.05F;    // smallest z of b's ray (x, y, 1), rotated into a's frame
+constexpr double kLongestLine = 1e30;  // limit of baseline and ray distance, for finite floats [m]
+constexpr float kLargestRho = 1e6F;    // larger inverse depths count as unknown [1/m]
+constexpr float kNearPlane = 0.05F;    // least z of a ray (x, y, 1) of view b, rotated into view a
 constexpr float kNoAngle = 1e-9F;  // rays at a smaller angle count as parallel [normalised units]
 
 std::size_t pixelsOf(Size size) {
@@ -40,7 +40,7 @@ std::vector<SplitVector> raysOf(const CameraModel& camera) {
     return rays;
 }
 
-/// Motion from view a to view b, in the frame of a.
+/// Motion from view a to view b, in camera coordinates of view a.
 struct Motion {
     Eigen::Matrix3f turnHead = Eigen::Matrix3f::Zero(), turnTail = turnHead;  // R_a_b - I
     Vector3f baselineHead{0, 0, 0}, baselineTail{0, 0, 0};  // baseline scaled to length 1
@@ -67,8 +67,8 @@ struct Motion {
     }
 };
 
-/// Parallax of a pixel in normalised coordinates of view a, after the rotation is removed. For a
-/// baseline of length 1, u = rho e / (1 + rho b.z).
+/// Parallax of a pixel in normalised coordinates of view a, after the rotation is removed. With
+/// inverse depth rho and a baseline of length 1, u = rho e / (1 + rho b.z).
 struct Parallax {
     Vector2f ray;  // ray of the pixel in view a
     Vector2f u;    // flow that remains after the rotation is removed
@@ -85,8 +85,8 @@ float squaredNormal(const Vector2f& ray, const Vector2f& v) {
     return v.squaredNorm() + z * z;
 }
 
-/// Flow between a ray of a and a ray of b after the rotation is removed. Empty if b's ray points
-/// behind a.
+/// Flow from the ray `a` of view a to the ray `b` of view b, after the rotation is removed. Empty
+/// if `b` points behind view a.
 std::optional<Vector2f> residualFlow(const Motion& motion, const SplitVector& a,
                                      const SplitVector& b) {
     const Vector3f head3 = b.head.homogeneous();
@@ -126,8 +126,8 @@ public:
     }
 
 private:
-    /// Solves u = rho e / (1 + rho b_z): rho = (u . e) / (|e|^2 - b_z (u . e)). rho has the sign of
-    /// u . e.
+    /// Solves u = rho e / (1 + rho b.z) for the inverse depth: rho = (u . e) / d, where d is
+    /// |e|^2 - b.z (u . e). Returns 0 unless d is above 0.
     [[nodiscard]] static float fromFlow(const Parallax& s) {
         const float along = s.u.dot(s.e), d = s.e.squaredNorm() - s.b.z() * along;
         return d > 0 ? along / d : 0;
@@ -135,7 +135,7 @@ private:
 
     /// Inverse depth of the midpoint of the shortest line between both rays, as in the paper. The
     /// ends of the line follow from the common normal of the rays, which `u` gives without
-    /// cancellation.
+    /// cancellation. Returns 0 if an end or the midpoint is behind its camera.
     [[nodiscard]] static float fromMidpoint(const Parallax& s) {
         const Vector3f n(-s.u.y(), s.u.x(), crossOf(s.ray, s.u));
         const Vector3f first = s.ray.homogeneous();
@@ -153,8 +153,8 @@ private:
         return focal_ * (along > kNoAngle ? crossOf(s.e, s.u) / along : s.u.norm());
     }
 
-    /// Distance between the two rays: |b . n| / |n| with their normal n = r x (u, 0). For parallel
-    /// rays: |b x r| / |r|.
+    /// Distance between the two rays: |b . n| / |n| with their normal n = ray x (u, 0). For
+    /// parallel rays: |b x ray| / |ray|.
     [[nodiscard]] float rayDistance(const Parallax& s) const {
         const float n2 = squaredNormal(s.ray, s.u), apart = crossOf(s.u, s.e);
         const float square = n2 > kNoAngle * kNoAngle
@@ -163,8 +163,8 @@ private:
         return motion_.length * std::sqrt(square);
     }
 
-    /// Standard deviation of fromFlow() to first order. No other method for this depth has a
-    /// smaller one.
+    /// Standard deviation of the result of fromFlow(), to first order in the flow's error. No other
+    /// method that finds depth from this flow has a smaller one.
     [[nodiscard]] float sigmaOf(const Parallax& s) const {
         const float ee = s.e.squaredNorm(), d = ee - s.b.z() * s.u.dot(s.e);
         const float sigma = flowSigma_ / focal_ * std::sqrt(ee) * ee / (d * d) / motion_.length;

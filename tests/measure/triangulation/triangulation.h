@@ -19,7 +19,7 @@ enum class TriangulationMethod {
 struct TriangulationOptions {
     TriangulationMethod method = TriangulationMethod::Flow;
     double flowSigma = 0.25;  ///< standard deviation of the flow along the line [px]
-    /// Points whose two rays are farther apart are rejected [m].
+    /// If the two rays of a point are farther apart than this distance, its depth is unknown [m].
     double maxRayDistance = std::numeric_limits<double>::infinity();
 };
 

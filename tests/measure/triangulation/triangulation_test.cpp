@@ -172,7 +172,7 @@ TEST(Triangulation, DepthOfPointsBehindACameraIsUnknown) {
     });
 }
 
-TEST(Triangulation, RaysThatPassFarFromEachOtherAreRefused) {
+TEST(Triangulation, DepthIsUnknownWhereTheRaysPassFarFromEachOther) {
     const OffLine wall;
     for (const TriangulationMethod method : kMethods) {
         const auto all = triangulated(wall.views, wall.flow, {.method = method});

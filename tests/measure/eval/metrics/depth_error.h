@@ -12,7 +12,7 @@ namespace mfar::eval {
 /// Errors of inverse depth over the pixels with known truth; NaN without such pixels.
 struct DepthError {
     double absrel = 0;  ///< median of |z - true z| / true z over pixels with known depth
-    double bad1 = 0;    ///< share of pixels off by more than 1 px of disparity or without depth
+    double bad1 = 0;    ///< share of pixels without depth, or with disparity off by more than 1 px
     double completeness = 0;
     std::size_t pixels = 0;
     /// Shares of pixels whose depth differs from the truth by less than a factor of 1.25, 1.25^2
@@ -25,13 +25,13 @@ struct DepthError {
 [[nodiscard]] DepthError depthError(const cv::Mat& rho, const cv::Mat& truth, double disparity,
                                     const cv::Mat& mask);
 
-/// Tells if disparity errors are large where the variance of the inverse depth is large. Counts
+/// Tells if disparity errors are large where `variance`, the variance of `rho`, is large. Counts
 /// only pixels with known depth and truth. `variance`: CV_32F [1/m^2], finite at these pixels.
 [[nodiscard]] Sparsification depthSparsification(const cv::Mat& rho, const cv::Mat& variance,
                                                  const cv::Mat& truth, double disparity);
 
-/// CV_8U: not 0 within `reach` px of a depth edge, where neighbouring true depths differ by more
-/// than a tenth.
+/// Returns a CV_8U mask that is not 0 within `reach` px of a depth edge. At a depth edge, the true
+/// depths of neighbouring pixels differ by more than a tenth.
 [[nodiscard]] cv::Mat nearDepthEdge(const cv::Mat& truth, double reach);
 
 }  // namespace mfar::eval

@@ -60,10 +60,11 @@ TEST(DepthError, ValuesNotAboveZeroAreUnknown) {
     EXPECT_TRUE(std::isnan(error.absrel));
 }
 
-TEST(DepthError, EdgesAreWhereDepthJumps) {
+TEST(DepthError, NearDepthEdgeMarksPixelsBesideJumpsOfTheDepth) {
+    // A slope, then a step of the depth at column 20, then unknown depth from column 32 on.
     cv::Mat truth(9, 40, CV_32F);
     for (int y = 0; y < truth.rows; ++y)
-        for (int x = 0; x < truth.cols; ++x)  // slope, step and unknown depth
+        for (int x = 0; x < truth.cols; ++x)
             truth.at<float>(y, x) = x < 20 ? 1 + 0.02F * x : (x < 32 ? 3 : kNan);
     const cv::Mat edge = nearDepthEdge(truth, 4);
     for (int x = 0; x < truth.cols; ++x)

@@ -12,10 +12,11 @@ namespace mfar::eval {
 /// a finite result.
 struct FlowError {
     double epe = 0;   ///< mean end-point error of covered pixels [px]
-    double bad1 = 0;  ///< share of pixels with an error above 1 px or without a result
-    double bad2 = 0;  ///< share of pixels with an error above 2 px or without a result
+    double bad1 = 0;  ///< share of pixels without a result, or with an error above 1 px
+    double bad2 = 0;  ///< share of pixels without a result, or with an error above 2 px
     double coverage = 0;
-    double angular = 0;  ///< mean angle of (u, v, 1) to the truth, covered pixels [degrees]
+    /// Mean angle between flow and truth as vectors (u, v, 1), over covered pixels [degrees].
+    double angular = 0;
     std::size_t known = 0;
 };
 

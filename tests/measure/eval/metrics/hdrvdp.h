@@ -10,7 +10,7 @@ namespace mfar::eval {
 
 struct HdrVdpDisplay {
     double peak = 100, black = 1;  ///< luminance of white and of black [cd/m^2]
-    double gamma = 2.2;            ///< for grey pictures; colours are always sRGB
+    double gamma = 2.2;            ///< used for grey pictures; colour pictures are always sRGB
     double pixelsPerDegree = 30;
 };
 
@@ -18,8 +18,8 @@ struct HdrVdpDisplay {
 [[nodiscard]] double pixelsPerDegree(double diagonal, cv::Size resolution, double distance);
 
 /// Light that a display emits for a picture [cd/m^2]. The picture is CV_64F or CV_64FC3 (B G R,
-/// sRGB) in [0, 255]; the type stays. Throws std::invalid_argument for other values and for an
-/// impossible display.
+/// sRGB) in [0, 255]; the type stays. Throws std::invalid_argument for values outside this range,
+/// and for an impossible display, such as one whose black is brighter than its white.
 [[nodiscard]] cv::Mat displayedLight(const cv::Mat& picture, const HdrVdpDisplay& display);
 
 /// Contribution of one orientation of one band of the steerable pyramid. D: masked difference of

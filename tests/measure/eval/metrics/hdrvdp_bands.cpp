@@ -35,8 +35,9 @@ cv::Mat logOfMean(const cv::Mat& a, const cv::Mat& b) {
     return out;
 }
 
-/// Input for comparing one row of a band. `sensitivity` is null for the base (the coarsest picture
-/// of the pyramid), because addBase() has already applied it.
+/// One row of a band. `self`, `others` and `beside` are masks: of the same orientation, of the
+/// band's other orientations, and of the adjacent bands. `sensitivity` is null for the base (the
+/// coarsest picture of the pyramid), because addBase() has already applied it.
 struct BandRow {
     const double *difference, *self, *others, *beside, *sensitivity, *weight;
 };

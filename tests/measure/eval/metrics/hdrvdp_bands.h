@@ -17,7 +17,7 @@ private:
     /// A band of the pyramid. Band 1 and the base have one orientation, other bands have four.
     struct Band {
         std::vector<cv::Mat> difference;
-        std::vector<cv::Mat> mutualMask;  ///< smoothed minimum of both pictures' signals
+        std::vector<cv::Mat> mutualMask;  ///< smoothed minimum of both pictures' |band value|
         std::vector<double> meanTest, meanReference;
         double frequency = 0, norm = 1;
     };

@@ -39,8 +39,8 @@ double luminanceAt(int i) {
     return std::pow(10, kLeastLog + (kMostLog - kLeastLog) * i / (kLuminances - 1));
 }
 
-/// Sensitivity of the L cones, and equally of the M cones, at every luminance of the table. Each is
-/// half of their joint sensitivity.
+/// Sensitivity of the L cones at every luminance of the table; that of the M cones is equal. It is
+/// half of jointSensitivity() - rodSensitivity() at twice the luminance.
 std::vector<double> coneSensitivities() {
     std::vector<double> both(kLuminances), out(kLuminances);
     for (int i = 0; i < kLuminances; ++i)

@@ -15,7 +15,7 @@ namespace mfar::eval::hdrvdp {
 /// Contrast sensitivity without optics and receptors; 0 at frequency 0.
 [[nodiscard]] double neuralSensitivity(double frequency, double luminance);
 
-/// Shares of the light of a channel that excite L cones, M cones and rods.
+/// Shares of a colour channel's light that excite L cones, M cones and rods.
 struct ReceptorWeights {
     double l = 0, m = 0, rod = 0;
 };
@@ -26,8 +26,8 @@ inline constexpr ReceptorWeights kGreyWeights{0.601847152244699, 0.3167082955791
 enum class Emission { FluorescentLcd, LedLcd, Crt };
 [[nodiscard]] const std::array<ReceptorWeights, 3>& rgbWeights(Emission emission);
 
-/// Parameters of masking: exponents of signal and mask; weights of masking by the same band, by its
-/// other orientations, and by adjacent bands.
+/// Parameters of masking: exponents of signal and mask; weights of the masks of the same
+/// orientation (`self`), of the band's other orientations, and of the adjacent bands.
 struct Masking {
     double signalExponent, maskExponent;
     double self, orientations, neighbours;

@@ -164,7 +164,8 @@ private:
         return std::max(0.0, (a * b * b * b * c * c).real());
     }
 
-    /// Adds one orientation to both sums of eq. 33. Returns the sum of its weights.
+    /// Adds one orientation to the numerator and the denominator of eq. 33 at every pixel. Returns
+    /// the sum of the orientation's weights over all pixels.
     double accumulate(const cv::Mat& amplitude, double threshold) {
         return sumOf(amplitude.size(), [&](int y, int x) {
             const double energy = amplitude.at<double>(y, x) - threshold;

@@ -13,15 +13,15 @@ inline constexpr double kLpcRelease = 0.75, kLpcVariant = 0.33;
 
 struct LpcOrientation {
     std::array<double, 3> filterSum{};    ///< sum of the filter's gains at each scale, finest first
-    double mean = 0, deviation = 0;       ///< of the amplitude at the finest scale, without border
-    double threshold = 0;                 ///< smaller amplitudes do not count
+    double mean = 0, deviation = 0;       ///< of the finest scale's amplitudes, without border
+    double threshold = 0;                 ///< mean + 2 deviation; smaller amplitudes do not count
     double energy = 0;                    ///< sum of amplitudes above the threshold, whole picture
     std::array<double, 2> coarserMean{};  ///< mean amplitude at the coarser scales, whole picture
 };
 
 struct LpcSharpness {
     double index = 0;                ///< LPC-SI, [0, 1); larger is sharper
-    double mapMax = 0, mapMean = 0;  ///< maximum and mean of the pixels' values, without border
+    double mapMax = 0, mapMean = 0;  ///< maximum and mean of eq. 33 over all pixels but the border
     std::array<LpcOrientation, 8> orientations{};
 };
 

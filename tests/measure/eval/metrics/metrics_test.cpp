@@ -33,7 +33,7 @@ TEST(Luma, WeighsThePrimaryColoursByRec601) {
     EXPECT_NEAR(luma(red).at<double>(0), 76.245, 1e-9);
 }
 
-TEST(Luma, GreyPassesUnchanged) {
+TEST(Luma, GreyPicturesKeepTheirValues) {
     const cv::Mat grey(2, 2, CV_8UC1, cv::Scalar(77));
     EXPECT_EQ(luma(grey).at<double>(1, 1), 77);
     EXPECT_THROW((void)luma(cv::Mat(2, 2, CV_16UC1)), std::invalid_argument);

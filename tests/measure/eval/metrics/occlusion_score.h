@@ -5,8 +5,8 @@
 namespace mfar::eval {
 
 struct OcclusionScore {
-    double overlap = 0;  ///< intersection over union, [0, 1]; NaN: both are empty
-    /// Mean distance of the shown boundary from the true one [px]; NaN if one is empty.
+    double overlap = 0;  ///< intersection over union, [0, 1]; NaN if both masks are empty
+    /// Mean distance of the shown boundary from the true one [px]; NaN if one boundary is empty.
     double boundary = 0;
 };
 

@@ -16,7 +16,8 @@ double differenceFrom(const std::string& name, const cv::Mat& picture) {
     return cv::norm(referencePicture(name), cv::Mat_<double>(picture), cv::NORM_INF);
 }
 
-// The FullSize tests draw this scene, so it must equal the reference pictures.
+// The FullSize tests compute their input with referenceScene(), so its result must equal the stored
+// reference pictures.
 TEST(ReferenceScene, SceneMatchesTheReferencePictures) {
     if (referenceTable("lpc_si.csv").empty())
         GTEST_SKIP() << referenceFolder().string() << " is not there";

@@ -5,13 +5,13 @@
 
 namespace mfar::eval {
 
-/// Tells if a method knows where it is wrong (Ilg et al. 2018): the mean error of the remaining
-/// pixels while the most uncertain pixels are removed first.
+/// Tells if a method's confidence is low where its errors are large (Ilg et al. 2018). Pixels are
+/// removed step by step, the least confident first, and the mean error of the others is recorded.
 struct Sparsification {
     static constexpr int kSteps = 100;
 
-    std::vector<double> byConfidence;  ///< mean error of remaining pixels / of all pixels
-    std::vector<double> byError;       ///< the same if the largest errors are removed first
+    std::vector<double> byConfidence;  ///< mean error of the remaining pixels / of all pixels
+    std::vector<double> byError;       ///< the same, if pixels with large errors are removed first
     double ause = 0;                   ///< area between both curves; 0: the best order
     double ausePerRandom = 0;          ///< `ause` divided by the `ause` of a random order
 };

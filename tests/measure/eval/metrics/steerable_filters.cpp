@@ -89,7 +89,7 @@ cv::Mat diagonalEdges() {
     return out;
 }
 
-// This number of samples is computed together, so that their sums stay in registers for all taps.
+// Number of samples that are computed together, so that their sums stay in registers for all taps.
 constexpr int kBlock = 8;
 using Samples = Eigen::Array<double, kBlock, 1>;
 
