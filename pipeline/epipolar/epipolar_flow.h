@@ -39,7 +39,7 @@ public:
     /// Flow from the video to the still, drawn with the video's lens: x, y [video px], and two
     /// unused numbers.
     [[nodiscard]] const Cells& forward() const { return forward_; }
-    /// Two-way error of each cell (eq. 2 of the paper) [px], and three unused numbers. It is the
+    /// Two-way error of each cell (eq. 2 of the paper) [px], and three zeros. It is the
     /// difference between the parallax of the cell and that of the nearest surface that lands on
     /// the same cell of the still.
     [[nodiscard]] const Cells& occlusion() const { return hidden_; }

@@ -54,10 +54,12 @@ public:
                                                      forward_.cells.height,
                                                  16UL * forward_.offset);
     }
-    /// True after refine(). Then backward() contains the two-way errors of the video's cells
-    /// instead of flow.
+    /// True after refine(). Then backward() contains the ErrorCells of the video's cells instead of
+    /// flow.
     [[nodiscard]] bool errorsGiven() const { return errorsGiven_; }
     [[nodiscard]] const Field& backward() const { return backward_; }
+    /// Index in cells() of the first vector of refine().
+    [[nodiscard]] int seed() const { return seed_; }
 
 private:
     /// The memory in cells_ for the flow in one direction at one pyramid level. It has two areas,
