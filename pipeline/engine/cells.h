@@ -21,7 +21,9 @@ struct FlowCell {
 /// Two-way error of a cell's flow [px] (eq. 2 of the paper), determined by the epipolar search.
 struct ErrorCell {
     float error = 0;
-    float unused[3] = {};
+    // Sums over the cell's patch in the video and in the still itself; see params::kPatchSamples.
+    // 0: not compared with the still itself.
+    float covariance = 0, varianceVideo = 0, varianceStill = 0;
 };
 
 struct WeighedCell {

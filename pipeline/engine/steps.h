@@ -54,8 +54,8 @@ struct LumaPyramid {
 };
 
 /// Flow between video and still. All cells are in one row: first the forward field (from video to
-/// still), then the backward field. If `errorsGiven` is true, the two-way errors of the forward
-/// field (ErrorCell) replace the backward field.
+/// still), then the backward field. If `errorsGiven` is true, the ErrorCells of the forward field
+/// replace the backward field.
 struct FlowCells {
     Field<FlowCell> cells;
     Size forward, backward;
@@ -108,6 +108,11 @@ public:
     /// vectors do not fit the pictures are searched in two dimensions.
     virtual const FlowCells& refine(const LumaPyramid& luma, const TileWork& work, Cells vectors,
                                     Cells errors) = 0;
+    /// Improves the result of the last refine(), which must have been called for the same frame:
+    /// compares doubtful cells with the still itself, see params::kPatchSamples. The `vectors` of
+    /// refine() must still be valid.
+    virtual const FlowCells& matchDirectly(const VideoFrame& frame, const StillPictures& still,
+                                           const TileWork& work) = 0;
     /// Returns a flag for each tile, row-major: true if the last refine() searched the tile. Waits
     /// for the GPU if necessary.
     [[nodiscard]] virtual std::vector<bool> searchedTiles() const = 0;

@@ -54,10 +54,12 @@ public:
                                                      forward_.cells.height,
                                                  16UL * forward_.offset);
     }
-    /// True after refine(): backward() then has the two-way errors of forward() (ErrorCell) instead
-    /// of flow vectors. False after run().
+    /// True after refine(): backward() then has the ErrorCells of forward() instead of flow vectors.
+    /// False after run().
     [[nodiscard]] bool errorsGiven() const { return errorsGiven_; }
     [[nodiscard]] const Field& backward() const { return backward_; }
+    /// Index in cells() of the first vector of refine().
+    [[nodiscard]] int seed() const { return seed_; }
 
 private:
     /// The memory in cells_ for the flow in one direction at one pyramid level. It has two areas

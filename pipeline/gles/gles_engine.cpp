@@ -24,7 +24,7 @@ public:
     }
     std::unique_ptr<FlowStep> flow() override {
         const gpu::ProgramCache::Use use(programs_);
-        return gles::makeFlowStep(setup_, frame_);
+        return gles::makeFlowStep(setup_, stillRig_, frame_);
     }
     std::unique_ptr<WeighStep> weigh() override {
         const gpu::ProgramCache::Use use(programs_);

@@ -3,6 +3,7 @@
 #include "pipeline/gles/cell_weigher.h"
 #include "pipeline/gles/detail_painter.h"
 #include "pipeline/gles/device_copies.h"
+#include "pipeline/gles/direct_matcher.h"
 #include "pipeline/gles/fine_check.h"
 #include "pipeline/gles/flow2d.h"
 #include "pipeline/gles/luma_pyramids.h"
@@ -134,8 +135,8 @@ private:
 
 class GlesFlow final : public FlowStep {
 public:
-    GlesFlow(const StepSetup& setup, FrameOnGpu& frame)
-        : frame_(frame), flow_(setup.rig.video.size, setup.flow2d),
+    GlesFlow(const StepSetup& setup, const StereoRig& stillRig, FrameOnGpu& frame)
+        : frame_(frame), flow_(setup.rig.video.size, setup.flow2d), direct_(stillRig),
           entries_(2 * flow_.forward().cells.width * flow_.forward().cells.height),
           copy_(flow_.cells(), flow_.forward().offset, static_cast<std::size_t>(entries_),
                 sizeof(FlowCell)),
@@ -150,6 +151,14 @@ public:
     const FlowCells& refine(const LumaPyramid& luma, const TileWork& work, Cells vectors,
                             Cells errors) override {
         flow_.refine(lumaOf(luma), frame_.tiles(work), vectors, errors);
+        return written();
+    }
+    const FlowCells& matchDirectly(const VideoFrame& frame, const StillPictures& still,
+                                   const TileWork& work) override {
+        if (work.matched > 0)
+            direct_.run(flow_.cells(),
+                        {flow_.forward().offset, flow_.seed(), flow_.backward().offset},
+                        frame_.video(frame), raisedOf(still), frame_.tiles(work));
         return written();
     }
     std::vector<bool> searchedTiles() const override { return flow_.searched().read(); }
@@ -168,6 +177,7 @@ private:
 
     FrameOnGpu& frame_;
     Flow2d flow_;
+    DirectMatcher direct_;
     int entries_;
     BufferCopy copy_;
     FlowCells cells_;
@@ -306,8 +316,9 @@ std::unique_ptr<PyramidStep> makePyramidStep(const StepSetup& setup, FrameOnGpu&
     return std::make_unique<GlesPyramid>(setup, frame);
 }
 
-std::unique_ptr<FlowStep> makeFlowStep(const StepSetup& setup, FrameOnGpu& frame) {
-    return std::make_unique<GlesFlow>(setup, frame);
+std::unique_ptr<FlowStep> makeFlowStep(const StepSetup& setup, const StereoRig& stillRig,
+                                       FrameOnGpu& frame) {
+    return std::make_unique<GlesFlow>(setup, stillRig, frame);
 }
 
 std::unique_ptr<WeighStep> makeWeighStep(const StepSetup& setup, const StereoRig& stillRig,

@@ -24,11 +24,6 @@ HWY_INLINE hn::Vec<F> Between(const std::array<const float*, 2>& rows, float t, 
     return hn::MulAdd(hn::Set(df, t), hn::Sub(hn::LoadU(df, rows[1] + x), a), a);
 }
 
-struct Positions {
-    hn::Vec<I> x, y;
-    hn::Vec<F> fx, fy;
-};
-
 /// The class LookUp computes the positions at which output pixels read the still, one vector of
 /// pixels after another.
 class LookUp {
@@ -36,47 +31,23 @@ public:
     LookUp(const LookUpRows& rows, Size size, int begin)
         : rows_(rows), stepX_(hn::Set(F(), rows.stepX)), startX_(hn::Set(F(), rows.startX)),
           startY_(hn::Set(F(), rows.startY)),
-          lastX_(hn::Set(F(), static_cast<float>(size.width - 1))),
-          lastY_(hn::Set(F(), static_cast<float>(size.height - 1))),
-          pixels_(hn::Iota(F(), static_cast<float>(begin))) {}
+          size_(size), pixels_(hn::Iota(F(), static_cast<float>(begin))) {}
 
     HWY_INLINE Positions next(int x) {
         const F df;
-        const I di;
         const auto alongX =
             hn::MulAdd(pixels_, stepX_, hn::Add(Between(rows_.x, rows_.t, x), startX_));
         const auto alongY = hn::Add(Between(rows_.y, rows_.t, x), startY_);
         pixels_ = hn::Add(pixels_, hn::Set(df, static_cast<float>(hn::Lanes(df))));
-        const auto px = hn::Min(hn::Max(alongX, hn::Zero(df)), lastX_);
-        const auto py = hn::Min(hn::Max(alongY, hn::Zero(df)), lastY_);
-        const auto ix = hn::ConvertTo(di, px), iy = hn::ConvertTo(di, py);
-        return {ix, iy, hn::Sub(px, hn::ConvertTo(df, ix)), hn::Sub(py, hn::ConvertTo(df, iy))};
+        return PositionsWithin(size_, alongX, alongY);
     }
 
 private:
     const LookUpRows& rows_;
-    hn::Vec<F> stepX_, startX_, startY_, lastX_, lastY_, pixels_;
+    hn::Vec<F> stepX_, startX_, startY_;
+    Size size_;
+    hn::Vec<F> pixels_;
 };
-
-/// Interpolates bilinearly between 2x2 pixels; the result is multiplied by 256. A lane of `texels`
-/// holds the four pixels as bytes, from the highest to the lowest: lower right, upper right, lower
-/// left, upper left.
-HWY_INLINE hn::Vec<F> MeanOfFour(hn::Vec<U> texels, const Positions& at) {
-    const F df;
-    const I di;
-    const U du;
-    // Each lane computes the left and the right column at once, in 16 bits each. This is enough for
-    // the largest value, 255 * 256.
-    const auto scaled = hn::NearestInt(hn::Mul(at.fy, hn::Set(df, 256.0F)));
-    const auto lower = hn::BitCast(du, scaled);
-    const auto upper = hn::Sub(hn::Set(du, 256), lower);
-    const auto bytes = hn::Set(du, 0x00ff00ffU);
-    const auto columns = hn::Add(hn::Mul(hn::And(texels, bytes), upper),
-                                 hn::Mul(hn::And(hn::ShiftRight<8>(texels), bytes), lower));
-    const auto left = hn::ConvertTo(df, hn::BitCast(di, hn::And(columns, hn::Set(du, 0xffffU))));
-    const auto right = hn::ConvertTo(df, hn::BitCast(di, hn::ShiftRight<16>(columns)));
-    return hn::MulAdd(hn::Sub(right, left), at.fx, left);
-}
 
 void WarpRow(const StillPairs& still, const LookUpRows& rows, int begin, int end,
              std::int16_t* to) {

@@ -1,5 +1,8 @@
 #include "pipeline/engine/engine.h"
+#include "pipeline/engine/params/flow.h"
+#include "pipeline/flow/cell_field.h"
 #include "pipeline/simd/detail_step.h"
+#include "pipeline/simd/direct_match.h"
 #include "pipeline/simd/fine_check.h"
 #include "pipeline/simd/flow2d.h"
 #include "pipeline/simd/luma_pyramids.h"
@@ -73,57 +76,6 @@ private:
     LumaPyramid luma_;
 };
 
-class SimdFlow final : public FlowStep {
-public:
-    explicit SimdFlow(const StepSetup& setup)
-        : flow_(setup.rig.video.size, setup.flow2d, setup.workers),
-          cells_{Field<FlowCell>({}, setup.transfers), flow_.forward().size, flow_.backward().size,
-                 flow_.backwardLevel(), false},
-          row_({2 * static_cast<int>(cells_.count()), 1}) {}
-
-    void setOptions(const Flow2dOptions& options) override { flow_.setOptions(options); }
-    const FlowCells& run(const LumaPyramid& luma, const TileWork& work, bool usePrior) override {
-        flow_.run(lumaOf(luma), work, usePrior);
-        copy(flow_.backward());
-        return written(work);
-    }
-    const FlowCells& refine(const LumaPyramid& luma, const TileWork& work, Cells vectors,
-                            Cells errors) override {
-        flow_.refine(lumaOf(luma), work, vectors, errors);
-        const Rows<const ErrorCell> given = flow_.errors();
-        ErrorCell* to = reinterpret_cast<ErrorCell*>(row_[0] + cells_.count());
-        for (int y = 0; y < given.size.height; ++y)
-            to = std::copy_n(given[y], given.size.width, to);
-        return written(work);
-    }
-    std::vector<bool> searchedTiles() const override { return flow_.searchedTiles(); }
-    int searchedCount() const override { return flow_.searchedCount(); }
-
-private:
-    static simd::Flow2d::Luma lumaOf(const LumaPyramid& luma) {
-        const Rows<const std::uint32_t> words = luma.words.host();
-        return {luma.video, luma.still, {words.data, static_cast<std::size_t>(words.size.width)}};
-    }
-    void copy(Rows<const FlowCell> backward) {
-        FlowCell* to = row_[0] + cells_.count();
-        for (int y = 0; y < backward.size.height; ++y)
-            to = std::copy_n(backward[y], backward.size.width, to);
-    }
-    const FlowCells& written(const TileWork&) {
-        const Rows<const FlowCell> forward = flow_.forward();
-        FlowCell* to = row_[0];
-        for (int y = 0; y < forward.size.height; ++y)
-            to = std::copy_n(forward[y], forward.size.width, to);
-        cells_.errorsGiven = flow_.errorsGiven();
-        cells_.cells.writtenOnHost(row_.rows());
-        return cells_;
-    }
-
-    simd::Flow2d flow_;
-    FlowCells cells_;
-    AlignedRows<FlowCell> row_;
-};
-
 /// The StillPairs of the current stills, for all steps of the SIMD engine. A still that the GLES
 /// engine prepared has no pairs, so this class creates them, once per still.
 class PairedStills {
@@ -165,6 +117,87 @@ private:
 
     std::shared_ptr<Workers> workers_;
     std::vector<Made> made_;
+};
+
+class SimdFlow final : public FlowStep {
+public:
+    SimdFlow(const StepSetup& setup, std::shared_ptr<PairedStills> stills)
+        : workers_(setup.workers), stills_(std::move(stills)),
+          lookUp_(stillFor(setup.output, setup.rig)),
+          flow_(setup.rig.video.size, setup.flow2d, setup.workers),
+          cells_{Field<FlowCell>({}, setup.transfers), flow_.forward().size, flow_.backward().size,
+                 flow_.backwardLevel(), false},
+          row_({2 * static_cast<int>(cells_.count()), 1}) {}
+
+    void setOptions(const Flow2dOptions& options) override { flow_.setOptions(options); }
+    const FlowCells& run(const LumaPyramid& luma, const TileWork& work, bool usePrior) override {
+        flow_.run(lumaOf(luma), work, usePrior);
+        copy(flow_.backward());
+        return written(work);
+    }
+    const FlowCells& refine(const LumaPyramid& luma, const TileWork& work, Cells vectors,
+                            Cells errors) override {
+        lines_ = vectors;
+        flow_.refine(lumaOf(luma), work, vectors, errors);
+        const Rows<const ErrorCell> given = flow_.errors();
+        ErrorCell* to = reinterpret_cast<ErrorCell*>(row_[0] + cells_.count());
+        for (int y = 0; y < given.size.height; ++y)
+            to = std::copy_n(given[y], given.size.width, to);
+        return written(work);
+    }
+    const FlowCells& matchDirectly(const VideoFrame& frame, const StillPictures& still,
+                                   const TileWork& work) override {
+        if (work.matched == 0) return cells_;
+        const simd::StillPairs pairs = stills_->of(still);
+        const auto noise = static_cast<float>(work.noise);
+        const simd::DirectMatch match{frame.planes,
+                                      pairs,
+                                      lookUp_,
+                                      cells_.forward,
+                                      lines_.data(),
+                                      noise,
+                                      params::kTexturePerVariance * (1 + noise * noise)};
+        auto* errors = reinterpret_cast<ErrorCell*>(row_[0] + cells_.count());
+        workers_->forRange(cells_.forward.height, 1, [&](int first, int last) {
+            for (int y = first; y < last; ++y)
+                simd::forRuns(work, y / kCellsPerTile, kCellsPerTile, cells_.forward.width,
+                              [&](bool matched, int begin, int end) {
+                                  if (matched)
+                                      simd::matchDirectly(match, y, begin, end, row_[0], errors);
+                              });
+        });
+        return cells_;
+    }
+    std::vector<bool> searchedTiles() const override { return flow_.searchedTiles(); }
+    int searchedCount() const override { return flow_.searchedCount(); }
+
+private:
+    static simd::Flow2d::Luma lumaOf(const LumaPyramid& luma) {
+        const Rows<const std::uint32_t> words = luma.words.host();
+        return {luma.video, luma.still, {words.data, static_cast<std::size_t>(words.size.width)}};
+    }
+    void copy(Rows<const FlowCell> backward) {
+        FlowCell* to = row_[0] + cells_.count();
+        for (int y = 0; y < backward.size.height; ++y)
+            to = std::copy_n(backward[y], backward.size.width, to);
+    }
+    const FlowCells& written(const TileWork&) {
+        const Rows<const FlowCell> forward = flow_.forward();
+        FlowCell* to = row_[0];
+        for (int y = 0; y < forward.size.height; ++y)
+            to = std::copy_n(forward[y], forward.size.width, to);
+        cells_.errorsGiven = flow_.errorsGiven();
+        cells_.cells.writtenOnHost(row_.rows());
+        return cells_;
+    }
+
+    std::shared_ptr<Workers> workers_;
+    std::shared_ptr<PairedStills> stills_;
+    simd::LookUpParams lookUp_;
+    simd::Flow2d flow_;
+    FlowCells cells_;
+    AlignedRows<FlowCell> row_;
+    Cells lines_;
 };
 
 class SimdWeigh final : public WeighStep {
@@ -308,7 +341,9 @@ public:
     std::unique_ptr<PyramidStep> pyramid() override {
         return std::make_unique<SimdPyramid>(setup_);
     }
-    std::unique_ptr<FlowStep> flow() override { return std::make_unique<SimdFlow>(setup_); }
+    std::unique_ptr<FlowStep> flow() override {
+        return std::make_unique<SimdFlow>(setup_, stills_);
+    }
     std::unique_ptr<WeighStep> weigh() override {
         return std::make_unique<SimdWeigh>(setup_, stills_);
     }

@@ -89,6 +89,46 @@ private:
     hn::Vec<I> pitch_;
 };
 
+/// Positions in the still: their pixels, and their fractional parts.
+struct Positions {
+    hn::Vec<hn::ScalableTag<std::int32_t>> x, y;
+    hn::Vec<hn::ScalableTag<float>> fx, fy;
+};
+
+/// Splits positions, which are first limited to the picture.
+HWY_INLINE Positions PositionsWithin(Size size, hn::Vec<hn::ScalableTag<float>> x,
+                                     hn::Vec<hn::ScalableTag<float>> y) {
+    const hn::ScalableTag<float> df;
+    const hn::ScalableTag<std::int32_t> di;
+    const auto within = [&](auto v, int count) HWY_ATTR {
+        return hn::Min(hn::Max(v, hn::Zero(df)), hn::Set(df, static_cast<float>(count - 1)));
+    };
+    const auto px = within(x, size.width), py = within(y, size.height);
+    const auto ix = hn::ConvertTo(di, px), iy = hn::ConvertTo(di, py);
+    return {ix, iy, hn::Sub(px, hn::ConvertTo(df, ix)), hn::Sub(py, hn::ConvertTo(df, iy))};
+}
+
+/// Interpolates bilinearly between 2x2 pixels; the result is multiplied by 256. A lane of `texels`
+/// holds the four pixels as bytes, from the highest to the lowest: lower right, upper right, lower
+/// left, upper left.
+HWY_INLINE hn::Vec<hn::ScalableTag<float>>
+MeanOfFour(hn::Vec<hn::ScalableTag<std::uint32_t>> texels, const Positions& at) {
+    const hn::ScalableTag<float> df;
+    const hn::ScalableTag<std::int32_t> di;
+    const hn::ScalableTag<std::uint32_t> du;
+    // Each lane computes the left and the right column at once, in 16 bits each. This is enough for
+    // the largest value, 255 * 256.
+    const auto scaled = hn::NearestInt(hn::Mul(at.fy, hn::Set(df, 256.0F)));
+    const auto lower = hn::BitCast(du, scaled);
+    const auto upper = hn::Sub(hn::Set(du, 256), lower);
+    const auto bytes = hn::Set(du, 0x00ff00ffU);
+    const auto columns = hn::Add(hn::Mul(hn::And(texels, bytes), upper),
+                                 hn::Mul(hn::And(hn::ShiftRight<8>(texels), bytes), lower));
+    const auto left = hn::ConvertTo(df, hn::BitCast(di, hn::And(columns, hn::Set(du, 0xffffU))));
+    const auto right = hn::ConvertTo(df, hn::BitCast(di, hn::ShiftRight<16>(columns)));
+    return hn::MulAdd(hn::Sub(right, left), at.fx, left);
+}
+
 }  // namespace mfar::simd::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

@@ -1,7 +1,6 @@
 #include "pipeline/simd/weigh_step.h"
 
 #include "pipeline/flow/cell_field.h"
-#include "pipeline/simd/patch_sums.h"
 
 #include <algorithm>
 #include <cassert>
@@ -84,11 +83,21 @@ void WeighStep::assess(const WeighInput& in, int row) {
                 for (float* sum : {sums.covariance, sums.varianceVideo, sums.varianceStill})
                     std::fill(sum + first, sum + last, 0.0F);
             });
+    if (in.errors.data != nullptr) takeDirect(in.errors[row], sums);
     for (CellPlane* plane : {&covariance_, &varianceVideo_, &varianceStill_})
         plane->repeatBorder(row);
     lookUpCells(
         params_, backwardOf(in, row),
         {row, cells_.width, flowX_[row], flowY_[row], lookX_[row], lookY_[row], confidence_[row]});
+}
+
+void WeighStep::takeDirect(const ErrorCell* cells, const PatchSums& sums) const {
+    for (int x = 0; x < cells_.width; ++x) {
+        if (!(cells[x].covariance > 0)) continue;
+        sums.covariance[x] = cells[x].covariance;
+        sums.varianceVideo[x] = cells[x].varianceVideo;
+        sums.varianceStill[x] = cells[x].varianceStill;
+    }
 }
 
 void WeighStep::measureGain(const WeighInput& in, int row) {

@@ -7,6 +7,7 @@
 #include "pipeline/flow/luma_layout.h"
 #include "pipeline/plan/tile_work.h"
 #include "pipeline/simd/cell_plane.h"
+#include "pipeline/simd/patch_sums.h"
 #include "pipeline/simd/still_look_up.h"
 
 #include <cstdint>
@@ -63,6 +64,8 @@ private:
     }
     void assessTiles(const WeighInput& in, int tileRow);
     void assess(const WeighInput& in, int row);
+    /// Replaces the sums of cells that were compared with the still itself.
+    void takeDirect(const ErrorCell* cells, const PatchSums& sums) const;
     void measureGain(const WeighInput& in, int row);
     void weigh(int row, float noise);
     [[nodiscard]] BackwardCells backwardOf(const WeighInput& in, int row) const;

@@ -50,6 +50,22 @@ inline constexpr float kOnLine = 1.0F;
 /// of the cost on the line. Otherwise, one of many vectors may fit noise by chance.
 inline constexpr float kClearlyLess = 0.5F;
 
+/// The pyramids contain the still reduced to the video's resolution. Fine print and gravel are so
+/// fine that they alias in the video, and they alias differently in the reduced still, because its
+/// pixels lie elsewhere. Correct matches then have a high cost, and Gauss-Newton steps move away
+/// from them. Doubtful cells are therefore also compared with the still itself: its mean over each
+/// video pixel, from kPatchSamples samples along each axis, aliases as the video does.
+inline constexpr int kPatchSamples = 2;
+/// The flow along the epipolar line replaces the refined flow if the squared correlation with the
+/// still itself is larger by this, as a refinement is better in noise.
+inline constexpr float kClearlyAlike = 0.05F;
+/// A cell's flow along the epipolar line is the mean of opposite neighbours up to kCleanUpRadius
+/// cells away. On a plane, each pair's mean is the flow at the cell. Pairs whose mean differs from
+/// the median around the cell by this [px] or more are not on the same surface.
+inline constexpr float kPairReach = 0.5F;
+/// Flow vectors that are closer than this [px] need not both be compared.
+inline constexpr float kSameFlow = 0.05F;
+
 /// Largest change of the flow within one surface [px per px]. A larger change is a depth edge.
 inline constexpr float kSteepestFlow = 0.25F;
 
@@ -105,6 +121,17 @@ struct alignas(16) FilterFlow {
     /// 1: each workgroup processes one tile, and only matched tiles are filtered (finest pyramid
     /// level). 0: all cells are filtered.
     std::int32_t byTile;
+};
+
+struct alignas(16) CompareDirectly {
+    Rig rig;
+    std::int32_t columns, rows;
+    std::int32_t videoWidth, videoHeight;
+    std::int32_t target, source, errors;
+    float noise;
+    float texelX, texelY;
+    /// Smallest texture of a patch (see FlowCell) for which the cost is meaningful [grey levels^2].
+    float leastTexture;
 };
 
 struct alignas(16) FlagTiles {

@@ -1,0 +1,32 @@
+#pragma once
+
+#include "base/geometry.h"
+#include "base/gl/pass.h"
+#include "pipeline/engine/params/flow.h"
+#include "pipeline/gles/tile_buffer.h"
+
+namespace mfar {
+
+/// Compares doubtful cells with the still itself, see params::kPatchSamples.
+class DirectMatcher {
+public:
+    /// The still camera of `stillRig` has the resolution of the still that is compared.
+    explicit DirectMatcher(const StereoRig& stillRig);
+
+    /// Indices of the first cell of each field in a buffer of cells: filtered flow, flow along
+    /// epipolar lines, ErrorCells.
+    struct Fields {
+        int flow, lines, errors;
+    };
+    /// Changes the flow and the ErrorCells in `cells`. `still` is luma with amplified finest
+    /// detail and a linear filter.
+    void run(const gpu::Buffer& cells, const Fields& fields, const gpu::Texture& video,
+             const gpu::Texture& still, const TileBuffer& tiles);
+
+private:
+    StereoRig rig_;
+    Size cells_;
+    gpu::ComputePass<params::CompareDirectly> compare_;
+};
+
+}  // namespace mfar

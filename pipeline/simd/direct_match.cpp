@@ -1,0 +1,266 @@
+#include "pipeline/simd/direct_match.h"
+
+#include "pipeline/engine/params/flow.h"
+#include "pipeline/engine/params/weigh.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "pipeline/simd/direct_match.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+// These must come after foreach_target.h, because they are compiled once per instruction set.
+#include "pipeline/simd/still_blocks-inl.h"
+#include "pipeline/simd/still_pixel-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace mfar::simd::HWY_NAMESPACE {
+namespace {
+namespace hn = hwy::HWY_NAMESPACE;
+
+constexpr int kSide = 8;
+constexpr int kCellPixels = 4;
+constexpr float kMiddle = 1.5F;  // centre of a cell, from its first pixel
+constexpr int kAcross = params::kPatchSamples * kSide;
+constexpr float kPerSample = 1.0F / params::kPatchSamples;
+
+struct Vector {
+    float x = 0, y = 0;
+};
+using Pixels = std::array<float, kSide * kSide>;
+
+/// Where the still shows a patch: the position of its centre, and the change of the position per
+/// video pixel [still px].
+struct Place {
+    Vector centre, alongX, alongY;
+};
+
+struct Likeness {
+    float covariance = 0, varianceVideo = 0, varianceStill = 0;
+    float ncc2 = 0;
+};
+
+class Cell {
+public:
+    Cell(const DirectMatch& in, int column, int row) : in_(in), column_(column), row_(row) {
+        slopeX_ = slope(2, 0);
+        slopeY_ = slope(0, 2);
+    }
+
+    /// Returns the flow along the epipolar line, see params::kPairReach.
+    [[nodiscard]] Vector line() const {
+        const Vector middle = median();
+        Vector sum;
+        float weight = 1;
+        constexpr int kReach = params::kCleanUpRadius;
+        for (int j = 0; j <= kReach; ++j)
+            for (int i = j == 0 ? 1 : -kReach; i <= kReach; ++i) {
+                if (!isInside(i, j) || !isInside(-i, -j)) continue;
+                const Vector a = at(i, j), b = at(-i, -j);
+                const float x = 0.5F * (a.x + b.x) - middle.x, y = 0.5F * (a.y + b.y) - middle.y;
+                const float off = (x * x + y * y) / (params::kPairReach * params::kPairReach);
+                const float near = off < 1 ? 1 - off : 0;
+                if (near == 0) continue;
+                weight += near;
+                sum.x += near * x;
+                sum.y += near * y;
+            }
+        return {middle.x + sum.x / weight, middle.y + sum.y / weight};
+    }
+
+    void loadVideo() {
+        for (int y = 0; y < kSide; ++y)
+            for (int x = 0; x < kSide; ++x) {
+                const int px = std::clamp(kCellPixels * column_ - 2 + x, 0, size().width - 1);
+                const int py = std::clamp(kCellPixels * row_ - 2 + y, 0, size().height - 1);
+                video_[kSide * y + x] = params::kLumaRed * in_.video.row(0, py)[px] +
+                                        params::kLumaGreen * in_.video.row(1, py)[px] +
+                                        params::kLumaBlue * in_.video.row(2, py)[px];
+            }
+        removeMean(video_);
+    }
+
+    /// Compares the patch at the flow `u` with the still. Everything is 0 if `u` ends outside.
+    [[nodiscard]] Likeness compare(Vector u) const {
+        const Place place = placeOf(u);
+        const LensParams& still = in_.lookUp.still;
+        if (!(place.centre.x >= 0 && place.centre.x <= still.width - 1 && place.centre.y >= 0 &&
+              place.centre.y <= still.height - 1))
+            return {};
+        Pixels seen;
+        sample(place, seen);
+        removeMean(seen);
+        Likeness out;
+        for (std::size_t i = 0; i < seen.size(); ++i) {
+            out.covariance += video_[i] * seen[i];
+            out.varianceVideo += video_[i] * video_[i];
+            out.varianceStill += seen[i] * seen[i];
+        }
+        const float noise =
+            params::kPatchPixels * (in_.noise * in_.noise + params::kByteVariance);
+        const float both = std::max(out.covariance, 0.0F);
+        out.ncc2 = both * both / ((out.varianceVideo + noise) * (out.varianceStill + noise));
+        return out;
+    }
+
+private:
+    [[nodiscard]] Size size() const { return in_.video.size(); }
+    [[nodiscard]] bool isInside(int i, int j) const {
+        const int x = column_ + i, y = row_ + j;
+        return x >= 0 && y >= 0 && x < in_.cells.width && y < in_.cells.height;
+    }
+    [[nodiscard]] Vector at(int i, int j) const {
+        const int x = std::clamp(column_ + i, 0, in_.cells.width - 1);
+        const int y = std::clamp(row_ + j, 0, in_.cells.height - 1);
+        const auto& u = in_.lines[static_cast<std::size_t>(y) * in_.cells.width + x];
+        return {u[0], u[1]};
+    }
+
+    [[nodiscard]] Vector median() const {
+        std::array<float, 9> x, y;
+        for (int k = 0; k < 9; ++k) {
+            const Vector u = at(k % 3 - 1, k / 3 - 1);
+            x[k] = u.x;
+            y[k] = u.y;
+        }
+        std::nth_element(x.begin(), x.begin() + 4, x.end());
+        std::nth_element(y.begin(), y.begin() + 4, y.end());
+        return {x[4], y[4]};
+    }
+
+    /// Change of the flow per pixel, as in flow_align.comp.
+    [[nodiscard]] Vector slope(int i, int j) const {
+        const Vector before = at(-i, -j), here = at(0, 0), after = at(i, j);
+        const auto least = [](float a, float b) {
+            if (!(a * b > 0)) return 0.0F;
+            const float s = std::copysign(std::min(std::abs(a), std::abs(b)), b) / kSide;
+            return std::clamp(s, -params::kSteepestFlow, params::kSteepestFlow);
+        };
+        return {least(here.x - before.x, after.x - here.x),
+                least(here.y - before.y, after.y - here.y)};
+    }
+
+    [[nodiscard]] Place placeOf(Vector u) const {
+        HWY_ALIGN std::array<float, kChunk> x, y;
+        const float px = static_cast<float>(kCellPixels * column_) + kMiddle + u.x;
+        const float py = static_cast<float>(kCellPixels * row_) + kMiddle + u.y;
+        x.fill(px);
+        y.fill(py);
+        x[1] += kCellPixels * (1 + slopeX_.x);
+        y[1] += kCellPixels * slopeX_.y;
+        x[2] += kCellPixels * slopeY_.x;
+        y[2] += kCellPixels * (1 + slopeY_.y);
+        const D d;
+        for (std::size_t i = 0; i < 3; i += hn::Lanes(d)) {
+            const Point p = StillPixel(in_.lookUp, hn::Load(d, &x[i]), hn::Load(d, &y[i]));
+            hn::Store(p.x, d, &x[i]);
+            hn::Store(p.y, d, &y[i]);
+        }
+        const auto along = [&](int i) {
+            return Vector{(x[i] - x[0]) / kCellPixels, (y[i] - y[0]) / kCellPixels};
+        };
+        return {{x[0], y[0]}, along(1), along(2)};
+    }
+
+    /// Computes the still's mean over each pixel of the patch.
+    void sample(const Place& place, Pixels& out) const {
+        const hn::ScalableTag<float> d;
+        const StillBlocks blocks(in_.still);
+        HWY_ALIGN std::array<float, kAcross + hn::MaxLanes(d)> sums;
+        // Distance of the first sample from the patch's centre [video px].
+        constexpr float kFirst = -0.5F * kSide + 0.5F * kPerSample;
+        for (int y = 0; y < kAcross; ++y) {
+            const float down = kFirst + kPerSample * static_cast<float>(y);
+            if (y % params::kPatchSamples == 0) sums.fill(0);
+            for (std::size_t x = 0; x < kAcross; x += hn::Lanes(d)) {
+                const auto across = hn::MulAdd(hn::Iota(d, static_cast<float>(x)),
+                                               hn::Set(d, kPerSample), hn::Set(d, kFirst));
+                const auto along = [&](float centre, float perX, float perY) HWY_ATTR {
+                    return hn::MulAdd(across, hn::Set(d, perX),
+                                      hn::Set(d, centre + down * perY));
+                };
+                const Positions at = PositionsWithin(
+                    in_.still.size, along(place.centre.x, place.alongX.x, place.alongY.x),
+                    along(place.centre.y, place.alongX.y, place.alongY.y));
+                const auto four = MeanOfFour(blocks.at(at.x, at.y), at);
+                hn::StoreU(hn::Add(hn::LoadU(d, &sums[x]), four), d, &sums[x]);
+            }
+            if ((y + 1) % params::kPatchSamples != 0) continue;
+            constexpr float kScale = 1.0F / 256 * kPerSample * kPerSample;
+            for (int x = 0; x < kSide; ++x) {
+                float sum = 0;
+                for (int k = 0; k < params::kPatchSamples; ++k)
+                    sum += sums[params::kPatchSamples * x + k];
+                out[y / params::kPatchSamples * kSide + x] = kScale * sum;
+            }
+        }
+    }
+
+    static void removeMean(Pixels& pixels) {
+        float sum = 0;
+        for (const float v : pixels)
+            sum += v;
+        for (float& v : pixels)
+            v -= sum / params::kPatchPixels;
+    }
+
+    const DirectMatch& in_;
+    int column_, row_;
+    Vector slopeX_, slopeY_;
+    Pixels video_{};
+};
+
+bool isDoubtful(const DirectMatch& in, const FlowCell& flow, const ErrorCell& error) {
+    return error.error < params::kNotShown && flow.texture > in.leastTexture &&
+           (flow.cost > params::kGoodCost || error.error > 0);
+}
+
+void matchCell(Cell& cell, FlowCell& flow, ErrorCell& error) {
+    cell.loadVideo();
+    Likeness best = cell.compare({flow.x, flow.y});
+    const Vector line = cell.line();
+    const float x = line.x - flow.x, y = line.y - flow.y;
+    if (x * x + y * y > params::kSameFlow * params::kSameFlow) {
+        const Likeness other = cell.compare(line);
+        if (other.ncc2 > best.ncc2 + params::kClearlyAlike) {
+            best = other;
+            flow.x = line.x;
+            flow.y = line.y;
+        }
+    }
+    const float known = std::max(1 - flow.cost, 0.0F);
+    if (!(best.ncc2 > known * known)) return;
+    const float cost = 1 - std::sqrt(best.ncc2);
+    const float most = std::max(cost - params::kGoodCost, 0.0F) * params::kErrorPerCost;
+    error = {std::min(error.error, most), best.covariance, best.varianceVideo, best.varianceStill};
+}
+
+}  // namespace
+
+void MatchDirectly(const DirectMatch& in, int row, int first, int end, FlowCell* flow,
+                   ErrorCell* errors) {
+    for (int column = first; column < end; ++column) {
+        const std::size_t i = static_cast<std::size_t>(row) * in.cells.width + column;
+        if (!isDoubtful(in, flow[i], errors[i])) continue;
+        Cell cell(in, column, row);
+        matchCell(cell, flow[i], errors[i]);
+    }
+}
+
+}  // namespace mfar::simd::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace mfar::simd {
+
+HWY_EXPORT(MatchDirectly);
+
+void matchDirectly(const DirectMatch& in, int row, int first, int end, FlowCell* flow,
+                   ErrorCell* errors) {
+    HWY_DYNAMIC_DISPATCH(MatchDirectly)(in, row, first, end, flow, errors);
+}
+
+}  // namespace mfar::simd
+#endif
