@@ -54,8 +54,8 @@ struct LumaPyramid {
 };
 
 /// Flow between video and still. All cells are in one row: first the forward field (from video to
-/// still), then the backward field. If `errorsGiven`, the forward field is followed by its ErrorCells
-/// instead.
+/// still), then the backward field. If `errorsGiven`, the forward field is followed by its
+/// ErrorCells instead.
 struct FlowCells {
     Field<FlowCell> cells;
     Size forward, backward;

@@ -40,8 +40,8 @@ private:
 [[nodiscard]] std::unique_ptr<PyramidStep> makePyramidStep(const StepSetup& setup,
                                                            FrameOnGpu& frame);
 /// The still camera of `stillRig` has the resolution of the still's detail and picture.
-[[nodiscard]] std::unique_ptr<FlowStep>
-makeFlowStep(const StepSetup& setup, const StereoRig& stillRig, FrameOnGpu& frame);
+[[nodiscard]] std::unique_ptr<FlowStep> makeFlowStep(const StepSetup& setup,
+                                                     const StereoRig& stillRig, FrameOnGpu& frame);
 [[nodiscard]] std::unique_ptr<WeighStep>
 makeWeighStep(const StepSetup& setup, const StereoRig& stillRig, FrameOnGpu& frame);
 [[nodiscard]] std::unique_ptr<DetailStep>
