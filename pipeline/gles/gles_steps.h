@@ -40,8 +40,8 @@ private:
 [[nodiscard]] std::unique_ptr<PyramidStep> makePyramidStep(const StepSetup& setup,
                                                            FrameOnGpu& frame);
 /// The still camera of `stillRig` must have the resolution of the stills' StillPictures::raised.
-[[nodiscard]] std::unique_ptr<FlowStep>
-makeFlowStep(const StepSetup& setup, const StereoRig& stillRig, FrameOnGpu& frame);
+[[nodiscard]] std::unique_ptr<FlowStep> makeFlowStep(const StepSetup& setup,
+                                                     const StereoRig& stillRig, FrameOnGpu& frame);
 [[nodiscard]] std::unique_ptr<WeighStep>
 makeWeighStep(const StepSetup& setup, const StereoRig& stillRig, FrameOnGpu& frame);
 [[nodiscard]] std::unique_ptr<DetailStep>

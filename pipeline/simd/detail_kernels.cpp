@@ -30,8 +30,8 @@ class LookUp {
 public:
     LookUp(const LookUpRows& rows, Size size, int begin)
         : rows_(rows), stepX_(hn::Set(F(), rows.stepX)), startX_(hn::Set(F(), rows.startX)),
-          startY_(hn::Set(F(), rows.startY)),
-          size_(size), pixels_(hn::Iota(F(), static_cast<float>(begin))) {}
+          startY_(hn::Set(F(), rows.startY)), size_(size),
+          pixels_(hn::Iota(F(), static_cast<float>(begin))) {}
 
     HWY_INLINE Positions next(int x) {
         const F df;

@@ -98,8 +98,7 @@ public:
             out.varianceVideo += video_[i] * video_[i];
             out.varianceStill += seen[i] * seen[i];
         }
-        const float noise =
-            params::kPatchPixels * (in_.noise * in_.noise + params::kByteVariance);
+        const float noise = params::kPatchPixels * (in_.noise * in_.noise + params::kByteVariance);
         const float both = std::max(out.covariance, 0.0F);
         out.ncc2 = both * both / ((out.varianceVideo + noise) * (out.varianceStill + noise));
         return out;
@@ -178,8 +177,7 @@ private:
                 const auto across = hn::MulAdd(hn::Iota(d, static_cast<float>(x)),
                                                hn::Set(d, kPerSample), hn::Set(d, kFirst));
                 const auto along = [&](float centre, float perX, float perY) HWY_ATTR {
-                    return hn::MulAdd(across, hn::Set(d, perX),
-                                      hn::Set(d, centre + down * perY));
+                    return hn::MulAdd(across, hn::Set(d, perX), hn::Set(d, centre + down * perY));
                 };
                 const Positions at = PositionsWithin(
                     in_.still.size, along(place.centre.x, place.alongX.x, place.alongY.x),

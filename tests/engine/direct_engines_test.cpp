@@ -30,13 +30,13 @@ Eigen::Vector2d trueFlow(double x, double y) {
 /// A video of fine print that aliases. The lines' flow is correct but for small errors and some
 /// outliers; the refined flow is off by up to a pixel. Some cells are not doubtful or not matched.
 struct Print {
-    Print() : video(kVideo), rig(bentRig(kVideo, kStill)), work(TileWork::everything(tilesOf(kVideo))) {
+    Print()
+        : video(kVideo), rig(bentRig(kVideo, kStill)), work(TileWork::everything(tilesOf(kVideo))) {
         work.noise = kNoise;
         for (std::size_t i = 0; i < work.flags.size(); ++i)
             work.flags[i].matched = i % 7 != 3 ? 1 : 0;
-        still = twin::greyOf(kStill, [](int x, int y) {
-            return std::round(printAt(Eigen::Vector2d(x, y)));
-        });
+        still = twin::greyOf(
+            kStill, [](int x, int y) { return std::round(printAt(Eigen::Vector2d(x, y))); });
         shoot();
         fillCells();
     }
@@ -62,8 +62,7 @@ struct Print {
         std::uniform_real_distribution<float> error(-1, 1), share(0, 1);
         for (int y = 0; y < cells.height; ++y)
             for (int x = 0; x < cells.width; ++x) {
-                const Eigen::Vector2f flow =
-                    trueFlow(4 * x + 1.5, 4 * y + 1.5).cast<float>();
+                const Eigen::Vector2f flow = trueFlow(4 * x + 1.5, 4 * y + 1.5).cast<float>();
                 const float outlier = share(random) < 0.05F ? 7 : 0;
                 lines.push_back({flow.x() + 0.1F * error(random) + outlier,
                                  flow.y() + 0.03F * error(random), 0, 0});
@@ -99,17 +98,21 @@ struct Matched {
     std::vector<ErrorCell> errors;
 };
 
-Matched onHost(const Print& in) {
+Matched matchedOnHost(const Print& in) {
     std::vector<std::uint16_t> pairs(static_cast<std::size_t>(kStill.width) * kStill.height + 64);
     for (int y = 0; y < kStill.height; ++y)
         for (int x = 0; x < kStill.width; ++x)
-            pairs[static_cast<std::size_t>(y) * kStill.width + x] = static_cast<std::uint16_t>(
-                static_cast<int>(in.still.at(x, y)) + 256 * static_cast<int>(in.still.at(x, y + 1)));
+            pairs[static_cast<std::size_t>(y) * kStill.width + x] =
+                static_cast<std::uint16_t>(static_cast<int>(in.still.at(x, y)) +
+                                           256 * static_cast<int>(in.still.at(x, y + 1)));
     const simd::StillPairs still{pairs.data(), kStill.width, kStill};
     const simd::LookUpParams lookUp(in.rig);
-    const simd::DirectMatch match{in.video,        still,
-                                  lookUp,          in.cells,
-                                  in.lines.data(), static_cast<float>(kNoise),
+    const simd::DirectMatch match{in.video,
+                                  still,
+                                  lookUp,
+                                  in.cells,
+                                  in.lines.data(),
+                                  static_cast<float>(kNoise),
                                   params::kTexturePerVariance * 2};
     Matched out{in.given, in.errors};
     for (int y = 0; y < in.cells.height; ++y)
@@ -119,7 +122,7 @@ Matched onHost(const Print& in) {
     return out;
 }
 
-Matched onGpu(const Print& in) {
+Matched matchedOnGpu(const Print& in) {
     const std::size_t count = in.given.size();
     gpu::Buffer cells(3 * count * sizeof(FlowCell));
     cells.write(std::span(in.given), 0);
@@ -132,15 +135,24 @@ Matched onGpu(const Print& in) {
     TextureCopy(still).upload(bytes.data(), kStill.width);
     TileBuffer tiles(kVideo);
     tiles.set(in.work);
-    DirectMatcher(in.rig).run(
-        cells, {0, static_cast<int>(count), 2 * static_cast<int>(count)}, video, still, tiles);
+    DirectMatcher(in.rig).run(cells, {0, static_cast<int>(count), 2 * static_cast<int>(count)},
+                              video, still, tiles);
     return {cells.read<FlowCell>(count, 0),
             cells.read<ErrorCell>(count, 2 * count * sizeof(FlowCell))};
 }
 
-/// Compares the results with the oracle's. Where both flow vectors fit almost equally well,
-/// rounding may choose either.
-void expectTheOracles(const Print& in, const Matched& got) {
+twin::DirectResult wantedOf(const Print& in, const twin::DirectCase& oracle, int x, int y) {
+    const std::size_t i = static_cast<std::size_t>(y) * in.cells.width + x;
+    const FlowCell& given = in.given[i];
+    if (in.work.at(x / kCellsPerTile, y / kCellsPerTile).matched != 0)
+        return twin::matchDirectly(oracle, x, y, given, in.errors[i].error);
+    return {{given.x, given.y}, Eigen::Vector4d::Zero(), in.errors[i].error, false, 1};
+}
+
+/// Compares the results with the oracle's. The oracle maps every sample through both lenses, the
+/// engines only the patch's centre and slopes. So where both flow vectors fit almost equally well,
+/// they may choose different ones.
+void expectTheOraclesMatches(const Print& in, const Matched& got) {
     const twin::DirectCase oracle = in.oracle();
     int moved = 0, compared = 0, untouched = 0;
     for (int y = 0; y < in.cells.height; ++y)
@@ -148,29 +160,23 @@ void expectTheOracles(const Print& in, const Matched& got) {
             const std::size_t i = static_cast<std::size_t>(y) * in.cells.width + x;
             const FlowCell& flow = got.flow[i];
             const ErrorCell& error = got.errors[i];
-            twin::DirectResult want{{in.given[i].x, in.given[i].y},
-                                    Eigen::Vector4d::Zero(),
-                                    in.errors[i].error,
-                                    false,
-                                    1};
-            if (in.work.at(x / kCellsPerTile, y / kCellsPerTile).matched != 0)
-                want = twin::matchDirectly(oracle, x, y, in.given[i], in.errors[i].error);
+            const twin::DirectResult want = wantedOf(in, oracle, x, y);
             EXPECT_EQ(flow.cost, in.given[i].cost);
             EXPECT_EQ(flow.texture, in.given[i].texture);
-            if (want.choiceMargin < 0.01) continue;
+            if (want.choiceMargin < 0.03) continue;
             ASSERT_NEAR(flow.x, want.flow.x(), 2e-3) << x << ", " << y;
             ASSERT_NEAR(flow.y, want.flow.y(), 2e-3) << x << ", " << y;
             const double known = std::pow(1.0 - in.given[i].cost, 2);
-            if (want.likeness[3] > 0 && std::abs(want.likeness[3] - known) < 0.01) continue;
+            if (want.likeness[3] > 0 && std::abs(want.likeness[3] - known) < 0.03) continue;
             ASSERT_EQ(error.varianceVideo > 0, want.compared) << x << ", " << y;
-            ASSERT_NEAR(error.error, want.error, 0.03 * (1 + want.error)) << x << ", " << y;
+            ASSERT_NEAR(error.error, want.error, 0.06 * (1 + want.error)) << x << ", " << y;
             moved += (want.flow - Eigen::Vector2d(in.given[i].x, in.given[i].y)).norm() > 0 ? 1 : 0;
             compared += want.compared ? 1 : 0;
             untouched += want.likeness[3] == 0 ? 1 : 0;
             if (!want.compared) continue;
-            ASSERT_NEAR(error.covariance, want.likeness[0], 0.03 * want.likeness[1] + 100);
+            ASSERT_NEAR(error.covariance, want.likeness[0], 0.06 * want.likeness[1] + 100);
             ASSERT_NEAR(error.varianceVideo, want.likeness[1], 0.01 * want.likeness[1] + 50);
-            ASSERT_NEAR(error.varianceStill, want.likeness[2], 0.03 * want.likeness[2] + 100);
+            ASSERT_NEAR(error.varianceStill, want.likeness[2], 0.06 * want.likeness[2] + 100);
         }
     EXPECT_GT(moved, 100);
     EXPECT_GT(compared, 300);
@@ -181,26 +187,26 @@ using DirectEngines = GlTest;
 
 TEST_F(DirectEngines, TheHostComparesWithTheStillItselfAsTheOracleDoes) {
     const Print in;
-    expectTheOracles(in, onHost(in));
+    expectTheOraclesMatches(in, matchedOnHost(in));
 }
 
 TEST_F(DirectEngines, TheGpuComparesWithTheStillItselfAsTheOracleDoes) {
     const Print in;
-    expectTheOracles(in, onGpu(in));
+    expectTheOraclesMatches(in, matchedOnGpu(in));
 }
 
 // The reduced still cannot show which flow is right, because the print aliases.
 TEST_F(DirectEngines, FinePrintGetsTheFlowAlongTheLinesAndAHighCorrelation) {
     const Print in;
-    const Matched got = onHost(in);
+    const Matched got = matchedOnHost(in);
     int right = 0, doubtful = 0;
     for (int y = 2; y < in.cells.height - 2; ++y)
         for (int x = 2; x < in.cells.width - 2; ++x) {
             const std::size_t i = static_cast<std::size_t>(y) * in.cells.width + x;
             const ErrorCell& error = got.errors[i];
             if (!(error.covariance > 0)) continue;
-            const Eigen::Vector2d off = Eigen::Vector2d(got.flow[i].x, got.flow[i].y) -
-                                        trueFlow(4 * x + 1.5, 4 * y + 1.5);
+            const Eigen::Vector2d off =
+                Eigen::Vector2d(got.flow[i].x, got.flow[i].y) - trueFlow(4 * x + 1.5, 4 * y + 1.5);
             ++doubtful;
             right += std::abs(off.y()) < 0.15 ? 1 : 0;
             EXPECT_GT(std::pow(error.covariance, 2) / (error.varianceVideo * error.varianceStill),
@@ -217,7 +223,7 @@ TEST_F(DirectEngines, ACellWithoutAValidFlowStaysAsItIs) {
         cell.x = nan;
     for (auto& line : in.lines)
         line = {nan, nan, 0, 0};
-    for (const Matched& got : {onHost(in), onGpu(in)})
+    for (const Matched& got : {matchedOnHost(in), matchedOnGpu(in)})
         for (std::size_t i = 0; i < in.given.size(); ++i) {
             EXPECT_TRUE(std::isnan(got.flow[i].x));
             EXPECT_EQ(got.errors[i].covariance, 0);

@@ -66,11 +66,11 @@ inline Eigen::Vector2d lineSlope(const DirectCase& in, int x, int y, int i, int 
     Eigen::Vector2d out = Eigen::Vector2d::Zero();
     for (int axis = 0; axis < 2; ++axis)
         if (before[axis] * after[axis] > 0)
-            out[axis] = std::clamp(
-                std::copysign(std::min(std::abs(before[axis]), std::abs(after[axis])),
-                              after[axis]) /
-                    8,
-                -double{params::kSteepestFlow}, double{params::kSteepestFlow});
+            out[axis] =
+                std::clamp(std::copysign(std::min(std::abs(before[axis]), std::abs(after[axis])),
+                                         after[axis]) /
+                               8,
+                           -double{params::kSteepestFlow}, double{params::kSteepestFlow});
     return out;
 }
 
@@ -94,9 +94,8 @@ inline Eigen::Vector4d directLikeness(const DirectCase& in, int x, int y,
                 const Eigen::Vector2d off(px - 3.5 + dx, py - 3.5 + dy);
                 const Eigen::Vector2d at =
                     stillPixel(in.rig, middle + flow + off + off.x() * slopeX + off.y() * slopeY);
-                still[k] += in.still.bilinear(
-                                std::clamp(at.x(), 0.0, in.still.size.width - 1.0),
-                                std::clamp(at.y(), 0.0, in.still.size.height - 1.0)) /
+                still[k] += in.still.bilinear(std::clamp(at.x(), 0.0, in.still.size.width - 1.0),
+                                              std::clamp(at.y(), 0.0, in.still.size.height - 1.0)) /
                             4;
             }
     }
