@@ -37,6 +37,27 @@ struct Place {
     Vector centre, alongX, alongY;
 };
 
+void order(float& a, float& b) {
+    const float low = std::min(a, b);
+    b = std::max(a, b);
+    a = low;
+}
+
+/// Returns the median of 3x3 values, as flow_direct.comp does. Unlike std::nth_element(), it allows
+/// NaN among them.
+float medianOf(std::array<float, 9> v) {
+    for (int c = 0; c < 3; ++c) {
+        order(v[c], v[c + 3]);
+        order(v[c + 3], v[c + 6]);
+        order(v[c], v[c + 3]);
+    }
+    float low = std::max({v[0], v[1], v[2]}), high = std::min({v[6], v[7], v[8]});
+    float middle = std::max(std::min(v[3], v[4]), std::min(std::max(v[3], v[4]), v[5]));
+    order(low, middle);
+    order(middle, high);
+    return std::max(low, middle);
+}
+
 struct Likeness {
     float covariance = 0, varianceVideo = 0, varianceStill = 0;
     float ncc2 = 0;
@@ -124,9 +145,7 @@ private:
             x[k] = u.x;
             y[k] = u.y;
         }
-        std::nth_element(x.begin(), x.begin() + 4, x.end());
-        std::nth_element(y.begin(), y.begin() + 4, y.end());
-        return {x[4], y[4]};
+        return {medianOf(x), medianOf(y)};
     }
 
     /// Change of the flow per pixel, as in flow_align.comp.
