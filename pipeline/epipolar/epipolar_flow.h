@@ -39,8 +39,8 @@ public:
     /// Flow of each cell from the video to the still as the video's lens would show it: x, y
     /// [video px], and two unused numbers.
     [[nodiscard]] const Cells& forward() const { return forward_; }
-    /// Two-way error of each cell (eq. 2 of the paper in docs/paper.md) [px], and three zeros. It is
-    /// the difference between the cell's parallax and the parallax of the nearest surface that
+    /// Two-way error of each cell (eq. 2 of the paper in docs/paper.md) [px], and three zeros. It
+    /// is the difference between the cell's parallax and the parallax of the nearest surface that
     /// matches the same cell of the still.
     [[nodiscard]] const Cells& occlusion() const { return hidden_; }
     /// Returns for every cell the s whose point on the epipolar line is closest to the end of

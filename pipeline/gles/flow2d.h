@@ -54,8 +54,8 @@ public:
                                                      forward_.cells.height,
                                                  16UL * forward_.offset);
     }
-    /// True after refine(): backward() then has the ErrorCells of forward() instead of flow vectors.
-    /// False after run().
+    /// True after refine(): backward() then has the ErrorCells of forward() instead of flow
+    /// vectors. False after run().
     [[nodiscard]] bool errorsGiven() const { return errorsGiven_; }
     [[nodiscard]] const Field& backward() const { return backward_; }
     /// Index in cells() of the first vector of refine().

@@ -89,8 +89,7 @@ void MoveRow(const Lens& lens, Size size, const Motion& motion, const MoveRule& 
         const auto p = projected(d, lens, hn::Mul(u, inverse), hn::Mul(v, inverse));
         const PixelOf<decltype(d)> at(d, p, size);
         const auto moved = hn::Mul(inverseDepth, inverse);
-        // `slope` is the derivative of `moved` by inverseDepth.
-        const auto slope = hn::Mul(hn::Mul(turnedZ, inverse), inverse);
+        const auto slope = hn::Mul(hn::Mul(turnedZ, inverse), inverse);  // d moved / d inverseDepth
         const auto growth = hn::Mul(set(rule.growth), inverseDepth);
         const auto grown = hn::MulAdd(growth, inverseDepth, before);
         const auto variance = hn::Mul(hn::Mul(grown, slope), slope);

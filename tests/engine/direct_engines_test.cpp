@@ -45,7 +45,8 @@ struct Print {
         const twin::Grey seen = twin::greyOf(kVideo, [this](int x, int y) {
             double sum = 0;
             for (int k = 0; k < 36; ++k) {
-                const Eigen::Vector2d p(x + (k % 6 + 0.5) / 6 - 0.5, y + (k / 6 + 0.5) / 6 - 0.5);
+                const int column = k % 6, row = k / 6;
+                const Eigen::Vector2d p(x + (column + 0.5) / 6 - 0.5, y + (row + 0.5) / 6 - 0.5);
                 sum += printAt(twin::stillPixel(rig, p + trueFlow(p.x(), p.y()))) / 36;
             }
             return std::clamp(std::round(sum), 0.0, 255.0);
