@@ -28,20 +28,7 @@ layout(std430, binding = 2) readonly buffer Tiles {
 
 #include "patch_template.glsl"
 
-vec2 flowAt(ivec2 c) {
-    c = clamp(c, ivec2(0), ivec2(params.columns, params.rows) - 1);
-    return cells[params.source + c.y * params.columns + c.x].xy;
-}
-
-// Returns the change of the flow per pixel along `step`: the smaller of the two one-sided
-// differences, or zero if they have different signs. The differences span two cells, because
-// between adjacent cells noise exceeds the true change.
-vec2 slopeAt(ivec2 cell, ivec2 step) {
-    vec2 here = flowAt(cell);
-    vec2 before = here - flowAt(cell - 2 * step), after = flowAt(cell + 2 * step) - here;
-    vec2 least = sign(after) * min(abs(before), abs(after));
-    return clamp(mix(vec2(0.0), least / 8.0, greaterThan(before * after, vec2(0.0))), -kSteepestFlow, kSteepestFlow);
-}
+#include "flow_cells.glsl"
 
 // Reads two words (eight pixels) of row y and shifts them by `shift` bits. So the result begins
 // `shift` / 8 pixels later and ends with zeros. `wx` is the number of the first word, counted from

@@ -29,7 +29,29 @@ layout(binding = 1) uniform sampler2D still;
 
 const int kSide = 8;
 
-#include "flow_line.glsl"
+#include "flow_cells.glsl"
+
+bool isInside(ivec2 c) {
+    return all(greaterThanEqual(c, ivec2(0))) && all(lessThan(c, ivec2(params.columns, params.rows)));
+}
+
+// Returns the flow along the epipolar line, see kPairReach.
+vec2 lineOf(ivec2 cell) {
+    vec2 middle = medianAround(cell), sum = vec2(0.0);
+    float weight = 1.0;
+    const int kWidth = 2 * kCleanUpRadius + 1, kPairs = (kWidth * kWidth - 1) / 2;
+    for (int i = cell.x; i < cell.x + kPairs; ++i) {
+        int n = i - cell.x + 1 + kPairs;
+        ivec2 by = ivec2(n % kWidth, n / kWidth) - kCleanUpRadius;
+        if (!isInside(cell + by) || !isInside(cell - by)) continue;
+        vec2 d = 0.5 * (flowAt(cell + by) + flowAt(cell - by)) - middle;
+        float near = max(1.0 - dot(d, d) / (kPairReach * kPairReach), 0.0);
+        if (!(near > 0.0)) continue;
+        weight += near;
+        sum += near * d;
+    }
+    return middle + sum / weight;
+}
 
 // Compares the patch at the flow `u`, which changes by dx and dy per pixel, with the still. Returns
 // covariance, variance in the video, variance in the still, and the squared correlation. All are 0

@@ -19,10 +19,7 @@ layout(std430, binding = 2) readonly buffer Tiles {
     uvec2 tiles[];
 };
 
-vec4 cellIn(ivec2 c) {
-    c = clamp(c, ivec2(0), ivec2(params.columns, params.rows) - 1);
-    return cells[params.source + c.y * params.columns + c.x];
-}
+#include "flow_cells.glsl"
 
 struct Plane {
     vec2 value, dx, dy;  // flow at the cell [px], change of the flow per cell
@@ -64,12 +61,6 @@ Plane planeAt(ivec2 cell, Plane about, float reach) {
     return about;
 }
 
-void order(inout vec2 a, inout vec2 b) {
-    vec2 low = min(a, b);
-    b = max(a, b);
-    a = low;
-}
-
 void main() {
     ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(cell, ivec2(params.columns, params.rows)))) return;
@@ -77,23 +68,7 @@ void main() {
         cells[params.target + cell.y * params.columns + cell.x] = cellIn(cell);
         return;
     }
-    vec2 v[9];
-    for (int i = 0; i < 9; ++i) v[i] = cellIn(cell + ivec2(i % 3 - 1, i / 3 - 1)).xy;
-    // Finds the median of 3x3 values. After sorting each column, the median is that of three
-    // values: the largest minimum, the median of the middle values, and the smallest maximum.
-    for (int c = 0; c < 3; ++c) {
-        order(v[c], v[c + 3]);
-        order(v[c + 3], v[c + 6]);
-        order(v[c], v[c + 3]);
-    }
-    order(v[3], v[4]);
-    order(v[4], v[5]);
-    order(v[3], v[4]);
-    vec2 low = max(max(v[0], v[1]), v[2]), middle = v[4], high = min(min(v[6], v[7]), v[8]);
-    order(low, middle);
-    order(middle, high);
-    order(low, middle);
-    Plane plane = Plane(middle, vec2(0.0), vec2(0.0));
+    Plane plane = Plane(medianAround(cell), vec2(0.0), vec2(0.0));
     for (int i = 0; i < params.planeFits; ++i) plane = planeAt(cell, plane, i == 0 ? kFirstPlaneReach : kPlaneReach);
     cells[params.target + cell.y * params.columns + cell.x] = vec4(plane.value, cellIn(cell).zw);
 }

@@ -1,6 +1,7 @@
 #include "pipeline/gles/direct_matcher.h"
 
 #include "pipeline/flow/cell_field.h"
+#include "pipeline/flow/least_texture.h"
 #include "pipeline/gles/luma_pyramids.h"
 
 namespace mfar {
@@ -12,7 +13,6 @@ void DirectMatcher::run(const gpu::Buffer& cells, const Fields& fields, const gp
                         const gpu::Texture& still, const TileBuffer& tiles) {
     const TileWork& work = tiles.work();
     if (work.matched == 0) return;
-    const auto noise = static_cast<float>(work.noise);
     compare_.run({.rig = rigParams(rig_),
                   .columns = cells_.width,
                   .rows = cells_.height,
@@ -21,10 +21,10 @@ void DirectMatcher::run(const gpu::Buffer& cells, const Fields& fields, const gp
                   .target = fields.flow,
                   .source = fields.lines,
                   .errors = fields.errors,
-                  .noise = noise,
+                  .noise = static_cast<float>(work.noise),
                   .texelX = 1.0F / static_cast<float>(rig_.still.size.width),
                   .texelY = 1.0F / static_cast<float>(rig_.still.size.height),
-                  .leastTexture = params::kTexturePerVariance * (1 + noise * noise)},
+                  .leastTexture = leastTexture(work.noise)},
                  {gpu::storage(1, cells), gpu::storage(2, tiles.buffer()), gpu::sampler(0, video),
                   gpu::sampler(1, still)},
                  {gpu::groupsFor(cells_.width, kCellsPerTile),

@@ -1,6 +1,7 @@
 #include "pipeline/gles/tile_lists.h"
 
 #include "pipeline/flow/cell_field.h"
+#include "pipeline/flow/least_texture.h"
 
 #include <algorithm>
 #include <array>
@@ -40,14 +41,13 @@ void TileLists::find(const Field& field, const TileBuffer& tiles) {
     clear();
     const TileWork& work = tiles.work();
     if (work.matched == 0) return;
-    const double texture = params::kTexturePerVariance * (1 + work.noise * work.noise);
     flag_.run({.tileColumns = tiles_.width,
                .tileRows = tiles_.height,
                .columns = cells_.width,
                .rows = cells_.height,
                .field = field.vectors,
                .errors = field.errors,
-               .leastTexture = static_cast<float>(texture)},
+               .leastTexture = leastTexture(work.noise)},
               {gpu::storage(1, field.cells), gpu::storage(2, flags_)}, groupsOf(tiles_));
     for (int l = 0; l < static_cast<int>(levels_.size()); ++l) {
         const Level& level = levels_[l];

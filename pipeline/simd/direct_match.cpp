@@ -2,6 +2,7 @@
 
 #include "pipeline/engine/params/flow.h"
 #include "pipeline/engine/params/weigh.h"
+#include "pipeline/flow/cell_field.h"
 
 #include <algorithm>
 #include <array>
@@ -21,7 +22,6 @@ namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 
 constexpr int kSide = 8;
-constexpr int kCellPixels = 4;
 constexpr float kMiddle = 1.5F;  // centre of a cell, from its first pixel
 constexpr int kAcross = params::kPatchSamples * kSide;
 constexpr float kPerSample = 1.0F / params::kPatchSamples;
@@ -94,8 +94,8 @@ public:
     void loadVideo() {
         for (int y = 0; y < kSide; ++y)
             for (int x = 0; x < kSide; ++x) {
-                const int px = std::clamp(kCellPixels * column_ - 2 + x, 0, size().width - 1);
-                const int py = std::clamp(kCellPixels * row_ - 2 + y, 0, size().height - 1);
+                const int px = std::clamp(kCell * column_ - 2 + x, 0, size().width - 1);
+                const int py = std::clamp(kCell * row_ - 2 + y, 0, size().height - 1);
                 video_[kSide * y + x] = params::kLumaRed * in_.video.row(0, py)[px] +
                                         params::kLumaGreen * in_.video.row(1, py)[px] +
                                         params::kLumaBlue * in_.video.row(2, py)[px];
@@ -162,14 +162,14 @@ private:
 
     [[nodiscard]] Place placeOf(Vector u) const {
         HWY_ALIGN std::array<float, kChunk> x, y;
-        const float px = static_cast<float>(kCellPixels * column_) + kMiddle + u.x;
-        const float py = static_cast<float>(kCellPixels * row_) + kMiddle + u.y;
+        const float px = static_cast<float>(kCell * column_) + kMiddle + u.x;
+        const float py = static_cast<float>(kCell * row_) + kMiddle + u.y;
         x.fill(px);
         y.fill(py);
-        x[1] += kCellPixels * (1 + slopeX_.x);
-        y[1] += kCellPixels * slopeX_.y;
-        x[2] += kCellPixels * slopeY_.x;
-        y[2] += kCellPixels * (1 + slopeY_.y);
+        x[1] += kCell * (1 + slopeX_.x);
+        y[1] += kCell * slopeX_.y;
+        x[2] += kCell * slopeY_.x;
+        y[2] += kCell * (1 + slopeY_.y);
         const D d;
         for (std::size_t i = 0; i < 3; i += hn::Lanes(d)) {
             const Point p = StillPixel(in_.lookUp, hn::Load(d, &x[i]), hn::Load(d, &y[i]));
@@ -177,7 +177,7 @@ private:
             hn::Store(p.y, d, &y[i]);
         }
         const auto along = [&](int i) {
-            return Vector{(x[i] - x[0]) / kCellPixels, (y[i] - y[0]) / kCellPixels};
+            return Vector{(x[i] - x[0]) / kCell, (y[i] - y[0]) / kCell};
         };
         return {{x[0], y[0]}, along(1), along(2)};
     }

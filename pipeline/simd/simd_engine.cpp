@@ -1,6 +1,6 @@
 #include "pipeline/engine/engine.h"
-#include "pipeline/engine/params/flow.h"
 #include "pipeline/flow/cell_field.h"
+#include "pipeline/flow/least_texture.h"
 #include "pipeline/simd/detail_step.h"
 #include "pipeline/simd/direct_match.h"
 #include "pipeline/simd/fine_check.h"
@@ -149,14 +149,13 @@ public:
                                    const TileWork& work) override {
         if (work.matched == 0) return cells_;
         const simd::StillPairs pairs = stills_->of(still);
-        const auto noise = static_cast<float>(work.noise);
         const simd::DirectMatch match{frame.planes,
                                       pairs,
                                       lookUp_,
                                       cells_.forward,
                                       lines_.data(),
-                                      noise,
-                                      params::kTexturePerVariance * (1 + noise * noise)};
+                                      static_cast<float>(work.noise),
+                                      leastTexture(work.noise)};
         auto* errors = reinterpret_cast<ErrorCell*>(row_[0] + cells_.count());
         workers_->forRange(cells_.forward.height, 1, [&](int first, int last) {
             for (int y = first; y < last; ++y)

@@ -1,6 +1,7 @@
 #include "pipeline/simd/tile_search.h"
 
 #include "pipeline/engine/params/flow.h"
+#include "pipeline/flow/least_texture.h"
 
 #include <algorithm>
 
@@ -59,15 +60,14 @@ void TileSearch::clear() {
 }
 
 void TileSearch::flag(const FlowPlanes& field, std::span<const ErrorCell> errors, double noise) {
-    const auto leastTexture = static_cast<float>(params::kTexturePerVariance * (1 + noise * noise));
+    const float least = leastTexture(noise);
     std::ranges::fill(unexplained_.flags, std::uint8_t{0});
     for (int y = 0; y < field.rows; ++y)
         for (int x = 0; x < field.columns; ++x) {
             const std::ptrdiff_t at = y * field.pitch + x;
             const bool shown =
                 errors[static_cast<std::size_t>(y) * field.columns + x].error < params::kNotShown;
-            if (shown && field.cost[at] > params::kUnexplainedCost &&
-                field.texture[at] > leastTexture)
+            if (shown && field.cost[at] > params::kUnexplainedCost && field.texture[at] > least)
                 ++unexplained_.at(x / kCellsPerTile, y / kCellsPerTile);
         }
     for (std::uint8_t& tile : unexplained_.flags)
