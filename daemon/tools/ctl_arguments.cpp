@@ -1,5 +1,7 @@
 #include "daemon/tools/ctl_arguments.h"
 
+#include "daemon/tools/command_failure.h"
+
 namespace mfar {
 
 CtlParser::CtlParser() {
@@ -23,6 +25,7 @@ CtlParser::CtlParser() {
         ->require_subcommand(1)
         ->add_subcommand("reset", "Delete the learned filters and start learning again");
     app.require_subcommand(1);
+    app.failure_message(commandFailure);
     app.set_version_flag("--version", "mfarctl " MFAR_VERSION);
 }
 

@@ -1,3 +1,4 @@
+#include "daemon/tools/command_failure.h"
 #include "tests/measure/eval/bars.h"
 #include "tests/measure/eval/depth.h"
 #include "tests/measure/eval/depth_methods.h"
@@ -258,8 +259,10 @@ std::vector<EvalCommand> addCommands(CLI::App& app, Options& o) {
 
 int run(int argc, char** argv) {
     CLI::App app(
-        "mfar-eval: measures accuracy and run time of mfar and of other methods on recordings");
+        "mfar-eval: measures accuracy and run time of mfar and of other methods on recordings",
+        "mfar-eval");
     app.require_subcommand(1);
+    app.failure_message(commandFailure);
     Options o;
     const std::vector<EvalCommand> commands = addCommands(app, o);
     try {

@@ -1,0 +1,33 @@
+#include "daemon/tools/command_failure.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <vector>
+
+namespace mfar {
+namespace {
+
+// The command in whose command line the error is: the innermost one that was used.
+const CLI::App& innermost(const CLI::App& app) {
+    const std::vector<CLI::App*> used = app.get_subcommands();
+    return used.empty() ? app : innermost(*used.front());
+}
+
+}  // namespace
+
+std::string commandFailure(const CLI::App* app, const CLI::Error& error) {
+    const CLI::App& at = innermost(*app);
+    if (error.get_name() != "RequiredError" || at.get_require_subcommand_min() == 0)
+        return CLI::FailureMessage::simple(app, error);
+    std::vector<std::string> names;
+    for (const CLI::App* each : at.get_subcommands([](const CLI::App*) { return true; }))
+        if (!each->get_name().empty()) names.push_back(each->get_name());
+    const std::vector<std::string> unknown = at.remaining();
+    const std::string fault =
+        unknown.empty() ? "a command is missing" : fmt::format("unknown command '{}'", unknown[0]);
+    return fmt::format("{}: {}; expected one of {}\nRun with --help for more information.\n",
+                       at.get_name(), fault, fmt::join(names, ", "));
+}
+
+}  // namespace mfar

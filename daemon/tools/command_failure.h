@@ -1,0 +1,13 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <string>
+
+namespace mfar {
+
+/// Message of a failed parse, for CLI::App::failure_message(). If a subcommand is missing or
+/// unknown, the message names the unknown argument and the valid subcommands, which CLI11 does not.
+[[nodiscard]] std::string commandFailure(const CLI::App* app, const CLI::Error& error);
+
+}  // namespace mfar

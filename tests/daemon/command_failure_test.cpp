@@ -1,0 +1,42 @@
+#include "daemon/tools/command_failure.h"
+#include "daemon/tools/ctl_arguments.h"
+
+#include <gmock/gmock.h>
+
+namespace mfar {
+namespace {
+
+using testing::HasSubstr;
+
+std::string messageOf(const std::string& arguments) {
+    CtlParser parser;
+    try {
+        parser.app.parse(arguments);
+        return "";
+    } catch (const CLI::ParseError& error) {
+        return commandFailure(&parser.app, error);
+    }
+}
+
+TEST(CommandFailure, AnUnknownCommandIsNamedWithTheValidOnes) {
+    EXPECT_EQ(messageOf("explode"),
+              "mfarctl: unknown command 'explode'; expected one of status, stats, reload, trigger, "
+              "snapshot, record, learn\nRun with --help for more information.\n");
+}
+
+TEST(CommandFailure, AnUnknownCommandOfACommandIsNamed) {
+    EXPECT_THAT(messageOf("learn much"),
+                HasSubstr("learn: unknown command 'much'; expected one of reset\n"));
+}
+
+TEST(CommandFailure, AMissingCommandIsReported) {
+    EXPECT_THAT(messageOf(""), HasSubstr("mfarctl: a command is missing; expected one of status"));
+}
+
+TEST(CommandFailure, OtherFaultsKeepTheirMessage) {
+    EXPECT_THAT(messageOf("snapshot"), HasSubstr("FILE is required"));
+    EXPECT_THAT(messageOf("status now"), HasSubstr("not expected: now"));
+}
+
+}  // namespace
+}  // namespace mfar
