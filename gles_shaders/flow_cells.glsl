@@ -24,8 +24,9 @@ void order(inout vec2 a, inout vec2 b) {
     a = low;
 }
 
-// Returns the medians of x and of y over 3x3 cells: the median of the largest low, the middle and the
-// smallest high value of three sorted columns.
+// Returns the medians of x and of y over 3x3 cells. Each column of three values is sorted first.
+// The result is the median of three values: the largest of the low values, the median of the middle
+// values, and the smallest of the high values.
 vec2 medianAround(ivec2 cell) {
     vec2 low = vec2(-1e9), high = vec2(1e9), middle = vec2(0.0), least = vec2(1e9), most = vec2(-1e9);
     for (int x = cell.x - 1; x < cell.x + 2; ++x) {

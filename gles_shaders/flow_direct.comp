@@ -1,7 +1,8 @@
-// Compares doubtful cells with the still itself, see kPatchSamples. A cell gets the flow along its
-// epipolar line if that fits clearly better. If the comparison finds a better match than the cost
-// shows, the cell also gets the sums of the comparison, and its two-way error is at most the one of
-// such a match.
+// Compares doubtful cells with the still itself instead of its reduction, see kPatchSamples. The
+// flow along its epipolar line replaces a cell's flow if the still fits clearly better there. If
+// the correlation with the still itself exceeds 1 - cost, the cell's ErrorCell gets the sums of
+// this comparison. Its two-way error is then at most the one that kErrorPerCost gives for the cost
+// 1 - correlation.
 // In: states of the tiles, video, luma of the still with amplified finest detail; in cells[], the
 // flow along epipolar lines. In, out: cells[], the filtered forward field and its ErrorCells.
 // One workgroup per tile, one invocation per cell. Most loops count from cell.x or cell.y, so that
@@ -83,7 +84,7 @@ vec4 compared(ivec2 cell, vec2 u, vec2 dx, vec2 dy) {
             vec2 q = clamp(at + o.x * alongX + o.y * alongY, vec2(0.0), size - 1.0);
             seen += linearly(still, (q + 0.5) / size);
         }
-        // Small numbers have small rounding errors.
+        // 128 is subtracted, because small numbers have small rounding errors.
         seen = 255.0 * seen / float(kPatchSamples * kPatchSamples) - 128.0;
         float video = 255.0 * lumaOf(texelFetch(picture, clamp(4 * cell - 2 + p, ivec2(0), last), 0).rgb) - 128.0;
         sum += vec2(video, seen);
@@ -107,8 +108,8 @@ void main() {
     if (!doubtful) return;
     vec2 line = lineOf(cell), u = flow.xy, best = u;
     vec2 dx = slopeAt(cell, ivec2(1, 0)), dy = slopeAt(cell, ivec2(0, 1));
-    // If both vectors are the same, the second comparison finds the same. A loop keeps the shader
-    // short.
+    // Compares the cell's flow, then the flow along the line unless both are almost the same. The
+    // loop contains only one call of compared(), which keeps the shader short.
     vec4 alike = vec4(0.0);
     for (int k = cell.x; k < cell.x + 2; ++k) {
         vec4 other = compared(cell, u, dx, dy);

@@ -10,7 +10,7 @@
 // holes[] = pixels without a known colour: pixel index, colour so far (RGBA8). Bit 31 of the index:
 // the third component of the state is 1. Bit 30: the pixel is at an edge.
 // holeCommands[0] = number of groups of 64 entries of holes[] (x), number of entries (w).
-// holeCommands[l] = dispatch command for pyramid level l, set with the first entry.
+// holeCommands[l] = dispatch command for pyramid level l, written with the first entry of holes[].
 // Range: depth 0..1e6
 // Variant: #define MOVING
 #include "warp_view_params.glsl"

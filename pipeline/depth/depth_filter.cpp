@@ -16,8 +16,8 @@ namespace {
 constexpr float kNearestShare = 0.05F;
 // Relative standard deviation that each second of camera motion adds to inverse depth.
 constexpr double kDrift = 0.02;
-// Upper limit of the time since the points were last moved that counts as camera motion [s]. If
-// more time has passed, the camera must have rested meanwhile.
+// Longest duration of camera motion [s] that is assumed between two moves of the points. If more
+// time has passed between the moves, the camera must have rested meanwhile.
 constexpr double kMostMoving = 0.2;
 // Points are moved only when the picture has moved by at least this distance [px], because each
 // move rounds their positions to pixels.

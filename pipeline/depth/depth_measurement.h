@@ -27,8 +27,8 @@ public:
     /// Measures the pixels of `where`, which must lie in the search's area. The other picture is
     /// the still or a keyframe, in the video's geometry. Pixels become unknown if their points are
     /// outside the other picture or behind other points there (z-test). `R_other_video` rotates
-    /// rays of the video camera into coordinates of the other camera. `unit` is the search's unit
-    /// of length [m]. `cells` contains a finer s for every cell, used where it agrees with the
+    /// rays of the video camera into coordinates of the other camera. A length of 1 in the search
+    /// is `unit` metres. `cells` contains a finer s for every cell, used where it agrees with the
     /// pixel's own s. It may be empty.
     void run(const EpipolarSearch& search, const Eigen::Matrix3f& R_other_video, double unit,
              std::span<const float> cells, const PixelRect& where, InverseDepthField& out);

@@ -21,8 +21,8 @@ public:
                const DepthOptions& options = {});
 
     /// Results of the epipolar search that matched this frame with the still. `R_still_video`
-    /// rotates video rays to still coordinates. `unit` is the search's unit of length [m],
-    /// `lengthError` its relative error. For `cells`, see DepthMeasurement::run().
+    /// rotates video rays to still coordinates. A length of 1 in the search is `unit` metres;
+    /// `lengthError` is the relative error of `unit`. For `cells`, see DepthMeasurement::run().
     struct StillSearch {
         const EpipolarSearch& search;
         const Eigen::Matrix3f& R_still_video;

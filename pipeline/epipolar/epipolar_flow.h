@@ -36,8 +36,8 @@ public:
     }
     void run(const Rows<const std::uint8_t>& video, const Pose& pose, const PixelRect& where);
 
-    /// Flow of each cell from the video to the still as the video's lens would show it: x, y
-    /// [video px], and two unused numbers.
+    /// Flow of each cell from the video to the still, which is resampled as the video's lens would
+    /// show it: x, y [video px], and two unused numbers.
     [[nodiscard]] const Cells& forward() const { return forward_; }
     /// Two-way error of each cell (eq. 2 of the paper in docs/paper.md) [px], and three zeros. It
     /// is the difference between the cell's parallax and the parallax of the nearest surface that

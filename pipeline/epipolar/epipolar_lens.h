@@ -22,8 +22,9 @@ namespace mfar {
 /// translation of the camera. Copies share the table of rays.
 ///
 /// The unknown is s [1/unit of length], the inverse depth of a point in the second view. The first
-/// view sees the point at ray r = (x, y) and depth Z. The second view has the same orientation, and
-/// points move by t between both. It sees the point at r + s (t.xy - r t.z) with s = 1 / (Z + t.z).
+/// view sees the point at ray r = (x, y) and depth Z. The second view has the same orientation; the
+/// point's coordinates in it are those in the first view plus t. It sees the point at the ray
+/// r + s (t.xy - r t.z) with s = 1 / (Z + t.z).
 /// This is linear in s, so equal steps of s are equal steps on the epipolar line. The inverse depth
 /// in the first view is s / (1 - s t.z). Source: Hartley and Zisserman, 9.5.
 class EpipolarLens {

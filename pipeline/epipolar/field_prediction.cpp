@@ -32,7 +32,7 @@ std::span<const float> FieldPrediction::in(const RigidTransform& T_still_frame, 
 }
 
 // Moves the points of the stored cells to the new pose. Points are homogeneous, (x, y, z, s), so
-// that s is near zero for distant points.
+// that points at infinity (s = 0) need no special case.
 void FieldPrediction::land(const RigidTransform& T_still_frame, double unit) {
     RigidTransform T_still_next = T_still_frame, T_still_last = keptPose_;
     T_still_next.translation *= unit / unit_;

@@ -15,16 +15,16 @@ class FieldPrediction {
 public:
     explicit FieldPrediction(const CameraModel& video);
 
-    /// Stores s of every cell of a frame [1/unit], row-major, see EpipolarLens. The translation of
-    /// `T_still_frame` is in the same units. `unit` is the length of one unit in the unit of length
-    /// of the tracked poses.
+    /// Stores s of every cell of a frame, row-major, see EpipolarLens. s and the translation of
+    /// `T_still_frame` are in the search's unit of length. A length of 1 in the search is a length
+    /// of `unit` in the tracked poses.
     void keep(std::span<const float> s, const RigidTransform& T_still_frame, double unit);
     /// Must be called when the still is replaced or the depths are no longer valid.
     void forget() { kept_.clear(); }
 
-    /// Returns the predicted s [1/unit] of every cell of a frame with the relative pose
-    /// `T_still_frame`. Empty if no frame is stored, or if the stored frame does not show a large
-    /// enough part of the new frame. Valid until the next call.
+    /// Returns the predicted s of every cell of a frame with the relative pose `T_still_frame`;
+    /// units are those of keep(). Empty if no frame is stored, or if the stored frame does not show
+    /// a large enough part of the new frame. Valid until the next call.
     [[nodiscard]] std::span<const float> in(const RigidTransform& T_still_frame, double unit);
 
 private:

@@ -12,8 +12,8 @@ namespace {
 // Width and height of the blocks over which structure tensors are summed [px]. A patch has two by
 // two blocks.
 constexpr int kBlock = kPatch / 2;
-// Lower limit of the number of equal parts into which the picture is divided. A picture with few
-// blocks has fewer parts.
+// The picture is divided into at least this number of equal parts. A small picture is divided into
+// fewer, because a part has at least two by two blocks.
 constexpr int kPlaces = 300;
 constexpr int kPixels = kPatch * kPatch;
 // kLeastScore: lower limit of the correlation of a match. A match is ambiguous if a position

@@ -29,8 +29,8 @@ public:
         if (!placed) return std::nullopt;
         Eigen::Vector2d seen = toFull(*placed + originOf(half_));
         if (scale_ > 1) {
-            // `inner` is the patch at full size with the same middle. If it cannot be matched, the
-            // match at half size remains.
+            // `inner` is the patch at full size with the same middle as the patch at half size. If
+            // it cannot be matched, the match at half size remains.
             const PatchPlace inner{2 * place.x + kPatch / 2, 2 * place.y + kPatch / 2};
             if (const auto finer = atFull_.polish(inner, seen - originOf(full_)))
                 seen = *finer + originOf(full_);

@@ -76,8 +76,8 @@ double quantileOf(std::vector<double> values, double quantile) {
     return values[place];
 }
 
-/// Robust Gauss-Newton solver. Rotations are in radians, translations in lengths of the prior's
-/// translation.
+/// Robust Gauss-Newton solver. Rotations are in radians. The unit of length is the length of the
+/// prior's translation.
 class Solver {
 public:
     Solver(std::span<const RayMatch> matches, const PosePrior& prior, double focal)

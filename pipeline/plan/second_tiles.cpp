@@ -49,8 +49,8 @@ SecondTiles::SecondTiles(Size tiles) : work_(TileWork::everything(tiles)) {
     candidates_.reserve(count);
     showed_.resize(count);
     rest_.resize(count);
-    // With Draw::Tiles, steps keep the last results of unchanged tiles. But other tiles are chosen
-    // for the second still in each frame, so nothing can be kept.
+    // With Draw::Tiles, steps would keep the last results of unchanged tiles. But each frame
+    // chooses its own tiles for the second still, so a tile may have no results of the last frame.
     work_.draw = TileWork::Draw::WholeEnlarged;
 }
 

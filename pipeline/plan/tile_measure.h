@@ -23,10 +23,11 @@ struct TileMeasure {
     /// fitted to 8x8 pixels is subtracted, because a plane cannot be matched. The result is the sum
     /// of squares, averaged over 9 positions in the tile.
     float structure = 0;
-    /// Mean squares of three values of the difference between both lumas, scaled so that white
-    /// noise makes them equal. The twist of 2x2 values is (a - b - c + d) / 2; slopes do not change
-    /// it (after Immerkaer, Fast noise variance estimation, 1996). `pixels`: twist of pixels.
-    /// `means`: mean of 2x2 pixels. `bends`: twist of such means.
+    /// Three mean squares of the difference between both lumas, scaled so that white noise makes
+    /// them equal. Four values a b above c d have the twist (a - b - c + d) / 2; slopes do not
+    /// change it (after Immerkaer, Fast noise variance estimation, 1996). `pixels` is the mean
+    /// square of the twists of 2x2 pixels. `means` is that of the means of 2x2 pixels, and `bends`
+    /// that of the twists of 2x2 such means.
     float pixels = 0, means = 0, bends = 0;
 };
 

@@ -39,9 +39,9 @@ public:
         WithOthers,
         Always,
     };
-    /// Reports that an overlay was drawn over these tiles of the output picture. If the next
-    /// update() finds that the overlay must be drawn again, all of these tiles count as changed.
-    /// update() resets `redraw` to WithThem.
+    /// Must be called after an overlay was drawn over these tiles of the output picture. If the
+    /// next update() finds that the overlay must be drawn again, all of these tiles count as
+    /// changed. update() resets `redraw` to WithThem.
     void drawnOver(const PixelRect& tiles, Redraw redraw);
     /// Sets the smallest share of changed tiles, [0, 1], for which the whole frame is drawn at
     /// once. With 0, any changed tile is enough.

@@ -19,8 +19,10 @@ using CellVector = std::array<float, 4>;
 struct FlowEnds {
     Lens lens;  ///< lens of the video camera
     Motion motion;
-    float nearPlane;  ///< smallest valid z of the changed ray; a point with less is invalid
-    float nowhere;    ///< x and y [px] of invalid points, and of points with a larger |x| or |y|
+    float nearPlane;  ///< a point is invalid if z of the changed ray is less than this
+    /// Limit of |x| and |y| of the projected point [px]. Points beyond it, and invalid points, get
+    /// x = y = nowhere.
+    float nowhere;
 };
 
 /// A row of cells: rays (x, y, 1) through the cells' centres, and the pixel coordinates of these
@@ -32,9 +34,9 @@ struct CellRow {
     std::size_t count;
 };
 
-/// Computes the inverse depth of each cell from its four central pixels. The result is the mean of
-/// the two middle values. `upper`, `lower`: second and third pixel row of the cells, from the first
-/// cell's first pixel on.
+/// Computes the inverse depth of each cell: of its four central pixels, the mean of the second and
+/// the third largest value. `upper`, `lower`: second and third pixel row of the cells, from the
+/// first cell's first pixel on.
 void cellDepths(const float* upper, const float* lower, std::size_t count, float* out);
 
 /// Computes the flow of each cell from its inverse depth `s`.
@@ -66,8 +68,9 @@ void alignCells(const FlowEnds& ends, const CellRow& row, const CellVector* flow
 struct CellMotion {
     Lens lens;      ///< lens of the frames' camera, for a picture with one pixel per cell
     Motion motion;  ///< from the last frame's camera to the next frame's camera
-    /// z of the last and of the next camera centre, relative to the still camera, along the optical
-    /// axis of the same frame [units of length].
+    /// lastZ: z of the last frame's camera centre relative to the still camera's centre, along the
+    /// last frame's optical axis. nextZ: the same for the next frame. Both are in the last frame's
+    /// unit of length.
     float lastZ, nextZ;
     float perUnit;    ///< factor that converts s from the last frame's unit to the next frame's
     float nearPlane;  ///< a moved point is valid if its z times its old s exceeds this

@@ -54,7 +54,7 @@ struct SearchedRow {
 struct MeasureRule {
     std::array<float, 3> t;  ///< translation of points [units of length], see landRow()
     float slack;             ///< a point with s < nearest - slack is hidden [1/unit of length]
-    float leastDepth;        ///< smallest valid depth in this camera / depth in the other camera
+    float leastDepth;        ///< smallest valid ratio (depth in this camera) / (depth in the other)
     float error;             ///< standard deviation of a match's position [focal lengths]
     float perUnit;           ///< converts s [1/unit of length] to inverse depth [1/m]
 };

@@ -31,8 +31,8 @@ struct Vector {
 };
 using Pixels = std::array<float, kSide * kSide>;
 
-/// Where the still shows a patch: the position of its centre, and the change of the position per
-/// video pixel [still px].
+/// Position of a patch in the still: the position of the patch's centre, and the change of the
+/// position per video pixel along x and along y [still px].
 struct Place {
     Vector centre, alongX, alongY;
 };
@@ -103,7 +103,8 @@ public:
         removeMean(video_);
     }
 
-    /// Compares the patch at the flow `u` with the still. Everything is 0 if `u` ends outside.
+    /// Compares the patch at the flow `u` with the still. All results are 0 if `u` ends outside the
+    /// still.
     [[nodiscard]] Likeness compare(Vector u) const {
         const Place place = placeOf(u);
         const LensParams& still = in_.lookUp.still;

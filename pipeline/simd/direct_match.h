@@ -21,11 +21,12 @@ struct DirectMatch {
     float leastTexture;                 ///< smallest FlowCell::texture for which the cost counts
 };
 
-/// Compares doubtful cells [first, end) of a row with the still itself, see params::kPatchSamples.
-/// `flow` and `errors` are the fields of all cells. A cell gets the flow along its epipolar line if
-/// that fits clearly better. If the comparison finds a better match than FlowCell::cost shows, it
-/// also gets the sums in ErrorCell, and its two-way error is at most the one of such a match. CPU
-/// version of flow_direct.comp.
+/// Compares doubtful cells of a row with the still itself instead of its reduction, see
+/// params::kPatchSamples. Only cells [first, end) are compared; `flow` and `errors` are the fields
+/// of all cells. The flow along its epipolar line replaces a cell's flow if the still fits clearly
+/// better there. If the correlation with the still itself exceeds 1 - FlowCell::cost, the cell's
+/// ErrorCell gets the sums of this comparison. Its two-way error is then at most the one that
+/// params::kErrorPerCost gives for the cost 1 - correlation. CPU version of flow_direct.comp.
 void matchDirectly(const DirectMatch& in, int row, int first, int end, FlowCell* flow,
                    ErrorCell* errors);
 

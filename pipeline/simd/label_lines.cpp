@@ -11,8 +11,8 @@ namespace mfar::simd::HWY_NAMESPACE {
 
 static_assert(sizeof(Valley) == 8);
 
-// Least squared distance of the points of two successive labels [px^2] at which labelPlaces() uses
-// the still's pixels. Points with less distance get the result of labelVertices().
+// If the points of two successive labels are at most this squared distance apart [px^2],
+// labelPlaces() returns the result of labelVertices() and does not use the still's pixels.
 constexpr float kLeastWay = 0.1F;
 
 template <class D>
@@ -48,8 +48,8 @@ HWY_INLINE V vertices(D d, const Valleys<D>& valleys) {
     return hn::IfThenElse(isPlain, valleys.label, hn::Add(valleys.label, part));
 }
 
-/// Finds the still's pixels nearest to points of the epipolar line. A point belongs to a label; the
-/// labels are counted from the best label, which is 0.
+/// Finds the still's pixels that are nearest to the labels' points on the epipolar line. In this
+/// class, labels are counted from the best label, which is 0.
 template <class D>
 struct NearestPixels {
     using V = hn::Vec<D>;
@@ -72,9 +72,9 @@ struct NearestPixels {
         const V along = hn::Mul(hn::Sub(x, best.x), way.x);
         return {x, y, hn::Mul(hn::MulAdd(hn::Sub(y, best.y), way.y, along), perSquare)};
     }
-    /// Finds the next pixel that differs from `own` on one side (-1 or 1), and returns its foot and
-    /// its additional cost. `near`, `far`: additional costs of the next label and of the label
-    /// after it. The cost is kUnknown if `own` is the nearest pixel of both labels.
+    /// Finds the first pixel after `own`, the best label's pixel, in the direction `side` (-1 or
+    /// 1). Returns the pixel's foot and additional cost. `near`, `far`: additional costs of the
+    /// labels `side` and 2 * `side`. The cost is kUnknown if both labels have the pixel `own` too.
     HWY_INLINE Side beside(const Pixel& own, float side, V near, V far) const {
         const Pixel one = at(side), two = at(2 * side);
         const auto isNext = [&](const Pixel& p)

@@ -66,8 +66,8 @@ public:
     [[nodiscard]] Rows<const std::uint8_t> visibility() const { return visibility_.rows(); }
 
 private:
-    /// Positions of output pixels along one axis of another picture. Output pixel i is at
-    /// first[i] + share[i] in pixels of this picture; share is in [0, 1).
+    /// Positions of output pixels in another picture, along one axis. Output pixel i is at the
+    /// position first[i] + share[i] [px of the other picture]; share is in [0, 1).
     struct Between {
         Between(int pixels, int others);
         std::vector<std::int32_t> first;  ///< pixel before the position; -1 at the border

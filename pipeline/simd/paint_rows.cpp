@@ -168,9 +168,9 @@ HWY_INLINE Footprint FootprintAt(const PaintTriangle* triangles, VU triangle, V 
 
 /// Returns the paint at a position on the grid, averaged over `spread` grid pixels along each axis.
 /// It is the mean of four bilinear look-ups (probes). The texels of the pyramid level are at least
-/// half as wide as the distance of the probes. Compared with the true mean over a pixel (on the
-/// model "showpiece"), a single probe between two pyramid levels is 4 dB worse than the four
-/// probes. Four probes along the longer side of the footprint are no better.
+/// half as wide as the distance of the probes. Two alternatives were measured against the true mean
+/// over a pixel, on the model "showpiece". A single probe between two pyramid levels is 4 dB worse.
+/// Four probes in a line along the footprint's longer side are no better.
 HWY_INLINE Paint Sample(const PaintInput& in, VU triangle, V x, V y, float spread) {
     const D d;
     const DI di;

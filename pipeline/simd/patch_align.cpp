@@ -14,16 +14,17 @@ namespace {
 
 constexpr float kSteepest = params::kSteepestFlow;
 // Number of pixels of a patch's row that are read at the same whole-pixel offset: all eight if the
-// flow changes by less than kGentle per pixel along the row, otherwise kHalf. The error is then no
-// larger than that of kHalf pixels with the steepest flow.
+// flow changes by less than kGentle per pixel along the row, otherwise kHalf. The fewer pixels and
+// the gentler the flow, the smaller is the error. Eight pixels at kGentle are no worse than kHalf
+// pixels at the steepest flow.
 constexpr int kHalf = 4;
 constexpr float kGentle = 1.0F / 10;
-// If the flow changes by less than this per pixel, all pixels of a patch have the same flow vector.
-// At the patch's corners, its error is about a hundredth of a pixel. The error of the estimated
-// change would be larger.
+// If the flow changes by less than this per pixel, the change is ignored: all pixels of a patch are
+// compared at the same flow vector. At the patch's corners, this vector is wrong by about a
+// hundredth of a pixel, which is less than the error of the estimated change.
 constexpr float kFlat = 1.0F / 256;
-// Number of bits of interpolation weights. They are stored in 16 bits, so that a weight which
-// changes along a row does not overflow.
+// Number of bits of interpolation weights. Weights are stored in 16 bits. The spare bits keep a
+// weight that changes along a row from overflowing.
 constexpr int kShareBits = 14;
 constexpr float kShare = 1 << kShareBits;
 // Values (pixel - 128) [1/32 grey level] are clamped to +-kMostValue, so that sums of their squares

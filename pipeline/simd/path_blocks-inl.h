@@ -160,9 +160,9 @@ public:
                     hn::StoreU(jump, d, out + i);
                 });
     }
-    /// Computes the first label of the window of each pixel `to` minus that of the pixel `from`.
-    /// `to`, `from`: values of PathVolume::base at these pixels. The difference is clamped to
-    /// -(kLabels + 1) to kLabels + 1.
+    /// Computes the shift between the windows of two neighbouring pixels, for `count` pairs: first
+    /// label of the window at `to` minus first label of the window at `from`. `to`, `from`: values
+    /// of PathVolume::base. The shift is clamped to -(kLabels + 1) to kLabels + 1.
     HWY_INLINE static void shifts(const std::int16_t* to, const std::int16_t* from, int count,
                                   std::uint8_t* out) {
         for (int i = 0; i < count; ++i)
@@ -197,9 +197,9 @@ template <int Blocks>
 struct RunOfRows {
     HWY_ALIGN std::uint8_t jumps[Neighbours::kMost * 4], shifts[Neighbours::kMost * 4];
 
-    /// Computes the values of pixels [x, x + count) of the rows from y on. `toFrom`: column of the
-    /// previous pixel on the path minus that of the pixel itself. Both values are 0 for the first
-    /// pixel of a path.
+    /// Computes jumps and shifts for pixels [x, x + count) of the rows from y on. `toFrom`: column
+    /// of the previous pixel on the path minus that of the pixel itself. The first pixel of a path
+    /// has no previous pixel; its jump and shift are 0.
     HWY_INLINE void fill(const Neighbours& between, const PathVolume& v, int x, int count, int y,
                          int toFrom) {
         HWY_ALIGN std::uint8_t jump[4][Neighbours::kRoom] = {}, shift[4][Neighbours::kRoom] = {};

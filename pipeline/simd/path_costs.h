@@ -32,16 +32,17 @@ struct PathVolume {
     const std::int16_t* base;   ///< first label of each pixel's window
     Size size;
     int vectors;
-    std::uint8_t step;          ///< penalty if two neighbouring pixels' labels differ by one
-    int jumpDifferences;        ///< `jumps` is constant from this entry on
-    const std::uint8_t* jumps;  ///< penalty if these labels differ by more than one; 256 entries,
-                                ///< indexed by |difference of `guide` between the two pixels|
+    std::uint8_t step;    ///< penalty if two neighbouring pixels' labels differ by one
+    int jumpDifferences;  ///< `jumps` is constant from this entry on
+    /// Penalty if two neighbouring pixels' labels differ by more than one: 256 entries, indexed by
+    /// |difference of `guide` between the two pixels|.
+    const std::uint8_t* jumps;
     const std::uint8_t* costs;  ///< matching costs, kLabels * vectors per pixel
     std::uint8_t* sums;         ///< results and temporary values, one for each entry of `costs`
 };
 
 /// pathsAlongRows() and pathsAlongColumns() process this number of rows or columns together.
-/// Threads should split the work at its multiples.
+/// Threads should split the work at multiples of this number.
 inline constexpr int kRowsTogether = 4, kColumnsTogether = 32;
 
 /// Returns the size of `scratch` [bytes] for pathsAlongColumns() with `columns` columns. It also

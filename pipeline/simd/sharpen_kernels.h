@@ -8,14 +8,14 @@ namespace mfar::simd {
 // Functions that sharpen entries [begin, end) of a row of one colour channel
 // (superres_sharpen.frag). Rows may be read and written up to 64 bytes beyond `end`.
 
-/// Input for the strength of the sharpening, in [0, 1] and at the video's width. `halfWeight`: half
-/// of the weight of the still's detail. `signal`: see TrustCell. Both are interpolated between two
-/// rows; `t` is the weight of the second row.
+/// Input of strengthRow(): rows with one value per video pixel. `halfWeight`: half of the weight of
+/// the still's detail. `signal`: see TrustCell. Both are interpolated between two rows; `t` is the
+/// weight of the second row.
 struct TrustRows {
     std::array<const float*, 2> halfWeight, signal;
     float t;
 };
-/// Writes the strength times 32767 to `strength`.
+/// Writes the strength of the sharpening at each video pixel, [0, 1], times 32767.
 void strengthRow(const TrustRows& trust, int begin, int end, std::int16_t* strength);
 
 /// Sharpens the middle one of five rows. Each row is also read two bytes before `begin` and two

@@ -48,7 +48,7 @@ public:
     void setTracedPicture(const TracedPicture& traced) override {
         traced_ = &traced;
         lookUp_.setTracedPicture(traced);
-        // The steps that read a layer need rows with padding.
+        // Copied into rows with padding, which the steps that read a layer need.
         picture_ = copied<std::uint32_t>(traced.camera.size, traced.picture.data());
         depth_ = copied<float>(traced.camera.size, traced.depth.data());
     }

@@ -9,8 +9,9 @@ namespace mfar::simd {
 // Functions for rows of a still. Rows that are written need 64 bytes of padding, and so do luma
 // rows and 16-bit rows that are read.
 
-/// Computes luma from Y, which is a plane, or byte pairs with Y first. Luma is gain [1/16384] times
-/// Y plus `offset` plus `chroma` [both 1/32 grey level], clamped to [0, 255]. Null `chroma`: 0.
+/// Parameters of lumaOfPlane() and lumaOfPairs(), which compute luma from a plane of Y or from byte
+/// pairs with Y first. Luma is gain [1/16384] times Y plus `offset` plus `chroma` [both 1/32 grey
+/// level], clamped to [0, 255]. If `chroma` is null, it counts as 0.
 struct LumaGain {
     std::int16_t gain, offset;
 };

@@ -30,7 +30,7 @@ StillLuma::StillLuma(const ImageView& picture) : picture_(picture) {
     for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t j = 0; j < 4; ++j)
             by[j] += kRec601[i] * rows[i][j];
-    // The offset makes chroma relative to its middle value, 128.
+    // The offset is luma at Y = 0 and chroma of 128, because chromaRow() subtracts 128 from chroma.
     gain_ = {static_cast<std::int16_t>(std::lround(by[0] * 16384)),
              static_cast<std::int16_t>(std::lround(32 * (by[3] + 128 * (by[1] + by[2]))))};
     needsChroma_ = std::max(std::abs(by[1]), std::abs(by[2])) > kLeastChroma;

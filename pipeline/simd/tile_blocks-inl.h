@@ -37,8 +37,8 @@ struct Blocks {
     HWY_ALIGN Values rough;               // half the absolute twist of the new frame's luma
     HWY_ALIGN Values lumaSum, lumaTwist;  // sum and twist of the luma's difference in each block
     HWY_ALIGN CellSums redSum, blueSum;   // sum of the difference of red or blue over each cell
-    // For each cell, the value of the colour channel in which it is largest. farthest: |sum of the
-    // differences|. absolute: sum of the |differences|.
+    // Each value is computed for all three colour channels of a cell, and the largest is stored.
+    // farthest: |sum of the differences|. absolute: sum of the |differences|.
     HWY_ALIGN CellSums farthest, absolute;
     // Sums of the squared twists of the difference of red or blue. A tile has four sums, one for
     // each column of its cells.

@@ -109,10 +109,10 @@ HWY_INLINE Moments MomentsOf(const Blocks::CellSums& sums, int tile) {
     return out;
 }
 
-/// Sums of squares over a tile of the luma difference (new frame minus the frame drawn last).
-/// `means`: of the sum of each block of 2x2 pixels. `noise`: of the twist a - b - c + d of each
-/// block, whose pixels are a b above c d. `bends`: of the same twist of 2x2 block sums, divided by
-/// 16, which is TileMeasure::bends.
+/// Measures of a tile's luma difference (new frame minus the frame drawn last). Four values a b
+/// above c d have the twist a - b - c + d. `means` adds up the squared sum of each block of 2x2
+/// pixels. `noise` adds up the squared twist of each block. `bends`, which becomes
+/// TileMeasure::bends, adds up (twist / 16)^2 for the sums of each 2x2 blocks.
 struct LumaDifference {
     V means, bends, noise;
     Moments moments;

@@ -107,7 +107,7 @@ std::uint8_t WeighPixel(const Taps& taps, const float* columnWeights, std::uint3
         const V g = hn::Sub(hn::Load(d, &taps.green[i]), green);
         const V b = hn::Sub(hn::Load(d, &taps.blue[i]), blue);
         const V unlike = hn::MulAdd(r, r, hn::MulAdd(g, g, hn::Mul(b, b)));
-        // Because of kLikenessFloor, the distance alone decides if no sample has a similar colour.
+        // If no sample has a similar colour, kLikenessFloor lets the distance determine the weight.
         const V like =
             hn::Add(Exp(hn::Mul(unlike, Const(-params.likeness))), Const(params::kLikenessFloor));
         const V tent = hn::Mul(hn::Load(d, &taps.rowWeights[i]), ColumnWeights(columnWeights, i));

@@ -19,7 +19,8 @@ constexpr float kMeanScale = 32;  // units of the mean per grey level
 /// of four samples. Linear interpolation of the warped still blurs each sample. The samples are
 /// therefore closer together, so that the mean is not wider than a video pixel.
 RowTaps meanOf(int output, int video) {
-    // Variance of the tent of linear interpolation / variance of the four samples' positions.
+    // The tent of linear interpolation has a variance of 1/6 of its squared sample spacing. The
+    // four positions have a variance of 5/64 of the squared footprint. kWidened is the ratio.
     constexpr double kWidened = 2.0 + 2.0 / 15;
     const double pitch = static_cast<double>(video) / output, seen = params::kSeen;
     return RowTaps::mean(output, video,

@@ -86,8 +86,9 @@ private:
     int slots_ = 0;
     std::array<int, GuideRows::kRows> comparedRows_;
     AlignedRows<std::int16_t> videoLuma_;
-    // Rows of the video in comparedRows_, with a margin. seen_: the warped still at the video's
-    // resolution [1/32 grey level]. For the others, see GuideRows.
+    // One value per video pixel in the rows comparedRows_ of the video, plus a margin. seen_: the
+    // warped still at the video's resolution [1/32 grey level]. differences_, trusted_: see
+    // GuideRows.
     AlignedRows<float> seen_, differences_, trusted_;
 };
 

@@ -64,7 +64,7 @@ private:
     }
     void assessTiles(const WeighInput& in, int tileRow);
     void assess(const WeighInput& in, int row);
-    /// Replaces the sums of cells that were compared with the still itself.
+    /// Replaces `sums` by the sums in `cells`, for cells that were compared with the still itself.
     void takeDirect(const ErrorCell* cells, const PatchSums& sums) const;
     void measureGain(const WeighInput& in, int row);
     void weigh(int row, float noise);
