@@ -7,8 +7,8 @@
 
 namespace mfar {
 
-/// An assignment of steps to engines is discarded if a frame takes more than this factor times a
-/// frame with the fastest assignment.
+/// An assignment of steps to engines is discarded if a frame takes more than this factor times as
+/// long as with the fastest assignment.
 inline constexpr double kHopelessFrame = 2;
 
 /// Returns the assignments of steps to engines that may be the fastest during camera motion, the

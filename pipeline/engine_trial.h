@@ -13,9 +13,9 @@ struct EngineTrial {
 };
 
 /// Measures the assignments of steps to engines on generated moving pictures and returns them, the
-/// fastest first. An assignment that takes more than kHopelessFrame times the fastest so far is not
-/// measured to the end. `shownFrom`: the display reads the picture from GPU memory (Gles) or from
-/// CPU memory (Simd).
+/// fastest first. If a frame takes more than kHopelessFrame times as long as with the fastest
+/// assignment so far, the assignment is not measured to the end. `shownFrom`: the display reads the
+/// picture from GPU memory (Gles) or from CPU memory (Simd).
 ///
 /// Needs a current GL context. Four assignments take about a second, mostly for compiling shaders.
 /// Throws like Pipeline.

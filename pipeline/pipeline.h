@@ -128,9 +128,9 @@ public:
     // GPU. On a GPU, FrameResult::stats are the statistics of the previous run; readStats() returns
     // the statistics of the last run.
     [[nodiscard]] FrameStats readStats() const;
-    /// Flow of every video pixel (x, y interleaved), interpolated between cells. With poses, a
-    /// pixel gets its own vector from the epipolar search if this differs from the interpolated
-    /// vector by at least half a pixel and no moving object is there. Empty without a still.
+    /// Flow of every video pixel (x, y interleaved), interpolated between cells. With poses, the
+    /// epipolar search's vector for the pixel replaces the interpolated vector if both differ by at
+    /// least half a pixel and no moving object is at the pixel. Empty without a still.
     [[nodiscard]] std::vector<float> readFlow() const;
     /// Confidence (eq. 2 of the paper) of every video pixel, [0, 1]. Empty without a still.
     [[nodiscard]] std::vector<float> readConfidence() const;

@@ -26,8 +26,8 @@ inline constexpr float kOffLine = 3;
 struct Pipeline::State {
     State(const StereoRig& rig, const PipelineOptions& options);
 
-    /// Results of a frame's flow step that the depth measurement needs. `searched2d` has one entry
-    /// per tile.
+    /// Results of a frame's flow step that the depth measurement needs. `searched2d` is true for
+    /// each tile that was searched in both dimensions.
     struct DepthMatches {
         EpipolarFlow::Cells vectors;
         std::vector<bool> searched2d;
@@ -78,9 +78,9 @@ struct Pipeline::State {
     /// Matches the second still in the tiles that the newest still does not show. Returns null if
     /// there are no such tiles. Must be called after matchStill().
     const CellWeights* matchSecond(const VideoFrame& frame, const TileWork& work);
-    /// Decides if depth is measured, and copies the necessary flow results. A copy after drawing
-    /// would wait until the GPU has drawn the frame. `alongLines` is the flow if it was searched
-    /// along epipolar lines, else null.
+    /// Decides if depth is measured, and copies the necessary flow results. Must be called before
+    /// the frame is drawn, because a later copy would wait until the GPU has drawn it. `alongLines`
+    /// is the flow if it was searched along epipolar lines, else null.
     DepthTask prepareDepth(const PixelRect& where, bool hasPose, const FlowCells* alongLines);
     void listen(const CellWeights& weights);
     /// Must be called before a new still is stored. Reports to the listener how the newest still

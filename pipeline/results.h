@@ -10,8 +10,8 @@
 
 namespace mfar {
 
-/// Statistics of one frame for the status line, the still policy and the summary. All are 0 before
-/// the second frame.
+/// Statistics of one frame for the status line, the still policy and the summary. With the GLES
+/// engine, numbers that the GPU counts are those of the frame before, and 0 in the first frame.
 struct FrameStats {
     std::array<int, kTileClasses> tiles{};
     double meanConfidence = 0;  ///< mean of the confidence (eq. 2 of the paper), [0, 1]

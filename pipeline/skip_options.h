@@ -2,7 +2,8 @@
 
 namespace mfar {
 
-/// If an option is true, frames skip work whose result would not be visible, as its comment says.
+/// Options by which frames skip work whose result would not be visible. The comment of each option
+/// says what happens if it is true.
 /// Benchmarks turn one option off to measure the time that it saves and the error that it adds.
 /// Other such options are PipelineOptions::skipUnchanged and depthEverywhere,
 /// EpipolarOptions::mostPredicted, KeyframeOptions and DepthOptions.

@@ -27,7 +27,8 @@ struct TracedLayerCounters {
     std::uint64_t unmoved = 0;    ///< frames that showed a traced picture without warping it
     std::uint64_t requested = 0;  ///< pixels requested to be traced individually
     std::uint64_t answered = 0;
-    /// Number of pixels that no picture shows, in the last frame whose pixels were counted.
+    /// Number of the layer's pixels that no picture shows, in the last frame in which they were
+    /// counted.
     int openHoles = 0;
 };
 

@@ -154,8 +154,8 @@ bool VirtualView::mayHideShadow(const PixelRect& tile, float nearest,
     });
 }
 
-// Testing the tile's own pixels suffices, because `nearest` is the smallest z of the virtual
-// surfaces in and around the tile.
+// True if the real surface certainly hides the objects in and around the tile. `nearest` is the
+// smallest z of these objects, so it suffices to test the real surface at the tile's own pixels.
 bool VirtualView::isHidden(const PixelRect& tile, float nearest,
                            const InverseDepthField& known) const {
     const TileBounds most{.findings = 0, .unknown = kMostGaps};

@@ -45,10 +45,10 @@ public:
     [[nodiscard]] const PixelRect& region() const { return region_; }
     /// True if the real scene completely hides all placed objects. Shadows are ignored.
     [[nodiscard]] bool isHidden() const { return hidden_; }
-    /// Returns the reason for which the objects are drawn again. Always: even if no tile of the
-    /// video changed, because objects changed, appeared or disappeared (or
-    /// SkipOptions::objectsAtRest is off). WithOthers: if any tile changed, because the camera has
-    /// moved. WithThem: if a tile near the objects changed.
+    /// Returns which changes of the video require that the objects are drawn again. Always: they
+    /// are drawn even without a change, because objects changed, appeared or disappeared (or
+    /// SkipOptions::objectsAtRest is off). WithOthers: the camera has moved, so they are drawn if
+    /// any tile changed. WithThem: they are drawn only if a tile near them changed.
     [[nodiscard]] WorkPlan::Redraw redraw() const;
     /// Tiles of the video that must be drawn again before draw().
     [[nodiscard]] PixelRect staleTiles() const;

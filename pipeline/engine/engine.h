@@ -57,9 +57,9 @@ public:
     [[nodiscard]] virtual std::unique_ptr<WeighStep> weigh() = 0;
     [[nodiscard]] virtual std::unique_ptr<DetailStep> detail() = 0;
     [[nodiscard]] virtual std::unique_ptr<OcclusionStep> occlusion(Size layer) = 0;
-    /// `layer` is the video camera at the resolution of the virtual layer. The result of the warp
-    /// step is where the engine's occlusion step reads it without a copy. Throws
-    /// std::invalid_argument if an option is out of range.
+    /// `layer` is the video camera at the resolution of the virtual layer. The engine's occlusion
+    /// step can read the result of the warp step without a copy. Throws std::invalid_argument if an
+    /// option is out of range.
     [[nodiscard]] virtual std::unique_ptr<WarpStep> warp(const CameraModel& layer,
                                                          const WarpOptions& options) = 0;
 

@@ -73,9 +73,9 @@ struct CurvatureClasses {
     static constexpr int kCount = kAngles * kKinds;
 };
 
-/// Maps an angle bin to a bin with stored filters. The bins divide [-pi/2, pi/2) equally. By
-/// mirroring the picture, exchanging x and y, or both, every bin becomes one of the first bins / 4
-/// bins. Therefore only the filters of these bins are stored.
+/// Maps an angle bin to a bin with stored filters. The bins divide [-pi/2, pi/2) equally. If the
+/// picture is mirrored, or x and y are exchanged, or both, every bin becomes a bin of the first
+/// quarter. Therefore only the filters of the first quarter are stored.
 struct Symmetry {
     int unique;                ///< bin with the stored filter, in [0, bins / 4)
     bool mirrors, transposes;  ///< first mirror the picture upside down, then exchange x and y

@@ -20,8 +20,8 @@ constexpr double kPriorPixels = 2000;
 constexpr double kLeastPixels = 0.02;
 // Guidance is used if it removes at least this share of the squared error.
 constexpr double kWorthwhile = 0.005;
-// New factors are ignored if both differ from the factors in use by at most this: they would change
-// pictures without a gain.
+// New factors are ignored if both differ from the factors in use by at most this, because they
+// would change pictures without a gain.
 constexpr float kSame = 0.01F;
 // Lower limit of the normal equations' determinant, divided by the product of their diagonal. Below
 // it, the two factors cannot be separated.
@@ -78,8 +78,9 @@ public:
             width, {residual_[0], residual_[1], residual_[2], residual_[3]});
     }
     struct Added {
-        Phases unguided;      ///< addition to the cubic enlargement without guidance
-        Phases still, video;  ///< change by Guidance::still = 1, and by Guidance::video = 1
+        Phases unguided;  ///< addition to the cubic enlargement without guidance
+        /// Change of this addition if Guidance::still is 1, and if Guidance::video is 1.
+        Phases still, video;
     };
     void addedTo(int x, int y, Added& out) const {
         const Phases low = cubicOf(x, y, [&](int i, int j) { return still_.mean(i, j); });

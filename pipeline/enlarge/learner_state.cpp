@@ -14,8 +14,9 @@ using namespace enlarge;
 constexpr char kMagic[] = "mfarlern";
 constexpr std::size_t kMagicSize = 8;
 constexpr std::array<std::uint64_t, 4> kHeader{5, kUnique, kTaps, kPhases};
-// Older readable versions of the format: without guidance; with one factor of guidance (ten
-// numbers); with two factors, but without FineMatch; without the tone curve.
+// Older versions of the format, which can still be read. The first has no guidance. The second has
+// one factor of guidance (ten numbers). The third has both factors, but no FineMatch. The fourth
+// has no tone curve.
 constexpr std::uint64_t kWithoutGuidance = 1, kOneFactor = 2, kTwoFactors = 3, kWithoutTone = 4;
 constexpr int kOneFactorNumbers = 10;
 constexpr std::size_t kChecksumSize = 4;

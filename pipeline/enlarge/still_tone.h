@@ -8,16 +8,16 @@
 
 namespace mfar {
 
-/// The tone curve from a still to the video: the grey level that the video's sensor shows where the
-/// still's sensor shows level i. It is applied to the luma of a still before the still is matched,
-/// so that the still's detail has the contrast of the video.
+/// The tone curve from a still to the video: where the still's sensor shows grey level i, the
+/// video's sensor shows levels[i]. The curve is applied to the luma of a still before the still is
+/// matched, so that the still's detail has the contrast of the video.
 struct StillTone {
     static constexpr int kLevels = 256;
     std::array<std::uint8_t, kLevels> levels = unchanged();
 
     [[nodiscard]] bool isIdentity() const { return *this == StillTone{}; }
     bool operator==(const StillTone&) const = default;
-    /// True if both curves differ by so little that what was learned with one holds for the other.
+    /// True if the curves differ by so little that filters learned with one suit the other, too.
     [[nodiscard]] bool isNear(const StillTone& other) const {
         constexpr int kNear = 4;  // mean difference [grey levels]
         int sum = 0;

@@ -12,10 +12,9 @@
 
 namespace mfar {
 
-/// Sharpens a warped picture while the camera rests. The warp blurs pixels in which a traced pixel
-/// mixes two surfaces or shows detail as fine as a pixel. Such pixels have a high contrast to their
-/// neighbours. They are listed and rendered individually; the rendered colours are shown until the
-/// camera moves.
+/// Sharpens a warped picture while the camera rests. The warp blurs edges and detail as fine as a
+/// pixel. Pixels there have a high contrast to their neighbours. They are listed and rendered
+/// individually; the rendered colours are shown until the camera moves.
 class EdgeRefiner {
 public:
     static constexpr int kLevels = params::kContrastLevels;

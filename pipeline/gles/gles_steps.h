@@ -21,8 +21,8 @@ public:
     explicit FrameOnGpu(Size video) : tiles_{TileBuffer(video), TileBuffer(video)} {}
 
     [[nodiscard]] const gpu::Texture& video(const VideoFrame& frame);
-    /// Returns the GPU's copy of `work`. The last two are stored, because a frame has one TileWork
-    /// for each of up to two stills.
+    /// Returns the GPU's copy of `work`. The last two copies are stored, because a frame has one
+    /// TileWork for each of up to two stills.
     [[nodiscard]] const TileBuffer& tiles(const TileWork& work);
     [[nodiscard]] gpu::PictureTexture& stillPicture() { return still_; }
     void setImporter(PlaneImporter* importer);

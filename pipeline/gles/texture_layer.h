@@ -13,7 +13,7 @@ public:
         : layer_{Field<std::uint32_t>({}, transfers), Field<float>({}, transfers), {}} {}
 
     /// Returns the textures (RGBA8 and R32F) as a LayerPicture, which is valid until the next call.
-    /// The textures must remain valid as long.
+    /// The textures must remain valid until then.
     LayerPicture& show(const gpu::Texture& colour, const gpu::Texture& depth,
                        const PixelRect& bounds) {
         layer_.colour.writtenOnDevice(colour_.emplace(colour), colour.size());

@@ -18,7 +18,7 @@ namespace mfar {
 /// Looks up the colours of a warped picture (paper, eq. 5). ModelSilhouette has drawn the surfaces
 /// that are visible at the current pose. Their colours come from the traced picture or, if that
 /// does not show the surface, from the re-rendered pictures. A draw call processes simple pixels. A
-/// compute shader processes a list of all others, for example edges.
+/// compute shader processes a list of all other pixels, for example at edges.
 class ViewLookUp {
 public:
     explicit ViewLookUp(const LensProjection& layer);
@@ -42,9 +42,7 @@ public:
     /// colour() is RGBA8, premultiplied. depth() is R32F: z [m], or 0 without a surface.
     [[nodiscard]] const gpu::Texture& colour() const { return colour_; }
     [[nodiscard]] const gpu::Texture& depth() const { return depth_; }
-    /// State of each pixel, RGBA8. R: number of the surface with unknown colour. G: share of the
-    /// pixel with unknown colour. B: 1 if this surface fills the pixel and no picture shows it. A:
-    /// number of the surface that fills the whole pixel with a known colour.
+    /// State of each pixel, RGBA8; see WarpStep::state().
     [[nodiscard]] const gpu::Texture& state() const { return state_; }
 
 private:
@@ -60,8 +58,8 @@ private:
     gpu::Texture rays_, colour_, depth_, state_;
     gpu::Framebuffer target_;
     gpu::Buffer commands_, list_;
-    /// The passes that look up the surfaces' colours. `plain` draws the simple pixels, `rest`
-    /// computes the listed others.
+    /// The passes that look up the surfaces' colours. `plain` draws the simple pixels, and `rest`
+    /// computes the pixels in the list.
     struct Passes {
         gpu::DrawPass<Params> plain;
         gpu::ComputePass<Params> rest;

@@ -9,9 +9,9 @@
 namespace mfar {
 
 /// Reads the numbers of an accessor, element by element, with `components` (1 to 4) numbers each.
-/// Normalised integers become [0, 1] or [-1, 1]. Sparse elements are replaced. Refuses an invalid
-/// index, type or range, more than `most` elements, and numbers that are not finite. The message
-/// contains `place`, the position in the document.
+/// Normalised integers become [0, 1] or [-1, 1]. The values of accessor.sparse replace the elements
+/// that it names. Refuses an invalid index, type or range, more than `most` elements, and numbers
+/// that are not finite. The message contains `place`, the position in the document.
 [[nodiscard]] std::vector<float> accessorFloats(const GltfDocument& document, int accessor,
                                                 int components, std::size_t most,
                                                 std::string_view place);

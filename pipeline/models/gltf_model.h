@@ -47,7 +47,8 @@ struct ModelLimits {
 /// a normal texture needs them), one set of texture coordinates per material, metallic-roughness
 /// with textures (PNG, JPEG; all repeat), emission, alpha mask, double-sided surfaces,
 /// KHR_texture_transform, KHR_materials_emissive_strength. Alpha mode BLEND is treated as a mask
-/// with cutoff 0.5. Translations and rotations of nodes in the first animation, which repeats.
+/// with cutoff 0.5. Also supported: translations and rotations of nodes in the first animation,
+/// which repeats.
 /// Ignored: points and lines, vertex colours, occlusion textures, cameras, lights, and extensions
 /// that are not required. Ignored with a sentence in Model::notes: other animations, changing
 /// scales, skins and morph targets. Throws ModelError for everything else, and if the model exceeds

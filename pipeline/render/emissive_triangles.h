@@ -9,8 +9,8 @@
 namespace mfar {
 
 /// The triangles of a scene's objects that emit light. A triangle is selected with a probability
-/// proportional to its power (area times luminance of its mean emission), and a point on it
-/// uniformly by area. Backs of single-sided triangles do not emit.
+/// proportional to its power (area times luminance of its mean emission). All points on it are
+/// equally probable. Backs of single-sided triangles do not emit.
 class EmissiveTriangles {
 public:
     EmissiveTriangles() = default;

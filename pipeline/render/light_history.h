@@ -24,8 +24,8 @@ public:
 
     /// Returns the light of the surface at `point` (world frame), seen from `eye`. It interpolates
     /// between those pixels of the earlier picture that show this surface. The weight of specular
-    /// light falls with the angle between the two viewing directions; the weight of all light, with
-    /// the change that moved objects may have caused. Empty if no pixel shows the surface.
+    /// light falls with the angle between the two viewing directions. The weight of all light falls
+    /// with the change that moved objects may have caused. Empty if no pixel shows the surface.
     [[nodiscard]] KnownLight at(const SeenSurface& seen, const Eigen::Vector3f& point,
                                 const Eigen::Vector3f& eye) const;
     /// Null if no object has moved.

@@ -77,7 +77,7 @@ void MovedLight::follow(std::uint8_t id, Eigen::Vector3f& point, Eigen::Vector3f
 
 /// Returns the distant light that the ball hides from a surface, divided by pi.
 float MovedLight::blocked(const Sight& sight, const Eigen::Vector3f& normal) const {
-    // A ball that the horizon cuts hides less; the sum below is an upper limit.
+    // The result is an upper limit: a ball that is partly below the surface's horizon hides less.
     const float facing = std::clamp(normal.dot(sight.towards) + sight.sine, 0.0F, 1.0F);
     const float sky =
         far_.dark() ? 0 : luminanceOf<float>(far_.mirrored(sight.towards, std::sqrt(sight.sine)));

@@ -17,10 +17,11 @@ constexpr int kSpreadReach = 2, kSpreadStep = 4;
 constexpr float kSurely = 4;
 // A difference of more than this many standard errors is not noise.
 constexpr float kTolerance = 2.5F;
-// A sample of the shadow catcher shows either no change or a large one. With few samples, the lit
-// and the shaded pixels of a penumbra would not be averaged, and the penumbra would have spots. So
-// filter levels with steps up to kSparseStep, the distance of sparse samples [px], use
-// kSparseTolerance instead of kTolerance on the shadow catcher.
+// The ray of a sample on the shadow catcher is blocked or not, so the sample shows full shadow or
+// no shadow. After few samples, adjacent pixels of a penumbra differ by more than kTolerance
+// allows. They would not be averaged, and the penumbra would have spots. So filter levels with
+// steps up to kSparseStep, the distance of sparse samples [px], use kSparseTolerance instead of
+// kTolerance on the shadow catcher.
 constexpr int kSparseStep = 4;
 constexpr float kSparseTolerance = 5;
 constexpr int kBefore = 2;               // number of stages before the first level
@@ -119,7 +120,7 @@ void NoiseFilter::spreadVariance(int x, int y) {
         variances_[i].second = found(second, pixel.second, pixel.secondCount);
 }
 
-// Estimates from few samples vary strongly, so neighbours are averaged.
+// A variance estimated from few samples is inaccurate, so the mean over neighbours is used.
 void NoiseFilter::meanVariance(int x, int y) {
     const std::size_t i = static_cast<std::size_t>(y) * size_.width + x;
     LightPixel& pixel = pixels_[i];

@@ -83,8 +83,8 @@ private:
     PixelRect where_;
     std::vector<LightPixel> pixels_;
     std::vector<Variances> variances_;
-    std::vector<float> values_;  ///< the arrays
-    std::size_t stride_ = 0;     ///< distance of two arrays in values_
+    std::vector<float> values_;  ///< the filter's arrays, one after the other; see array()
+    std::size_t stride_ = 0;     ///< distance between the beginnings of two arrays in values_
 };
 
 }  // namespace mfar

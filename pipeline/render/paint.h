@@ -42,7 +42,8 @@ struct SurfaceLight {
     }
 };
 
-/// Light can be stored as a multiple of other light. This function multiplies both.
+/// Multiplies the components of two lights. Used where light is stored as a multiple of other
+/// light.
 [[nodiscard]] inline SurfaceLight product(const SurfaceLight& a, const SurfaceLight& b) {
     return {a.diffuse.cwiseProduct(b.diffuse), a.specular.cwiseProduct(b.specular)};
 }

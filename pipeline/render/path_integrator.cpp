@@ -78,7 +78,7 @@ PathIntegrator::Sent PathIntegrator::emitted(const Vertex& vertex, Lobes lobes,
                                              const PixelSampler& sampler, std::uint32_t pair,
                                              World& world) const {
     if (!world.objects) return {};
-    // The ray starts off the surface, like a reflected one.
+    // The ray starts a little above the surface, as a reflected ray does.
     const Eigen::Vector3f from = vertex.point.leaving(vertex.point.geometric).origin;
     const EmissiveTriangles::Sample sample = emitters_.sample(
         from, sampler.pair(pair + kEmitterPair), sampler.pair(pair + kFineEmitterPair).x());

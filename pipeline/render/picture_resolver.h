@@ -22,8 +22,9 @@ public:
     /// Begins a picture. Pixels outside `traced` become empty. `film` and `out` must outlive the
     /// work.
     /// `layered` has an effect only if `filter` is true; see RenderedPicture.
-    /// `memory` must be null or the film. If it is the film and `filter` is true, pixels with a
-    /// surface but without samples and carried light store the noise filter's result there.
+    /// `memory` must be null or the film. If it is the film and `filter` is true, the noise
+    /// filter's result is stored in the film (Film::remember()) for pixels that show a surface but
+    /// have neither samples nor carried light.
     /// Untraced pixels of the shadow catcher show the mean of their neighbours with even column and
     /// even row.
     void begin(const Film& film, const RenderView& view, const PixelRect& traced,

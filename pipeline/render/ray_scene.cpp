@@ -60,9 +60,9 @@ void occludedOne(RTCScene scene, RTCRay& query) {
 }
 #endif
 
-// A hit is on an edge if one of its barycentric weights is below this limit. Rounding errors grow
-// with the distance of the hit. They reach this weight in a triangle as wide as a thousandth of the
-// distance.
+// A hit is on an edge if one of its barycentric weights is below this limit. The rounding errors of
+// the weights grow with the distance of the hit. They are as large as this limit if the triangle is
+// only a thousandth of the distance wide.
 constexpr float kEdge = 4e-3F;
 
 RTCRay embreeRay(const Ray& ray) {

@@ -58,7 +58,8 @@ public:
                       const HoleTest& holes = {});
     /// Adds all meshes of a committed scene at a pose, and returns the index of the first mesh.
     /// Their search structure is used again, not built. `part` must have no placed parts and must
-    /// share the device of this scene, see beside(). All calls of add() must come before.
+    /// share the device of this scene, see beside(). After a call of place(), add() must not be
+    /// called any more.
     std::uint32_t place(const RayScene& part, const RigidTransform& T_scene_part);
     void commit();
 
@@ -88,7 +89,8 @@ private:
     std::vector<std::unique_ptr<HoleTest>> holes_;
     std::size_t packetWidth_ = 4;
     std::uint32_t meshes_ = 0;
-    std::vector<std::uint32_t> firstMeshes_;  // of each geometry in scene_
+    // Index of the first mesh of each geometry in scene_.
+    std::vector<std::uint32_t> firstMeshes_;
     Eigen::AlignedBox3f box_;
 };
 

@@ -21,8 +21,8 @@ struct SurfacePoint {
 
     /// `direction` is the viewing direction; it may have any length.
     [[nodiscard]] Paint paint(const Eigen::Vector3f& direction) const;
-    /// Returns a ray from the point in `direction`. It starts off the surface, so that rounding
-    /// errors cannot make it hit this surface.
+    /// Returns a ray from the point in `direction`. It starts at a small distance from the surface,
+    /// so that rounding errors cannot make it hit this surface.
     [[nodiscard]] Ray leaving(const Eigen::Vector3f& direction) const;
 };
 
@@ -71,7 +71,7 @@ public:
     /// The triangle's area in texels of the emission texture, 0 without a texture.
     [[nodiscard]] float emissionTexels(std::uint32_t mesh, std::uint32_t triangle) const;
 
-    /// True if the normal turns by at most 0.1 rad per `width` [m] on the hit triangle.
+    /// True if the normal turns by at most 0.1 rad over a distance of `width` [m] on the triangle.
     [[nodiscard]] bool isEven(const RayHit& hit, float width) const;
     [[nodiscard]] SurfacePoint objectPoint(const RayHit& hit,
                                            const Eigen::Vector3f& direction) const;

@@ -37,7 +37,7 @@ struct HoleAnswer {
     int samples = 0;
     std::uint64_t scene = 0;
     bool edges = false;
-    std::vector<RigidTransform> poses{};  ///< HoleRequest::poses
+    std::vector<RigidTransform> poses{};  ///< copy of HoleRequest::poses
 };
 
 }  // namespace mfar

@@ -18,7 +18,7 @@ public:
     [[nodiscard]] bool isFarFrom(const Eigen::Vector2d& pixel) const;
 
 private:
-    Size size_;  // number of tiles
+    Size size_;  // numbers of tile columns and tile rows
     std::vector<bool> tiles_;
 };
 

@@ -59,8 +59,9 @@ TracedPictures::TracedPictures(const SliceOptions& slices, const TracedPolicy& p
     : slices_(slices), policy_(policy), memory_(std::move(memory)),
       pictures_{Picture(slices), Picture(slices)} {}
 
-// Returns the change of the view since a picture's view. Empty if objects or lighting have changed.
-// A picture in progress ignores changes of the lighting; else it might never be finished.
+// Returns the change of the view since a picture's view. Empty if the objects have changed or, for
+// the shown picture, the lighting. The next picture ignores changes of the lighting. Otherwise, it
+// might be begun again and again and never be finished.
 std::optional<double> TracedPictures::changeSince(const Picture& picture) const {
     const bool isShown = &picture == &pictures_[shown_];
     if (!picture.scene || picture.scene->objects != scene_->objects ||
@@ -173,8 +174,8 @@ bool TracedPictures::toBegin() const {
     return toBegin_ && pictures_[0].portions == 0 && pictures_[1].portions == 0;
 }
 
-// Memory for two pictures traced while the camera moves. A tile with an object needs all its memory
-// blocks (see Film::kBlockPixels); any other tile needs only one.
+// Provides memory for two pictures traced while the camera moves. A tile with an object needs all
+// its memory blocks (see Film::kBlockPixels); any other tile needs only one.
 void TracedPictures::provide(RenderedPicture& out) {
     const auto blocksOf = [](const PixelRect& r, std::size_t pixels) {
         if (r.empty()) return std::size_t{0};
@@ -189,8 +190,9 @@ void TracedPictures::provide(RenderedPicture& out) {
     providedFor_ = scene_;
 }
 
-/// A picture is shown from one to two periods after its begin. Its objects are where they will be
-/// in the middle of this time.
+/// Returns the scene for a picture that begins now. The picture will be shown after one `period_`,
+/// and until the next picture replaces it after another one. Its objects are where they will be in
+/// the middle of this time.
 std::shared_ptr<const PictureScene> TracedPictures::sceneOfNext() const {
     if (!scene_->moves()) return scene_;
     const double ahead = std::min(1.5 * period_, kFarthestAhead);

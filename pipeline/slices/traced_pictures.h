@@ -32,15 +32,15 @@ struct TracedPolicy {
     ViewLimits limits;
     /// Samples per pixel that the next picture needs to replace the shown picture. Fewer suffice if
     /// the shown picture has other objects or a very different view. Four filtered samples are
-    /// about as good as 16 unfiltered ones (root mean square errors on two scenes: 3.2 and 4.4
-    /// against 3.3 and 3.1 of 255).
+    /// about as good as 16 unfiltered ones. (Root mean square errors [grey levels of 255]: 3.2
+    /// against 3.3 on one scene, 4.4 against 3.1 on another scene.)
     int samplesToReplace = 4;
     bool filter = true;
     bool history = true;
     /// True: the next picture begins when viewChange() since the shown picture reaches kSoon, which
-    /// is below 1. If it reuses the shown picture's light, it may also be shown before every pixel
-    /// has a sample. False: the next picture begins at 1. Set true only if the caller uses just the
-    /// light of the picture.
+    /// is below 1. If it reuses the shown picture's light, it can also be shown before every pixel
+    /// has a sample. False: the next picture begins when viewChange() reaches 1. Must be false if
+    /// the caller shows the colours of the picture and not just its light.
     bool soon = true;
     bool operator==(const TracedPolicy&) const = default;
 };
@@ -87,14 +87,13 @@ public:
 
     /// True if the picture in progress is complete enough to be shown.
     [[nodiscard]] bool toShow() const;
-    /// Begins to convert the picture in progress to `out`, in portions of resolver(). Its samples
-    /// are not traced until resolver().complete() and endShow().
+    /// Begins to convert the picture in progress to `out`, in portions of resolver(). No more of
+    /// its samples are traced until resolver().complete() is true and endShow() was called.
     void beginShow(const Exposure& exposure, RenderedPicture& out);
     [[nodiscard]] PictureResolver& resolver() { return resolver_; }
     void endShow(RenderedPicture& out);
 
-    /// True if no portion of the picture in progress is being traced and every pixel has the same
-    /// number of samples.
+    /// True if the last turn of the picture in progress is complete; see Slices::turnComplete().
     [[nodiscard]] bool turnComplete() const { return pictures_[working()].slices.turnComplete(); }
     /// True if nothing is left to do while the camera rests.
     [[nodiscard]] bool settled() const;
@@ -141,7 +140,7 @@ private:
     const TracedPolicy policy_;
     std::shared_ptr<const PictureScene> scene_;
     const std::shared_ptr<FilmMemory> memory_;
-    std::shared_ptr<const PictureScene> providedFor_;  // the scene of the last provide()
+    std::shared_ptr<const PictureScene> providedFor_;
     std::array<Picture, 2> pictures_;
     PictureResolver resolver_;
     std::size_t shown_ = 0;

@@ -120,8 +120,8 @@ void TracedWorkers::takeTick() {
     if (hasWork()) wakeOthers();
 }
 
-// Before the first picture, the warp has nothing to do in a frame. Then the path tracer may use
-// twice the budget, because something is shown sooner.
+// Before the first picture, the warp has nothing to do in a frame. So the path tracer gets twice
+// the budget, and the first picture is shown sooner.
 double TracedWorkers::extraMs() const {
     return counters_.shown == 0 ? budget_.msPerFrame() : 0;
 }

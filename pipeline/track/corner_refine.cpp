@@ -50,8 +50,8 @@ struct EdgePoint {
 };
 
 /// Finds the position near `middle` where the light increases along `normal` (from dark to bright).
-/// The result is the mean of all positions, weighted with the increase at each. A second pass
-/// centres the search window on the result of the first pass.
+/// The result is the mean of all positions, weighted with the increase of the light at each
+/// position. A second pass centres the search window on the result of the first pass.
 std::optional<EdgePoint> findStep(const Light& light, const Vector2d& middle,
                                   const Vector2d& normal, double reach) {
     double centre = 0, contrast = 0;

@@ -12,8 +12,8 @@
 
 namespace mfar {
 
-/// Thrown if a tag map is invalid. The message is one line and begins with "file:line: " or "file:
-/// ".
+/// Thrown if a tag map is invalid. The message is one line. It begins with "file:line: ", or with
+/// "file: " if the fault is not in a single line.
 class TagMapError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };

@@ -7,9 +7,9 @@
 
 namespace mfar {
 
-/// Returns for each object number the transform from the layer's camera to the camera of a picture
-/// that shows the object at an earlier pose. Entry 0 is for surfaces that do not move. Empty if no
-/// object moves.
+/// Returns for each object number the transform from the layer's camera to a picture's camera. It
+/// maps a point of the object at its present pose to the same point at the pose in the picture.
+/// Entry 0 is for surfaces that do not move. Empty if no object moves.
 /// `poses` are the objects' poses in the picture, T_world_object. `objects` have their present
 /// poses.
 [[nodiscard]] std::vector<RigidTransform>

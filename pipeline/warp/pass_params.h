@@ -55,7 +55,8 @@ struct alignas(16) LookUpViews {
     Projection projections[2];  ///< [0]: traced picture; [1]: layer and re-rendered pictures
     Plane plane;
     PixelBounds bounds;
-    DispatchGroups wanted[6];  ///< one per level of the pyramid that fills missing pixels
+    /// One entry for each level of the pyramid from which missing pixels are filled.
+    DispatchGroups wanted[6];
     /// Sizes in pixels of the traced picture and of the layer.
     std::int32_t tracedWidth, tracedHeight;
     std::int32_t width, height;

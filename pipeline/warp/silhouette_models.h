@@ -36,7 +36,7 @@ public:
         std::vector<Part> parts;
         Eigen::AlignedBox3d box;
         std::shared_ptr<const Model> model;  ///< owns the materials; null for the shadow catcher
-        int part = 0;                        ///< part of the model
+        int part = 0;                        ///< see Mesh::part
     };
     struct Object {
         std::shared_ptr<const Shape> shape;

@@ -83,7 +83,9 @@ bool takeFromNeighbours(const PictureGrid& grid, std::span<const LightWords> lig
     const int own = grid.id(x, y);
     std::array<int, 4> sum{};
     UnpackedLight sumOfLight;
-    GlossWords gloss;  // from one neighbour: octahedral directions have no mean
+    // Taken from one neighbour, because the mean of two octahedral codes is not the code of the
+    // mean direction.
+    GlossWords gloss;
     int count = 0;
     for (int j = -1; j <= 1; ++j)
         for (int i = -1; i <= 1; ++i) {

@@ -21,7 +21,7 @@ struct WarpCounters {
     std::uint64_t answered = 0;   ///< requested pixels that were rendered
     std::uint64_t rays = 0;
     int openHoles = 0;  ///< pixels that no picture shows
-    int cracks = 0;     ///< pixels in cracks of one pixel
+    int cracks = 0;     ///< pixels in cracks, which are one pixel wide
 };
 
 /// Image-based rendering of the virtual layer. It shows a finished picture (the traced picture)

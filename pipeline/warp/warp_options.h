@@ -21,7 +21,7 @@ struct WarpOptions {
     /// pixels replace them.
     double sharpenShare = 0.4;
     int sharpenSamples = 40;  ///< samples per edge pixel, [1, 4096]
-    /// Number of frames in which rendered pixels fade in, [0, 100]. Used only with
+    /// Number of frames over which rendered pixels fade in, [0, 100]. Used only with
     /// HoleFilling::Both.
     int fadeFrames = 4;
     /// If the pose moves all points by less than this distance, the traced picture is shown

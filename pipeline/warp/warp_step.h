@@ -65,9 +65,9 @@ public:
     virtual void answerEdges(const HoleAnswer& answer) = 0;
     virtual void dropEdges() = 0;
 
-    /// State of each pixel as RGBA8, for tests. R: number of the surface whose colour is unknown;
-    /// G: share of the pixel that surface R covers; B: 255 if no picture shows surface R; A: number
-    /// of the surface that fills the whole pixel.
+    /// State of each pixel as RGBA8, for tests. R: number of the surface with unknown colour. G:
+    /// share of the pixel with unknown colour. B: 255 if this surface fills the pixel and no
+    /// picture shows it. A: number of the surface that fills the whole pixel with a known colour.
     [[nodiscard]] virtual const Field<std::uint32_t>& state() const = 0;
 };
 

@@ -59,7 +59,9 @@ struct alignas(16) ClassifyTiles {
     /// kPlainFlow [video px], or 0 if no tile shall be drawn as one rectangle.
     float plainFlow;
     std::int32_t stillGiven;
-    /// Number of the frame, or 0 if drawing a tile's detail does not read its neighbours.
+    /// Number of the frame. The shader stores it for each unchanged tile that it lists because a
+    /// neighbour is drawn, so that no tile is listed twice. 0: these tiles are not listed, because
+    /// drawing a tile's detail does not read its neighbours.
     std::uint32_t detailFrame;
     std::int32_t learns;
     std::int32_t secondGiven;

@@ -32,8 +32,8 @@ inline constexpr int kBackwardPropagations = 1;
 inline constexpr float kTexturePerVariance = 8.0F * kPatchPixels;
 inline constexpr float kUnexplainedCost = 0.4F;
 /// Cells with at least this two-way error [px] are outside the still and are not searched. Cells
-/// that seem to be occluded have a smaller error and are searched. They can belong to a moving
-/// object, whose depth from epipolar lines is wrong, and with it the test for occlusion.
+/// that seem to be occluded have a smaller error. They are searched, because they can belong to a
+/// moving object. Its depth from epipolar lines is wrong, so the test for occlusion is wrong, too.
 inline constexpr float kNotShown = 100.0F;
 /// A tile is searched in both dimensions if at least this number of its 16 cells has no reliable
 /// match.
@@ -56,14 +56,15 @@ inline constexpr float kClearlyLess = 0.5F;
 /// from them. Doubtful cells are therefore also compared with the still itself: its mean over each
 /// video pixel, from kPatchSamples samples along each axis, aliases as the video does.
 inline constexpr int kPatchSamples = 2;
-/// The flow along the epipolar line replaces the refined flow if the squared correlation with the
-/// still itself is larger by this, as a refinement is better in noise.
+/// The flow along the epipolar line replaces the refined flow if its squared correlation with the
+/// still itself is larger by more than this. Below this margin, the difference may be noise, and in
+/// noise the refined flow is more accurate.
 inline constexpr float kClearlyAlike = 0.05F;
 /// A cell's flow along the epipolar line is the mean of opposite neighbours up to kCleanUpRadius
 /// cells away. On a plane, each pair's mean is the flow at the cell. Pairs whose mean differs from
 /// the median around the cell by this [px] or more are not on the same surface.
 inline constexpr float kPairReach = 0.5F;
-/// Flow vectors that are closer than this [px] need not both be compared.
+/// If the distance of two flow vectors is at most this [px], only one of them is compared.
 inline constexpr float kSameFlow = 0.05F;
 
 /// Largest change of the flow within one surface [px per px]. A larger change is a depth edge.
@@ -146,7 +147,7 @@ struct alignas(16) ListTiles {
     std::int32_t tileColumns, tileRows;
     std::int32_t groupColumns, groupRows;
     std::int32_t tilesPerGroup;
-    std::int32_t margin;  ///< a group is listed if a flagged tile is this near [tiles]
+    std::int32_t margin;  ///< a group is listed if a flagged tile is within this distance [tiles]
     /// Index of the command in commands[] and of the first group in lists[].
     std::int32_t command, first;
 };
