@@ -56,8 +56,8 @@ struct CameraModel {
     /// Returns unproject(pixel), but faster. `close` is the known ray of a nearby pixel.
     [[nodiscard]] Eigen::Vector2d unproject(const Eigen::Vector2d& pixel,
                                             const Eigen::Vector2d& close) const;
-    /// Returns the model of the same lens for another resolution. With the scale s, a pixel
-    /// coordinate c becomes (c + 0.5) s - 0.5.
+    /// Returns the model of the same lens for another resolution. A pixel coordinate c becomes
+    /// (c + 0.5) s - 0.5, where s is the new width or height divided by the old one.
     [[nodiscard]] CameraModel scaledTo(Size to) const;
 };
 
