@@ -47,7 +47,7 @@ Undistorted undistorted(const Eigen::Vector2d& target, const Eigen::Vector2d& st
         const Distorted d = distort(ray, distortion);
         const Eigen::Vector2d error = target - d.point;
         const double det = d.jacobian.determinant();
-        // The model folds where the determinant is zero. The iteration must not cross the fold.
+        // The iteration must not cross the fold, where the determinant is zero.
         if (!(det > kFold)) break;
         if (!(error.squaredNorm() > kSquaredError)) return {ray, true};
         Eigen::Vector2d step = d.jacobian.inverse() * error;

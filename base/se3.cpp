@@ -5,9 +5,10 @@
 namespace mfar {
 namespace {
 
-/// The coefficients of V = I + a [w] + b [w]^2, where [w] is skew(w). V times the translation of a
-/// twist is the translation of its exponential(). The rotation w has the norm t [rad]. For t below
-/// 1e-4, series are used; their error is less than a double's rounding.
+/// The coefficients a and b of the matrix V = I + a [w] + b [w]^2. Here, w is the rotation of a
+/// twist [rad], [w] is skew(w), and t is the norm of w. V times the twist's translation is the
+/// translation of its exponential(). For t below 1e-4, series are used; their error is less than a
+/// double's rounding.
 struct VCoefficients {
     double a, b;
 };

@@ -277,7 +277,7 @@ void App::logHealth(const Health& health) {
     if (health.state == told_.state && health.cause == told_.cause) return;
     // During a shutdown, no new pictures are expected, so this state is not a fault.
     if (stopReason_ && health.state == HealthState::Stalled) return;
-    // A camera may be opened some time after the other one.
+    // One camera may be opened later than the other, so a short fault at the start is not logged.
     if (health.isDevice && !isProven_ && health.sinceS < kOpeningTime) return;
     if (health.state != HealthState::Ok)
         log_.warning(sentence(health), health.cause, subjectOf(health));

@@ -23,9 +23,8 @@ namespace {
 
 using Seconds = std::chrono::duration<double>;
 
-// Time limits after a signal: kLeaveTime to finish the current picture. While pictures are being
-// written, kFlushTime to finish writing, then kCancelTime to end the threads after writing was
-// cancelled.
+// Time limits after a signal. If no pictures are written, the process ends after kLeaveTime.
+// Otherwise, writing is cancelled after kFlushTime, and the process ends kCancelTime later.
 constexpr Seconds kLeaveTime{0.2};
 constexpr Seconds kFlushTime{0.4};
 constexpr Seconds kCancelTime{0.5};

@@ -42,12 +42,12 @@ std::filesystem::path learnedFiltersFile(const std::string& sensors) {
 std::string describe(const LearningCounts& counts) {
     const EnlargerLearner::Counts& of = counts.learner;
     std::string out =
-        fmt::format("{} stills, learned filters for {} of {} classes of pixels, {:.2f} dB better "
-                    "than bicubic (shipped filters: {:.2f} dB)",
+        fmt::format("{} stills; learned filters for {} of {} classes of pixels; gain over bicubic "
+                    "enlargement: {:.2f} dB, with the shipped filters {:.2f} dB",
                     of.stills, of.classes, enlarge::kUnique, of.gainDb, of.priorDb);
     if (of.guidance.any())
         out += fmt::format("; guidance adds {:.2f} of the still's finest detail and removes {:.2f} "
-                           "of the video's, which gains {:.2f} dB",
+                           "of the video's; gain over no guidance: {:.2f} dB",
                            of.guidance.still, of.guidance.video, of.guidanceGainDb);
     return out;
 }

@@ -27,8 +27,8 @@ public:
     /// Returns a message about a loss within the last kWindow, or nothing. If the GPU is not used
     /// any more, the message stays for ever.
     [[nodiscard]] std::optional<std::string> fault(Timestamp now);
-    /// Returns fault() as the text of a banner, but only for the time kWindow after mfard stopped
-    /// using the GPU.
+    /// Returns the text of a banner: fault() during the time kWindow after mfard stopped using the
+    /// GPU, otherwise nothing.
     [[nodiscard]] std::optional<std::string> banner(Timestamp now);
 
 private:

@@ -34,8 +34,8 @@ void requireMemory(const LimitsConfig& limits, Size video, Size still, std::stri
                    std::size_t lists = 0);
 
 /// The memory that is left for a configuration's models and environment pictures. It begins with a
-/// sixth of the memory budget, because a reload reads the new files before it releases the old
-/// ones.
+/// sixth of the memory budget. That is half of what pictureBytes() leaves, because a reload reads
+/// the new files before it releases the old ones.
 class FileMemory {
 public:
     explicit FileMemory(const LimitsConfig& limits);

@@ -34,7 +34,8 @@ void readObjects(TomlReader& file, const std::filesystem::path& folder, FileMemo
 [[nodiscard]] std::vector<std::string> leftOut(const std::vector<PlacedObject>& objects,
                                                const TagMap& tags, std::string_view shapesAlone);
 
-/// Returns the notes of the objects' models, each model's only once.
+/// Returns one message for each part of the objects' models that is not shown. A model that several
+/// objects show is reported once.
 [[nodiscard]] std::vector<std::string> modelNotes(const std::vector<PlacedObject>& objects);
 
 /// Returns the simple shapes among the objects, with their poses in the world. Shapes whose tag is

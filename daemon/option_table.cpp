@@ -139,8 +139,8 @@ constexpr Option kLine[] = {
     text("loopback_chip", R"("")",
          "GPIO chip of the loopback input. Empty: the chip of the trigger line."),
     number("delay_ms", {-1000, 10000, "ms"}, "0.0",
-           "First estimate of the time from a trigger pulse to the exposure in the camera's time "
-           "stamps. mfard learns the exact value."),
+           "First estimate of the time from a trigger pulse to the start of the exposure, as the "
+           "camera's time stamps report it. mfard learns the exact value."),
     number("jitter_ms", {0.001, 1000, "ms"}, "1.0",
            "Largest error of the camera's time stamps: 1 if the sensor takes them, more if they "
            "are taken on a picture's arrival, as with USB cameras."),

@@ -18,9 +18,10 @@ public:
     void add(const Pose& pose);
 
     /// Returns the pose at t, interpolated between the poses before and after it at constant
-    /// velocity. The error of this assumption is estimated from the velocity in the interval before
-    /// or after. It is added to the covariance. Pose::tags is 0. Returns nothing if t is not
-    /// between two poses at most kLongestGap apart, or if there is no third pose for the estimate.
+    /// velocity. The error of this assumption is estimated from the change of velocity between this
+    /// interval and the one before or after it, and added to the covariance. Pose::tags is 0.
+    /// Returns nothing if t is not between two poses at most kLongestGap apart, or if there is no
+    /// third pose for the estimate.
     [[nodiscard]] std::optional<Pose> at(Timestamp t) const;
 
     static constexpr std::chrono::milliseconds kLongestGap{100};

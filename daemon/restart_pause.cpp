@@ -40,8 +40,8 @@ std::string textOf(const std::filesystem::path& file) {
 std::string_view hint(ExitCode code) {
     if (code == ExitCode::Unavailable)
         return "a device or OpenGL ES is not available; if this does not change, choose another "
-               "device in the configuration, or engine.use = \"simd\", which needs no OpenGL ES "
-               "(cameras may be absent)";
+               "device in the configuration, or engine.use = \"simd\", which needs no OpenGL ES. "
+               "An unplugged camera is not the cause, because mfard waits for it";
     if (code == ExitCode::OutputFailed)
         return "check `display` and [record] in the configuration, the free disk space, and the "
                "program that reads the pipe";
@@ -89,9 +89,10 @@ void pauseBeforeRestart(ExitCode code, const std::string& error, Timestamp start
     if (!service.listening() || !isRestarted(code)) return;
     const RestartPause::Next next =
         RestartPause(RestartPause::defaultFile()).failed(started, Timestamp::now());
-    log.notice(fmt::format(
-        "{}\nmfard failed {} in a row; it exits in {} s, then systemd restarts it", hint(code),
-        next.inARow == 1 ? "once" : fmt::format("{} times", next.inARow), next.wait.count()));
+    log.notice(
+        fmt::format("{}\nmfard failed {}; it exits in {} s, then systemd restarts it", hint(code),
+                    next.inARow == 1 ? "once" : fmt::format("{} times in a row", next.inARow),
+                    next.wait.count()));
     service.status(fmt::format("{}; restart in {} s", error, next.wait.count()));
     sigset_t ends;
     sigemptyset(&ends);

@@ -134,8 +134,8 @@ nlohmann::ordered_json virtualSummary(const Counted& counted) {
     return out;
 }
 
-// Returns ", path tracing 83% at 1.20 M samples/s, 120 holes", or an empty text without path
-// tracing.
+// Returns ", path tracing 83% at 1.20 M samples/s, 120 pixels missing", or an empty text without
+// path tracing.
 std::string tracing(const Counted& counted) {
     if (!counted.traced || !counted.last.objectsInView) return "";
     if (counted.last.objectsHidden) return ", objects hidden";
@@ -144,7 +144,7 @@ std::string tracing(const Counted& counted) {
                           ? std::string(", path traced")
                           : fmt::format(", path tracing {:.0f}% at {:.2f} M samples/s",
                                         t.render.progress * 100, t.render.samplesPerSecond * 1e-6);
-    if (t.openHoles > 0) out += fmt::format(", {} holes", t.openHoles);
+    if (t.openHoles > 0) out += fmt::format(", {} pixels missing", t.openHoles);
     return out;
 }
 
@@ -243,7 +243,7 @@ std::string statusLine(const Counted& counted, const RunDescription& run, double
     if (drops.display > 0) fmt::format_to(out, ", {} not written", drops.display);
     line += quality(counted.quality);
     if (counted.last.usedStill) {
-        fmt::format_to(out, ", confidence {:.2f}, still {:.1f} s", counted.last.meanConfidence,
+        fmt::format_to(out, ", confidence {:.2f}, still {:.1f} s old", counted.last.meanConfidence,
                        counted.stillAgeS.value_or(0));
     } else {
         line += ", no still";

@@ -10,8 +10,8 @@
 
 namespace mfar {
 
-/// Options of StillMatcher. A window is the largest difference between a still's reported time and
-/// the time expected from its pulse.
+/// Options of StillMatcher. A window is the largest accepted difference between a still's reported
+/// time and the time expected from its pulse. A still with a larger difference does not match.
 struct StillMatcherOptions {
     /// First estimate of the delay from a pulse's leading edge to the exposure's start as the
     /// camera reports it. Its error must be less than half the shortest trigger period.

@@ -7,8 +7,8 @@
 
 namespace mfar::gpu {
 
-/// Longest wait for the GPU. A GPU that does not finish in this time counts as hanging: if it were
-/// only blocked, the kernel would normally have reset it by then.
+/// Longest wait for the GPU. A GPU that does not finish in this time counts as hanging. The kernel
+/// normally resets a blocked GPU earlier.
 inline constexpr std::chrono::milliseconds kLongestGpuWait{500};
 
 /// Marks a point in the stream of GL commands. Move-only.

@@ -119,7 +119,7 @@ std::optional<Frame> CameraV4l2::next(std::chrono::milliseconds timeout) {
             if (++broken >= stream_->buffers() && steady_clock::now() >= until) return std::nullopt;
         } else if (waited == Wait::Trouble) {
             // The device is not lost; otherwise take() would have thrown. Drivers also set POLLERR
-            // while no buffer is queued, because all pictures are in use.
+            // if no buffer is queued, which happens while users hold all pictures.
             if (steady_clock::now() >= until) return std::nullopt;
             std::this_thread::sleep_for(kTroublePause);
         }

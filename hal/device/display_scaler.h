@@ -51,8 +51,8 @@ private:
     void render(const GlImage& picture, Size screen, Order order);
     [[nodiscard]] gpu::Program& programFor(int pairs);
 
-    // copy_ draws pictures that need no scaling. scale_ draws pictures whose footprints have up to
-    // pairs_ pairs of texels per row.
+    // copy_ draws pictures that need no scaling. scale_ draws other pictures. For each screen
+    // pixel, it reads up to pairs_ pairs of texels along a row.
     std::optional<gpu::Program> copy_, scale_;
     int pairs_ = 0;
     GLuint sampler_ = 0;

@@ -74,7 +74,7 @@ std::optional<cv::Mat4b> stored(const fs::path& file, std::uint64_t key, int sid
     return texels;
 }
 
-/// Removes the files that were written or read first, until `most` remain.
+/// Removes the least recently used files, until `most` remain.
 void removeOldest(const fs::path& folder, std::size_t most) {
     std::error_code ignored;
     std::vector<std::pair<fs::file_time_type, fs::path>> files;

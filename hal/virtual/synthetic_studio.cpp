@@ -184,8 +184,8 @@ std::optional<Frame> SyntheticStudio::nextVideo(std::chrono::milliseconds timeou
 }
 
 // With Pace::Consumer, the clock stops at the end of the video. Then a still is delivered before
-// the end of its latency, but only to a caller that may wait. If callers that only poll got it,
-// too, their result would depend on the renderer's speed.
+// the end of its latency, but only if `mayWait` is true. A caller that does not wait gets no still,
+// because its result would depend on whether the renderer has finished.
 bool SyntheticStudio::stillReady(bool mayWait) const {
     if (stills_.empty() || !stills_.front().frame) return false;
     return now() >= stills_.front().available ||

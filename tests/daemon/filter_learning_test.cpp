@@ -226,8 +226,8 @@ TEST(LearnedFilters, FiltersAreDescribedInOneLine) {
     LearningCounts counts;
     counts.learner = {12, 0, 0, 71, 1.02, 0.54};
     EXPECT_EQ(describe(counts),
-              "12 stills, learned filters for 71 of 104 classes of pixels, 1.02 dB better than "
-              "bicubic (shipped filters: 0.54 dB)");
+              "12 stills; learned filters for 71 of 104 classes of pixels; gain over bicubic "
+              "enlargement: 1.02 dB, with the shipped filters 0.54 dB");
 }
 
 }  // namespace

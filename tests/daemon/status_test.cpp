@@ -372,13 +372,13 @@ TEST(StatusLine, TheStatusLineReportsTheProgressOfPathTracing) {
     stats.traced(counters, {});
     const std::string busy = statusLine(stats.count(), {}, 0);
     EXPECT_NE(busy.find("path tracing 40%"), std::string::npos) << busy;
-    EXPECT_NE(busy.find("12 holes"), std::string::npos) << busy;
+    EXPECT_NE(busy.find("12 pixels missing"), std::string::npos) << busy;
     counters.render.idle = true;
     counters.openHoles = 0;
     stats.traced(counters, {});
     const std::string done = statusLine(stats.count(), {}, 0);
     EXPECT_NE(done.find(", path traced"), std::string::npos) << done;
-    EXPECT_EQ(done.find("holes"), std::string::npos) << done;
+    EXPECT_EQ(done.find("missing"), std::string::npos) << done;
 }
 
 }  // namespace

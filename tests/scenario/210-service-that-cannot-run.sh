@@ -18,7 +18,7 @@ mkdir state
 run 69 "${missing[@]}"
 says err 'nowhere/control: No such file or directory'
 says err 'mfard: a device or OpenGL ES is not available; if this does not change, .*engine.use'
-says err 'mfard failed once in a row; it exits in 0 s, then systemd restarts it'
+says err 'mfard failed once; it exits in 0 s, then systemd restarts it'
 run 69 "${missing[@]}"
 says err 'mfard failed 2 times in a row; it exits in 1 s, then systemd restarts it'
 run 69 "${missing[@]}"

@@ -186,8 +186,8 @@ def frame_cycles(program, counts, cpus, steps, arm, coverage=0.99):
     """Returns million cycles of a frame on one core, for each processor and step, and million instructions for each
     step. `cpus` contains the processors, as in model.toml.
 
-    Blocks beyond `coverage`, and blocks that llvm-mca does not know, are assumed to take as many cycles per
-    instruction as the others.
+    llvm-mca gets the hottest blocks, which contain the share `coverage` of the executed instructions. All other
+    blocks, and blocks that llvm-mca does not know, are assumed to take as many cycles per instruction.
     """
     base = code_address(subprocess.run(['readelf', '-lW', program], capture_output=True, text=True, check=True).stdout)
     texts = disassemble(program)

@@ -15,8 +15,8 @@ def command(libraries, driver, program, arguments):
 
 
 def compile_shaders(libraries, gpu, program, files=()):
-    """Compiles every shader of the product, or these files. Returns {key: Shader}. Raises RuntimeError if a shader
-    does not compile."""
+    """Compiles the shaders in `files`; if it is empty, all shaders of mfar. Returns {key: Shader}. Raises RuntimeError
+    if a shader does not compile."""
     # Without a GPU, Panfrost crashes at a dispatch and at a shader that spills registers, so the
     # shaders are only linked.
     arguments = (['--link-only'] if gpu['driver'] == 'panfrost' else []) + list(files)

@@ -29,8 +29,8 @@ def read_model():
 
 
 def compile_all(model, folders, program, files=()):
-    """Compiles all shaders, or these files, for each kind of GPU whose drivers are built: {kind: {key: Shader}}.
-    `folders`: {Debian release: folder with the drivers}."""
+    """Compiles the shaders in `files` (if it is empty, all shaders) for each kind of GPU whose drivers are built.
+    Returns {kind: {key: Shader}}. `folders`: {Debian release: folder with the drivers}."""
     out = {}
     for done, (kind, gpu) in enumerate(model['gpus'].items()):
         PROGRESS.show(done, len(model['gpus']), f'compiling for {gpu["name"]}')

@@ -13,8 +13,8 @@ constexpr double kDegree = std::numbers::pi / 180;
 constexpr int kViewsInALine = 4;
 
 std::string viewsOf(const SensorResult& sensor, const char* name) {
-    std::string out =
-        fmt::format("{} views: time, corners, RMS reprojection error; out: not used\n", name);
+    std::string out = fmt::format(
+        "{} views: time, corners, RMS reprojection error; \"out\" marks an unused view\n", name);
     const auto first = sensor.views.empty() ? Timestamp{} : sensor.views.front().time;
     int column = 0;
     for (const ViewResult& view : sensor.views) {
