@@ -70,7 +70,8 @@ std::vector<bool> twinClosed(const std::vector<bool>& flags) {
 }
 
 /// A group is a work group (y * 65536 + x) of the flow search. Returns the groups of the next
-/// coarser pyramid level that `groups` read: those at the same position and their neighbours.
+/// coarser pyramid level whose results `groups` read: those at the same position and their
+/// neighbours.
 std::set<std::uint32_t> twinAbove(const std::set<std::uint32_t>& groups, Size level) {
     std::set<std::uint32_t> out;
     for (const std::uint32_t g : groups)

@@ -42,8 +42,8 @@ struct ErrorAt {
 [[nodiscard]] std::vector<double> frameTimes(const SlicedScene& scene, const SliceOptions& slices,
                                              int frames);
 
-/// Result of budgetRun(), which lets the product's renderer work in its threads for `frames` frames
-/// at 30 per second. The view rotates by `degreesPerSecond`, so new pictures are needed.
+/// Result of budgetRun(), which lets mfard's renderer work in its threads for `frames` frames at 30
+/// per second. The view rotates by `degreesPerSecond`, so new pictures are needed.
 struct BudgetRun {
     double mean = 0, deviation = 0;  ///< see BudgetKept
     double samplesPerSecond = 0;     ///< samples per second of processor time

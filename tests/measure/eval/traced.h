@@ -29,7 +29,7 @@ struct TracedRequest {
 
 [[nodiscard]] std::vector<std::string> tracedMethodNames();
 
-/// Measures how the product shows path-traced objects while the camera moves. In compared frames,
+/// Measures how mfard shows path-traced objects while the camera moves. In compared frames,
 /// the layer that was made within the budget is compared with a picture traced for the same view,
 /// both over grey paper. Rows are SCENE/PATH, frame and method. Means leave out the first half
 /// second.
