@@ -187,18 +187,18 @@ void expectTheOraclesMatches(const Print& in, const Matched& got) {
 
 using DirectEngines = GlTest;
 
-TEST_F(DirectEngines, TheHostComparesWithTheStillItselfAsTheOracleDoes) {
+TEST_F(DirectEngines, SimdComparisonWithTheStillMatchesTheOracle) {
     const Print in;
     expectTheOraclesMatches(in, matchedOnHost(in));
 }
 
-TEST_F(DirectEngines, TheGpuComparesWithTheStillItselfAsTheOracleDoes) {
+TEST_F(DirectEngines, GlesComparisonWithTheStillMatchesTheOracle) {
     const Print in;
     expectTheOraclesMatches(in, matchedOnGpu(in));
 }
 
 // The reduced still cannot show which flow is right, because the print aliases.
-TEST_F(DirectEngines, FinePrintGetsTheFlowAlongTheLinesAndAHighCorrelation) {
+TEST_F(DirectEngines, FinePrintGetsTheFlowAlongEpipolarLinesAndAHighCorrelation) {
     const Print in;
     const Matched got = matchedOnHost(in);
     int right = 0, doubtful = 0;

@@ -108,7 +108,7 @@ TEST(ShaderBudgetChecker, FindsImagesWithoutAccess) {
                 "image a is neither readonly nor writeonly");
 }
 
-TEST(ShaderBudgetChecker, FindsVariantsThatNoLineDeclares) {
+TEST(ShaderBudgetChecker, FindsMacrosThatNoVariantLineDeclares) {
     const std::string text = "#ifdef TWO_WAY\n#endif\n";
     EXPECT_TRUE(shaderTextFaults("// Variant: #define TWO_WAY 1\n" + text).empty());
     expectFault(shaderTextFaults(text), "macro TWO_WAY");

@@ -111,7 +111,7 @@ TEST_F(TileListsGl, TileFlagsAndListsMatchTheOracles) {
     EXPECT_LT(count, 200);
 }
 
-TEST_F(TileListsGl, CoarserLevelsContainAllGroupsThatFinerOnesRead) {
+TEST_F(TileListsGl, ListsOfCoarserLevelsContainAllGroupsThatFinerLevelsRead) {
     TileBuffer tiles(kVideoSize);
     TileLists lists(kCells, kLevels);
     std::vector<Cell> fields(2UL * kCount, Cell{0, 0, 0, 1e4F});
