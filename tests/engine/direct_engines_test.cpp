@@ -27,8 +27,9 @@ Eigen::Vector2d trueFlow(double x, double y) {
     return {2.3 + 0.012 * x - 0.006 * y, -1.6 - 0.004 * x + 0.02 * y};
 }
 
-/// A video of fine print that aliases. The lines' flow is correct but for small errors and some
-/// outliers; the refined flow is off by up to a pixel. Some cells are not doubtful or not matched.
+/// A video of fine print that aliases. The flow along epipolar lines (`lines`) is correct but for
+/// small errors and some outliers; the refined flow (`given`) is off by up to a pixel. Some cells
+/// are not doubtful or not matched.
 struct Print {
     Print()
         : video(kVideo), rig(bentRig(kVideo, kStill)), work(TileWork::everything(tilesOf(kVideo))) {
@@ -186,18 +187,18 @@ void expectTheOraclesMatches(const Print& in, const Matched& got) {
 
 using DirectEngines = GlTest;
 
-TEST_F(DirectEngines, TheHostComparesWithTheStillItselfAsTheOracleDoes) {
+TEST_F(DirectEngines, SimdComparisonWithTheStillMatchesTheOracle) {
     const Print in;
     expectTheOraclesMatches(in, matchedOnHost(in));
 }
 
-TEST_F(DirectEngines, TheGpuComparesWithTheStillItselfAsTheOracleDoes) {
+TEST_F(DirectEngines, GlesComparisonWithTheStillMatchesTheOracle) {
     const Print in;
     expectTheOraclesMatches(in, matchedOnGpu(in));
 }
 
 // The reduced still cannot show which flow is right, because the print aliases.
-TEST_F(DirectEngines, FinePrintGetsTheFlowAlongTheLinesAndAHighCorrelation) {
+TEST_F(DirectEngines, FinePrintGetsTheFlowAlongEpipolarLinesAndAHighCorrelation) {
     const Print in;
     const Matched got = matchedOnHost(in);
     int right = 0, doubtful = 0;

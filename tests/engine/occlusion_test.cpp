@@ -244,7 +244,7 @@ struct EdgeScene {
     }
 };
 
-TEST_P(OcclusionTest, PartlyOccludedObjectEndsAtTheImageEdge) {
+TEST_P(OcclusionTest, PartlyOccludedObjectEndsAtTheOccludersEdgeInThePicture) {
     for (const double degrees : {0.0, 7.0, -20.0, 38.0})
         for (const auto& [contrast, most] : {std::pair{90.0, 0.08}, {0.0, 0.3}}) {
             const EdgeScene edge{degrees, contrast, kCoarse, kFine};

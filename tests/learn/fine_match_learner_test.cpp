@@ -33,7 +33,7 @@ TEST(FineMatchLearner, FindsTheNoiseOfTheVideo) {
     }
 }
 
-TEST(FineMatchLearner, InaccurateMatchesRaiseTheLearnedShare) {
+TEST(FineMatchLearner, InaccurateMatchesRaiseTheUnpredictedShareOfDetail) {
     const float right = learned({.videoNoise = 1}).share,
                 off = learned({.videoNoise = 1, .shift = 0.3}).share;
     EXPECT_GT(off, right + 0.02);

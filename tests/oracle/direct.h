@@ -43,7 +43,8 @@ inline Eigen::Vector2d smoothLine(const DirectCase& in, int x, int y) {
         std::ranges::sort(nine);
         middle[axis] = nine[4];
     }
-    // Every pair is visited twice, which changes nothing in a mean.
+    // The loop visits each pair of opposite neighbours twice. The weighted mean stays the same,
+    // because the middle counts twice too.
     Eigen::Vector2d sum = 2 * middle;
     double weight = 2;
     for (int j = -2; j <= 2; ++j)
@@ -113,8 +114,9 @@ struct DirectResult {
     Eigen::Vector2d flow;
     Eigen::Vector4d likeness;
     double error;
-    bool compared;        ///< the sums of the comparison are used
-    double choiceMargin;  ///< how far the choice of the flow is from the other choice
+    bool compared;  ///< true: `likeness` replaces the cell's statistics
+    /// Change of the squared correlation that would choose the other flow; 1 if there is no other.
+    double choiceMargin;
 };
 
 inline DirectResult matchDirectly(const DirectCase& in, int x, int y, const FlowCell& flow,

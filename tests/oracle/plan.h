@@ -22,9 +22,9 @@ struct TileChange {
     /// Squared mean plus squared slopes of the cells' mean differences, divided by the variance
     /// that noise gives them. Maximum over the channels.
     double moments = 0;
-    /// Mean squares of three measures of the luma's difference: twist() of pixels, scaled 2x2
-    /// means, and scaled twist() of 2x2 means. For white noise, each equals the variance of a
-    /// pixel.
+    /// Mean squares of three measures of the luma's difference: [0] twist() of pixels, [1] 2x2
+    /// means times 2, [2] twist() of 2x2 means, times 2. If the difference is white noise, each
+    /// mean square is the noise's variance.
     std::array<double, 3> energy{};
     /// Sum of the squared residuals of a plane that is fitted to the luma's 2x2 means in a window
     /// of 8x8 pixels. Mean over nine windows.

@@ -23,8 +23,8 @@ Grey seen(Size grid, const At& at, double footprintX = params::kSeen,
     });
 }
 
-/// Like seen(), for a warped still of the output's size. Its footprint is smaller than that of
-/// seen(), because bilinear look-ups widen it. The total variance is the same.
+/// Like seen(), for a warped still of the output's size. Bilinear look-ups blur the warped still,
+/// so the footprint is smaller than that of seen(). Both filters have the same variance in total.
 inline Grey seenOf(const Grey& warped, Size video) {
     const double stepX = static_cast<double>(warped.size.width) / video.width,
                  stepY = static_cast<double>(warped.size.height) / video.height;

@@ -10,8 +10,9 @@ namespace mfar::test {
 /// A camera at rest. It gives the same view with different noise each time.
 class StoppedCamera {
 public:
-    /// `last`: the frame at which the board's camera stops. All later pictures have the noise of
-    /// this frame, shifted by some pixels. So the noise is as strong as the board's everywhere.
+    /// `last`: the frame at which the board's camera stops. Each later picture shows the view of
+    /// this frame with the frame's noise, which is shifted by some pixels. So its noise is as
+    /// strong as that of the board's pictures.
     StoppedCamera(SyntheticBoard& board, const Frame& last);
 
     /// Returns the next picture, which is valid until the next call.

@@ -11,10 +11,10 @@
 
 namespace mfar::stress {
 
-/// Chooses cases to be run at the product's size (see Scale), so that all passes process about
-/// equally many pixels. next() takes the pass with the fewest pixels and returns the case that
-/// processes most pixels of this pass per second. If no case has reached the pass at the product's
-/// size, next() returns a case that reached it with small pictures, but for a limited time.
+/// Chooses cases to be run at Scale::Product, so that all passes process about equally many pixels.
+/// next() finds the pass with the fewest pixels and returns the case that processes most pixels of
+/// this pass per second. If no case has reached the pass at Scale::Product, next() returns a case
+/// that reached it with smaller pictures, until this case has run for kTrial seconds.
 class Balance {
 public:
     explicit Balance(const std::vector<Case>& cases);

@@ -39,7 +39,7 @@ TEST(Balance, TheFastestCaseIsChosenForThePassWithTheFewestPixels) {
     EXPECT_EQ(nextOf(balance, checks), "");
 }
 
-TEST(Balance, PassesReachedOnlyBySmallPicturesAreTriedForALimitedTime) {
+TEST(Balance, CasesThatReachedAPassOnlyWithSmallPicturesRunForALimitedTime) {
     const auto cases = twoCases();
     Balance balance(cases);
     Checks checks;

@@ -32,8 +32,8 @@ std::vector<Case> allCases() {
 
 std::vector<std::string> run(const Case& one, std::uint64_t seed, Checks& checks, GlWatch& gl,
                              Scale scale) {
-    // Mixes seed and name, so that neighbouring seeds give different inputs, and so do two cases
-    // with the same seed.
+    // Mixes seed and name, so that the inputs differ between neighbouring seeds, and between two
+    // cases with the same seed.
     std::uint64_t mixed = seed;
     for (const char* c = one.name; *c != '\0'; ++c)
         mixed = (mixed ^ static_cast<unsigned char>(*c)) * 0x100000001B3ULL;

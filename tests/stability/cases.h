@@ -15,8 +15,8 @@
 /// pictures or exchange the views. Then the results may change only as expected.
 namespace mfar::stress {
 
-/// Sizes of the pictures. Tests: small. Product: the sizes usual in mfard, which the comments here
-/// call the product's size (video about 640x480). Mixed: either, chosen at random.
+/// Sizes of the pictures. Tests: small. Product: the sizes usual in mfard (video about 640x480).
+/// Mixed: either, chosen at random.
 enum class Scale { Tests, Mixed, Product };
 
 struct Context {
@@ -36,7 +36,7 @@ struct Context {
 struct Case {
     const char* name;
     void (*run)(Context& context);
-    bool atProductSize = false;  ///< true: fast enough that Balance runs it at the product's size
+    bool atProductSize = false;  ///< true: fast enough that Balance runs it at Scale::Product
 };
 
 [[nodiscard]] std::vector<Case> allCases();

@@ -122,8 +122,10 @@ void compareWeights(Context& c, const CellWeights& gles, const CellWeights& simd
                             "difference of the engines' confidence");
             // Tolerance: the GPU stores look-ups in half precision.
             const double slack = 0.01 + 1e-3 * std::abs(lb[y][x].x) + 1e-3 * std::abs(lb[y][x].y);
-            c.checks.within(lb[y][x].x - la[y][x].x, -slack, slack, "engines' look-up difference");
-            c.checks.within(lb[y][x].y - la[y][x].y, -slack, slack, "engines' look-up difference");
+            c.checks.within(lb[y][x].x - la[y][x].x, -slack, slack,
+                            "difference of the engines' look-ups");
+            c.checks.within(lb[y][x].y - la[y][x].y, -slack, slack,
+                            "difference of the engines' look-ups");
         }
 }
 

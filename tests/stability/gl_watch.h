@@ -20,8 +20,9 @@ public:
     GlWatch(const GlWatch&) = delete;
     GlWatch& operator=(const GlWatch&) = delete;
 
-    /// To be called after each frame. Counts the pixels of each pass that ran since the last call:
-    /// `pixels`, or more if the pass wrote more. Reports faults of these passes.
+    /// The caller calls this after each frame, whose passes process `pixels` pixels each. For every
+    /// pass that ran since the last call, adds `pixels` to the pass's count in `checks`, or the
+    /// number of written pixels if it is larger. Adds the faults of these passes to `checks`.
     void frame(Checks& checks, long pixels);
 
 private:

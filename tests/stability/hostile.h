@@ -45,8 +45,8 @@ public:
     [[nodiscard]] CameraModel camera(Size size);
     [[nodiscard]] Eigen::Vector3d direction();
     [[nodiscard]] Eigen::Quaterniond turn();
-    /// A motion with small or large rotation. The translation has a length of zero to a thousand
-    /// units and leads sideways, forwards or backwards. The epipole may be in the picture, at its
+    /// A motion with small or large rotation. The translation leads sideways, forwards or
+    /// backwards; its length is 0 to 1000 times `unit`. The epipole may be in the picture, at its
     /// border or near it.
     [[nodiscard]] RigidTransform motion(double unit = 1);
     [[nodiscard]] RigidTransform gentle(double unit = 1);

@@ -148,7 +148,7 @@ Tally Run::drawSeeds(std::uint64_t first) {
             runCase(one, seed, scale);
             if (stops()) break;
         }
-        // Runs cases at the product's size, for three times as long as the loop above took.
+        // Runs cases at Scale::Product, for three times as long as the loop above took.
         if (scale == Scale::Mixed && !repeats)
             fillUp(seed, std::min(4 * minutes() - 3 * start, options_.run.minutes));
         ++seeds_;

@@ -64,8 +64,10 @@ void lumaPyramids(Context& c) {
     compare(pair.first(), twin::smoothed(twin::luma(a.view())),
             "error of luma at the finest pyramid level");
     for (int level = 1; level < static_cast<int>(pair.pyramids.video().size()); ++level) {
-        compare(pair.first(level), twin::halved(pair.first(level - 1)), "coarser luma");
-        compare(pair.second(level), twin::halved(pair.second(level - 1)), "coarser luma");
+        compare(pair.first(level), twin::halved(pair.first(level - 1)),
+                "error of luma at a coarser pyramid level");
+        compare(pair.second(level), twin::halved(pair.second(level - 1)),
+                "error of luma at a coarser pyramid level");
     }
     c.gl.frame(c.checks, pixelsOf(size));
 }

@@ -92,8 +92,8 @@ void frames(Context& c) {
         pipeline.setObjects(objects);
     }
     Timestamp time{};
-    // More frames are run at the product's size, because creating a pipeline takes as long as
-    // several frames.
+    // More frames are run at Scale::Product, because creating a pipeline takes as long as several
+    // frames.
     const int count = c.scale == Scale::Product ? 12 : 5;
     for (int frame = 0; frame < count; ++frame) {
         if (frame == 0 || c.hostile.chance(0.3))

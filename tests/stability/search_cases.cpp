@@ -32,7 +32,8 @@ void checkSearch(Context& c, const EpipolarSearch& search) {
                     "pixels per unit of inverse depth");
     c.checks.within(search.normalError(), 0, 1e7, "expected distance from epipolar lines [px]");
     for (const float s : search.s())
-        c.checks.within(s * search.pixelsPerUnit(), -2e4, 2e4, "inverse depth in pixels");
+        c.checks.within(s * search.pixelsPerUnit(), -2e4, 2e4,
+                        "inverse depth times pixels per unit [px]");
 }
 
 std::vector<float> predictionFor(Context& c, Size area) {
@@ -135,7 +136,8 @@ void hostileFlowOfPoses(Context& c) {
         else
             flow.run(video.view(), pose(), where);
         checkSearch(c, flow.search());
-        c.checks.within(flow.unit(), 1e-300, 1e300, "the search's unit of length");
+        c.checks.within(flow.unit(), 1e-300, 1e300,
+                        "length of the search's unit, in units of the poses");
         for (const auto& v : flow.forward())
             for (const float x : v)
                 c.checks.within(x, -2e4, 2e4, "flow of a cell");
@@ -272,7 +274,7 @@ void hostileLuma(Context& c) {
     const auto [low, high] = std::ranges::minmax(luma.pixels);
     for (const LumaImage* one : {&half, &soft})
         for (const std::uint8_t v : one->pixels)
-            c.checks.within(v, low - 1, high + 1, "a mean of pixels");
+            c.checks.within(v, low - 1, high + 1, "luma after halving or smoothing");
     const Size to{c.hostile.integer(1, size.width), c.hostile.integer(1, size.height)};
     shrinkLuma(picture.view(), to, *workers(), small);
     double sum = 0, shrunk = 0;
@@ -282,7 +284,7 @@ void hostileLuma(Context& c) {
         shrunk += v;
     c.checks.within(shrunk / static_cast<double>(pixelsOf(to)) -
                         sum / static_cast<double>(pixelsOf(size)),
-                    -0.6, 0.6, "mean of a smaller picture");
+                    -0.6, 0.6, "error of a reduced picture's mean luma");
     c.checks.within(noiseOf(luma), 0, 427, "sigma of the luma's noise [grey levels]");
     c.checks.through("luma", pixelsOf(size));
 }

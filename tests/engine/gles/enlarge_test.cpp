@@ -71,8 +71,8 @@ Grey residualOf(const TestPicture& picture, const FilterBank& bank, const TileWo
     });
 }
 
-/// pixels: number of compared pixels. all: includes pixels near the border between two classes,
-/// which are not compared, because rounding to single precision decides their class.
+/// `pixels` is the number of compared pixels. `all` also counts pixels near the border between two
+/// classes. These are not compared, because rounding to single precision decides their class.
 struct Compared {
     int pixels = 0, all = 0;
 };

@@ -13,8 +13,8 @@ namespace {
 using FlowPasses = GlTest;
 using Eigen::Vector2d;
 
-// Absolute tolerance of a cell's cost, relative tolerance of its texture. The shader computes both
-// in single precision from sums of 64 squared differences.
+// Absolute tolerance of a cell's cost, and relative tolerance of its texture. The shader computes
+// cost and texture in single precision from sums of 64 squared differences.
 constexpr double kTolerance = 2e-3;
 constexpr Size kSize{61, 45};  // one pyramid level; the picture cuts off the last cells
 constexpr Size kCells{16, 12};

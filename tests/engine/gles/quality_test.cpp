@@ -114,7 +114,7 @@ TEST_F(QualityTest, SettingsChangedBetweenFramesActLikeInitialSettings) {
     }
 }
 
-TEST_F(QualityTest, PosesAreIgnoredIfAlongLinesIsOff) {
+TEST_F(QualityTest, PosesAreIgnoredIfTheOptionAlongLinesIsOff) {
     const PipelineCase c;
     Pipeline blind(c.rig, {}), posed(c.rig, {});
     posed.setQuality({.alongLines = false});

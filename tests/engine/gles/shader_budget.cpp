@@ -37,7 +37,8 @@ void checkImages(const std::string& code, Faults& faults) {
         if (found(declaration, R"(\b(readonly|writeonly)\b)")) continue;
         faults.push_back("image " + it->str(1) + " is neither readonly nor writeonly");
         if (found(declaration, R"(\brgba16f\b)"))
-            faults.push_back("image " + it->str(1) + " is read-write rgba16f");
+            faults.push_back("image " + it->str(1) +
+                             " is rgba16f, which OpenGL ES 3.1 does not read and write");
     }
 }
 

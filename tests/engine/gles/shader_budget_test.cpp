@@ -103,12 +103,12 @@ TEST(ShaderBudgetChecker, FindsImagesWithoutAccess) {
     const std::string format = "layout(binding = 0, rgba16f) ";
     EXPECT_TRUE(shaderTextFaults(format + "readonly uniform image2D a;").empty());
     EXPECT_TRUE(shaderTextFaults(format + "uniform writeonly image2D a;").empty());
-    expectFault(shaderTextFaults(format + "uniform image2D a;"), "image a is read-write rgba16f");
+    expectFault(shaderTextFaults(format + "uniform image2D a;"), "image a is rgba16f, which");
     expectFault(shaderTextFaults("layout(r32ui) uniform uimage2D a;"),
                 "image a is neither readonly nor writeonly");
 }
 
-TEST(ShaderBudgetChecker, FindsVariantsThatNoLineDeclares) {
+TEST(ShaderBudgetChecker, FindsMacrosThatNoVariantLineDeclares) {
     const std::string text = "#ifdef TWO_WAY\n#endif\n";
     EXPECT_TRUE(shaderTextFaults("// Variant: #define TWO_WAY 1\n" + text).empty());
     expectFault(shaderTextFaults(text), "macro TWO_WAY");

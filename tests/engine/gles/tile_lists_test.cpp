@@ -70,7 +70,8 @@ std::vector<bool> twinClosed(const std::vector<bool>& flags) {
 }
 
 /// A group is a work group (y * 65536 + x) of the flow search. Returns the groups of the next
-/// coarser pyramid level that `groups` read: those at the same position and their neighbours.
+/// coarser pyramid level whose results `groups` read: those at the same position and their
+/// neighbours.
 std::set<std::uint32_t> twinAbove(const std::set<std::uint32_t>& groups, Size level) {
     std::set<std::uint32_t> out;
     for (const std::uint32_t g : groups)
@@ -110,7 +111,7 @@ TEST_F(TileListsGl, TileFlagsAndListsMatchTheOracles) {
     EXPECT_LT(count, 200);
 }
 
-TEST_F(TileListsGl, CoarserLevelsContainAllGroupsThatFinerOnesRead) {
+TEST_F(TileListsGl, ListsOfCoarserLevelsContainAllGroupsThatFinerLevelsRead) {
     TileBuffer tiles(kVideoSize);
     TileLists lists(kCells, kLevels);
     std::vector<Cell> fields(2UL * kCount, Cell{0, 0, 0, 1e4F});

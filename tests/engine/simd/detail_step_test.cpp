@@ -201,7 +201,7 @@ TEST(DetailStep, TilesWithoutWeightAreOnlyEnlarged) {
     EXPECT_LE(worst, 2);
 }
 
-TEST(DetailStep, TilesWithoutAMatchStayCountedUntilTheyAreDrawn) {
+TEST(DetailStep, UnmatchedTilesStayCountedUntilTheyAreDrawnAgain) {
     DetailCase frame({64, 48}, {200, 150});
     const auto workers = std::make_shared<Workers>(2);
     StillPreparation still(frame.rig, {200, 150}, workers);

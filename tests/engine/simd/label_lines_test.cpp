@@ -54,7 +54,8 @@ struct Problem {
 // A label is an inverse depth in steps of LabelLines::perLabel. Labels are processed in vectors of
 // 16, whose points lie evenly on a straight line in the still. Here, a label's cost is the Hamming
 // distance of the pixel's census from that of the still pixel nearest to the label's point. With
-// `slack`, it is the least distance of this and the two pixels one pixel beside the line.
+// `slack`, it is the least of three distances: from this still pixel, and from the still pixels
+// nearest to the points one pixel to the left and to the right of the line.
 TEST(LabelCosts, CostOfALabelIsItsCensusDistanceToTheNearestStillPixel) {
     for (const std::size_t width : {1UL, 5UL, 64UL, 150UL}) {
         for (const int vectors : {1, 3}) {

@@ -49,8 +49,8 @@ void fillPart(Arrays& arrays, const std::string& name, unsigned seed) {
         count = std::max(count, 0.0F);
 }
 
-/// Three surfaces, pixels without a surface and fixed pixels; two depths; normals up to 37 degrees
-/// from the axis.
+/// Fills a picture with three surfaces at two depths, whose normals are up to 37 degrees from the
+/// axis. A twentieth of the pixels has no surface, and a twentieth must stay unfiltered (`fixed`).
 void fillSurfaces(Arrays& arrays) {
     const auto at = test::randomValues<float>(kPixels, 0, 1, 91);
     const auto x = test::randomValues<float>(kPixels, -0.6, 0.6, 92);

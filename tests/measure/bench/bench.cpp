@@ -34,8 +34,7 @@ Workload withoutPoses(Workload work) {
     return work;
 }
 
-/// Runs the product's pipeline on the frames of a workload. Setting a still is not part of a
-/// frame's time.
+/// Runs mfar's pipeline on the frames of a workload. Setting a still is not part of a frame's time.
 class Ours {
 public:
     Ours(const Workload& work, SuperResMode mode, EngineKind engine, int threads = 0,
@@ -146,7 +145,7 @@ public:
         return eval::wallMs([&] { paper_.run(work_.frames[i]); });
     }
     void measure(std::size_t i) { ms_.push_back(run(i)); }
-    /// `ours`: times of the product for the same frames [ms].
+    /// `ours`: mfar's times for the same frames [ms].
     [[nodiscard]] PeerResult result(const CaseResult& of, const std::vector<double>& ours) const {
         const Summary own = summarise(ms_);
         std::vector<double> ratios;

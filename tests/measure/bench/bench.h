@@ -29,12 +29,12 @@ struct CaseResult {
 };
 
 /// Times of a peer: the paper's method, built on OpenCV. The peer processed each frame right after
-/// the product.
+/// mfar.
 struct PeerResult {
     std::string name;
     std::string of;  ///< name of the CaseResult with which the peer is compared
     Summary frame;
-    /// Product's median time divided by the peer's; below 1: the product is faster.
+    /// mfar's median time divided by the peer's; below 1: mfar is faster.
     double ratio = 0;
     double low = 0, high = 0;  ///< 10th and 90th percentile of the ratios of single frames
 };

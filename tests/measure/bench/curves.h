@@ -38,7 +38,7 @@ struct Curves {
 };
 
 /// Measures every knob of the flow on all samples. Knobs of the epipolar search need samples with
-/// poses. flow2d computes both directions, as in the product, but starts without the last frame's
+/// poses. flow2d computes both directions, as in mfard, but starts without the last frame's
 /// flow. Setting a still is not timed. Needs a current GL context. Throws std::invalid_argument if
 /// there are no samples.
 [[nodiscard]] Curves measureCurves(const std::vector<CurveSample>& samples,

@@ -30,7 +30,6 @@ struct ParetoStage {
 /// Indices of the points that no other point dominates, by ascending time.
 [[nodiscard]] std::vector<std::size_t> paretoFront(const std::vector<ParetoPoint>& points);
 
-/// Names of the peers that dominate `point`.
 [[nodiscard]] std::vector<std::string> dominatingPeers(const ParetoStage& stage,
                                                        const ParetoPoint& point);
 

@@ -21,8 +21,7 @@ namespace fs = std::filesystem;
 // faster one is left out, because it hardly saves time.
 constexpr double kLeastStep = 1.05;
 
-/// Quality levels from fast to accurate: the product's points that no other of its points
-/// dominates.
+/// Quality levels from fast to accurate: the points of mfar that no other point of mfar dominates.
 std::vector<QualityLevel> levelsOf(const ParetoStage& superres) {
     std::vector<ParetoPoint> ours;
     for (const ParetoPoint& p : superres.points)

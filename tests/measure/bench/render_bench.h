@@ -6,16 +6,16 @@
 namespace mfar::bench {
 
 /// Rays and samples per second in one thread, for a 640x480 camera that looks at a sphere. `bare`:
-/// Embree's rtcIntersect1 in a plain loop. `ours`: the product's camera rays, which include the
-/// lens and are traced in packets. `samples`: whole paths of a matt surface in sunlight.
+/// Embree's rtcIntersect1 in a plain loop. `ours`: mfar's camera rays, which include the lens and
+/// are traced in packets. `samples`: whole paths of a matt surface in sunlight.
 struct RayRates {
     int triangles = 0;
     double bare = 0, ours = 0;  ///< [million rays/s]
     double samples = 0;         ///< [million samples/s]
 };
 
-/// RMS error of a picture's radiance at 16 samples per pixel. `ours`: with the product's random
-/// numbers. `independent`: with PathTracerOptions::independentSamples.
+/// RMS error of a picture's radiance at 16 samples per pixel. `ours`: with mfar's random numbers.
+/// `independent`: with PathTracerOptions::independentSamples.
 struct SamplingError {
     std::string scene;
     double ours = 0, independent = 0;

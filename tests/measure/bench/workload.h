@@ -18,7 +18,7 @@ class SyntheticBoard;
 
 namespace mfar::bench {
 
-/// A still and a frame that was matched with it, from which the product learns.
+/// A still and a frame that was matched with it, from which mfar learns filters.
 struct Lesson {
     cv::Mat still, frame;
     std::optional<Pose> stillPose{}, framePose{};

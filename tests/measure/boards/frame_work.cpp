@@ -1,6 +1,7 @@
-// Measures the work per frame on a board for `./run board-report`, on synthetic pictures. On GLES,
-// lists every draw and dispatch with its invocations and bytes. On SIMD, runs the frames under an
-// emulator that counts instructions, or times them.
+// Measures the work per frame for `./run board-report`, which predicts the speed on a board. For
+// GLES, lists every draw and dispatch with its invocations and bytes. For SIMD, only runs the
+// frames: the report runs this program in an emulator that counts its instructions. With --time,
+// lists the time of each stage instead.
 
 #include "hal/gl_context.h"
 #include "pipeline/enlarge/prior_filters.h"

@@ -271,7 +271,7 @@ nlohmann::json jsonOf(const PassWork& work) {
 
 }  // namespace mfar::boards
 
-// The linker's option --wrap redirects the product's GL calls to these functions.
+// The linker's option --wrap redirects the pipeline's GL calls to these functions.
 using namespace mfar::boards;
 extern "C" {
 

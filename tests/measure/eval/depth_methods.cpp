@@ -52,8 +52,8 @@ private:
     std::optional<Pose> stillPose_;
 };
 
-/// The product's depth: search along epipolar lines, filtered over the frames. The time includes
-/// all stages that depth needs.
+/// mfar's depth: search along epipolar lines, filtered over the frames. The time includes all
+/// stages that depth needs.
 class FilteredDepth final : public DepthMethod {
 public:
     explicit FilteredDepth(const StereoRig& rig)

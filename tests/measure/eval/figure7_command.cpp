@@ -9,8 +9,8 @@ namespace mfar::eval {
 namespace {
 
 constexpr const char* kFigure7Help =
-    "Repeats Figure 7 of the paper. Methods: ground truth, the product (detail), the paper's\n"
-    "blending with the product's flow (blend), the paper's method with OpenCV's flow (paper),\n"
+    "Repeats Figure 7 of the paper. Methods: ground truth, mfar (its mode detail), the paper's\n"
+    "blending with mfar's flow (mode blend), the paper's method with OpenCV's flow (paper),\n"
     "bicubic and bilinear enlargement. Values are those of luma (Rec. 601) without 32 px of\n"
     "border. Synthetic scenes are seen by a hand-held camera with exact poses: a still is\n"
     "requested every ten frames, and the fifth frame after each request is measured.\n"

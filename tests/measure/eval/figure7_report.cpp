@@ -9,7 +9,7 @@ namespace mfar::eval {
 const std::vector<Figure7Method>& figure7Methods() {
     static const std::vector<Figure7Method> methods{
         {"truth", "ground truth"},
-        {"detail", "ours"},
+        {"detail", "mfar"},
         {"blend", "the paper's blending on mfar's flow"},
         {"paper", "the paper's method (OpenCV DIS)"},
         {"bicubic", "bicubic"},

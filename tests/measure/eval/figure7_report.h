@@ -8,7 +8,7 @@
 
 namespace mfar::eval {
 
-/// A method of the figure. In figure7Methods(), the first is the truth and the second the product.
+/// A method of the figure. In figure7Methods(), the first is the truth and the second is mfar.
 struct Figure7Method {
     const char* name;
     const char* title;

@@ -30,7 +30,7 @@ Figure7Scene steps(const std::string& name, std::size_t frames) {
 
 const PictureMetrics kAsked{{"psnr", "lpc_si", "lpc_si_tiles", "hdrvdp"}, {}};
 
-TEST(Figure7, SummaryComparesTheProductWithTheOtherMethods) {
+TEST(Figure7, SummaryComparesMfarWithTheOtherMethods) {
     EXPECT_EQ(
         figure7Summary({steps("desk", 2)}),
         "desk: HDR-VDP-2 Q 90.00 (+20.00 over the paper's method, +10.00 over the paper's blending "

@@ -106,7 +106,7 @@ private:
     std::optional<Pose> stillPose_;
 };
 
-/// The product's flow: along epipolar lines if both poses are known, otherwise in two dimensions.
+/// mfar's flow: along epipolar lines if both poses are known, otherwise in two dimensions.
 /// The time is that of the search along the lines, or of the 2-D flow in both directions.
 class ProductMethod final : public FlowMethod {
 public:

@@ -27,7 +27,7 @@ public:
 
 [[nodiscard]] const std::vector<std::string>& flowMethodNames();
 
-/// Makes flow methods. For the first of the product's methods, the factory creates a GL context,
+/// Makes flow methods. For the first of mfar's own methods, the factory creates a GL context,
 /// which stays current. create() throws std::invalid_argument for an unknown name.
 class FlowFactory {
 public:

@@ -24,9 +24,10 @@ struct FlowSet {
     std::vector<FlowSample> samples;
 };
 
-/// Finds the samples of a recording, or of a folder with flowNN.flo, frameNN.png and frameMM.png of
-/// the next higher number. Stills for which showsOwnView() is true are not used. Both pictures of a
-/// pair get the same pinhole camera. Throws EvalError and RecordingError.
+/// Finds the samples of a recording, or of a folder with pairs of frames. The flow of a pair,
+/// flowNN.flo, leads from frameNN.png to the frame with the next higher number. Both frames of a
+/// pair get the same pinhole camera. Stills for which showsOwnView() is true are not used. Throws
+/// EvalError and RecordingError.
 ///
 /// The truth of a recording is the first that exists of: 1. truth/flow/<ns>_<ns>.flo from a video
 /// frame to a still; 2. truth/inverse_depth of a video frame in a scene at rest, if the pose
@@ -41,8 +42,8 @@ struct FlowSet {
 /// the size differs, and ImageFileError.
 [[nodiscard]] cv::Mat loadTruth(const FlowSet& set, const FlowSample& sample);
 
-/// Load the pictures as CV_8UC3, with the pose in `given` or else the recorded pose. Throw
-/// ImageFileError, and EvalError if a picture does not have the rig's size.
+/// Load a picture as CV_8UC3, with its pose from sample.given or, if that is empty, the recorded
+/// pose. Throw ImageFileError, and EvalError if a picture does not have the rig's size.
 [[nodiscard]] Shot loadFrame(const FlowSet& set, const FlowSample& sample);
 [[nodiscard]] Shot loadStill(const FlowSet& set, const FlowSample& sample);
 

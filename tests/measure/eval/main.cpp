@@ -74,7 +74,7 @@ constexpr const char* kFlowHelp =
 constexpr const char* kDepthHelp =
     "Takes recordings with truth/inverse_depth and known poses, of a scene at rest. Frames,\n"
     "their references, occluded pixels and times are those of the subcommand flow. Methods\n"
-    "that find flow triangulate it. flow: the product's flow along epipolar lines,\n"
+    "that find flow triangulate it. flow: mfar's flow along epipolar lines,\n"
     "triangulated in closed form; midpoint: the same flow, triangulated by the midpoint of the\n"
     "shortest line between both rays, as in the paper; sgbm, stereobm: see mfar-eval flow.\n"
     "absrel: median of |z - true z| / true z where depth and truth are known; bad1: share of\n"

@@ -65,10 +65,10 @@ cv::Mat matchClasses(const StereoRig& rig, Size output, const StillMatch& match)
 
 std::string matchClassesHead() {
     return fmt::format(
-        "classes by the product's match of each pixel: outside = the flow leads outside the still; "
-        "unmatched = confidence below {:g} (two-way error above 1 video px, or occluded in the "
-        "still); matched = all others. For each class: share of the pixels, and gain of luma PSNR "
-        "over bicubic [dB] if the class has at least {:g} % of the pixels\n",
+        "classes of pixels by mfar's flow: outside = the flow leads outside the still; unmatched = "
+        "confidence below {:g} (two-way error above 1 video px, or occluded in the still); matched "
+        "= all others. For each class: share of the pixels, and gain of luma PSNR over bicubic "
+        "[dB] if the class has at least {:g} % of the pixels\n",
         kWellMatched, 100 * kSmallestClass);
 }
 

@@ -12,7 +12,7 @@ constexpr const char* kOcclusionHelp =
     "poses of the synthetic board.\n"
     "iou: intersection over union of the visible and the truly visible pixels; boundary_px:\n"
     "mean distance of the object's boundary from the true one [video px]; flicker (only for\n"
-    "path rest): share of all pixels of the object, occluded ones included, that are shown in\n"
+    "path `rest`): share of all pixels of the object, occluded ones included, that are shown in\n"
     "only one of two consecutive frames, at the output's resolution; depth_ms, composite_ms:\n"
     "time until the stage depth or composite is finished. A frame in which nothing changed\n"
     "needs neither stage.\n"

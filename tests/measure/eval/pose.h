@@ -20,7 +20,7 @@ struct PoseRequest {
     ProgressPart progress{};
 };
 
-/// Names of the product's poses. "filtered": pose of a frame after the tracker's filter over time;
+/// Names of mfar's poses. "filtered": pose of a frame after the tracker's filter over time;
 /// "raw": pose of a frame from its own tags only; "still": pose of a still from its own tags.
 [[nodiscard]] const std::vector<std::string>& poseMethodNames();
 

@@ -26,8 +26,8 @@ public:
         slices.begin(scene.bounds, scene.view.camera.size);
     }
 
-    /// Traces at most `most` samples of all pixels together and returns their number. A ray through
-    /// a pixel's centre counts as one sample.
+    /// Traces the next slice, which has at most `most` samples, and returns the number of its
+    /// samples. If slice.samples is 0, a ray through each pixel's centre counts as one sample.
     std::int64_t trace(std::int64_t most) {
         const double begin = threadCpuMs();
         const Slice slice = slices.next(most);

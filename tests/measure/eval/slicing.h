@@ -24,8 +24,8 @@ struct SlicingRequest {
 /// the picture without and with smoothed noise [grey levels of premultiplied RGBA inside the
 /// objects' bounds].
 ///
-/// Row `frames`: times of frames with equally many samples, as coefficient of variation, 95th
-/// percentile over the mean, and maximum over the mean. Row `budget`: `mean` and `deviation` of
+/// Row `frames`: standard deviation, 95th percentile and maximum of the times of frames with
+/// equally many samples, divided by the mean time. Row `budget`: `mean` and `deviation` of
 /// BudgetKept. Throws EvalError if the plot cannot be written.
 [[nodiscard]] Report evaluateSlicing(const SlicingRequest& request);
 

@@ -20,7 +20,7 @@ constexpr const char* kSlicingHelp =
     "Rows `frames`: a picture is divided into 64 frames with equal numbers of samples. ms:\n"
     "mean time of a frame; frame_cv, frame_p95, frame_max: standard deviation, 95th percentile\n"
     "and maximum of the times, divided by their mean.\n"
-    "Rows `budget`: the product's tracer keeps to the budget of processor time in each frame\n"
+    "Rows `budget`: mfard's tracer keeps to the budget of processor time in each frame\n"
     "while the view turns by 3 degrees per second. budget_mean: used time of all frames\n"
     "divided by their budget; budget_p95_off: 95th percentile of the deviation of this\n"
     "quotient from 1, over single frames.";

@@ -35,14 +35,15 @@ void StillLearning::report(const char* program) const {
     const EnlargerLearner::Counts& counts = learner_.counts();
     fmt::print(
         stderr,
-        "{}: learned from {} stills ({} refused, {} showed nothing new); {} of {} classes have a "
-        "learned filter; gain over bicubic on pixels that were kept for the check: learned filters "
-        "{:.2f} dB, shipped filters {:.2f} dB; guidance: {:.2f} of the still's finest detail "
-        "added, {:.2f} of the video's removed, learned from {} pairs of stills, gain on pixels of "
-        "the check {:.2f} dB; variance of the video's finest detail that a well matched still does "
-        "not predict: {:.2f} grey levels^2 + {:.3f} times the whole variance\n",
+        "{}: learned from {} stills ({} refused, {} showed nothing new). {} of {} classes have a "
+        "learned filter. On pixels kept for the check, learned filters gain {:.2f} dB over "
+        "bicubic, shipped filters {:.2f} dB. Guidance, learned from {} pairs of stills, adds "
+        "{:.2f} of the still's finest detail and removes {:.2f} of the video's; on pixels of its "
+        "check, this gains {:.2f} dB over no guidance. A well matched still does not predict all "
+        "of the video's finest detail: the variance of the rest is {:.2f} grey levels^2 + {:.3f} "
+        "times the whole variance\n",
         program, counts.stills, counts.refused, counts.repeated, counts.classes, enlarge::kUnique,
-        counts.gainDb, counts.priorDb, counts.guidance.still, counts.guidance.video, counts.pairs,
+        counts.gainDb, counts.priorDb, counts.pairs, counts.guidance.still, counts.guidance.video,
         counts.guidanceGainDb, counts.fineMatch.noise, counts.fineMatch.share);
 }
 

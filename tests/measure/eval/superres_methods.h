@@ -38,12 +38,12 @@ public:
 /// True if this method, without a still, gives no result or only a plain enlargement.
 [[nodiscard]] bool needsStill(const std::string& method);
 
-/// Makes methods. For the first of the product's methods, the factory creates a GL context, which
+/// Makes methods. For the first of mfar's own methods, the factory creates a GL context, which
 /// stays current. create() throws std::invalid_argument for an unknown name.
 class SuperResFactory {
 public:
     explicit SuperResFactory(double alpha) : alpha_(alpha) {}
-    /// Sets the filters of the product's methods; null: shipped filters.
+    /// Sets the filters of mfar's own methods; null: shipped filters.
     void setFilters(std::shared_ptr<const FilterBank> filters) { filters_ = std::move(filters); }
     void requireContext();
     [[nodiscard]] std::unique_ptr<SuperResMethod> create(const std::string& name,

@@ -64,7 +64,7 @@ TEST(MfarEval, SuperResDistinguishesClassesOfPixels) {
                             "{1}/out.csv",
                             MFAR_EVAL, folder.path().string()));
     ASSERT_EQ(outcome.status, 0) << outcome.text;
-    EXPECT_EQ(outcome.text.find("classes by the product's match"), 0U) << outcome.text;
+    EXPECT_EQ(outcome.text.find("classes of pixels by mfar's flow"), 0U) << outcome.text;
     const auto rows = readCsv(folder / "out.csv");
     ASSERT_EQ(rows.size(), 1U + 2 * 2 + 2);
     ASSERT_EQ(rows[0].size(), 18U);

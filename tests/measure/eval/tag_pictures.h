@@ -31,7 +31,9 @@ struct TagPictureFile {
 struct TagScore {
     double ms = 0;
     double cornerPx = 0;
-    int found = 0;  ///< known tags found with their id, and their centre within half an edge
+    /// Number of known tags that were found with the right id and with a centre that is off by less
+    /// than half an edge.
+    int found = 0;
     int missed = 0;
     int wrong = 0;
 };

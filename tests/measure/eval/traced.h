@@ -29,16 +29,16 @@ struct TracedRequest {
 
 [[nodiscard]] std::vector<std::string> tracedMethodNames();
 
-/// Measures how the product shows path-traced objects while the camera moves. In compared frames,
+/// Measures how mfard shows path-traced objects while the camera moves. In compared frames,
 /// the layer that was made within the budget is compared with a picture traced for the same view,
 /// both over grey paper. Rows are SCENE/PATH, frame and method. Means leave out the first half
 /// second.
 ///
-/// Columns: psnr of pixels where the truth shows an object [dB]; shadow_psnr where it shows a
-/// change of the real surface [dB]; flicker of the objects' luma [grey levels], see
-/// metrics/flicker.h; pictures, the number of traced pictures shown so far; warp_ms; with `hdrVdp`,
-/// hdrvdp_q of the whole frame on the display HdrVdpDisplay{}. The GLES engine needs a current
-/// context. Throws EvalError.
+/// Columns: psnr_db, of pixels where the truth shows an object; shadow_psnr_db, of pixels where the
+/// truth shows a shadow or light of an object on the real surface; flicker of the objects' luma
+/// [grey levels], see metrics/flicker.h; pictures, the number of traced pictures shown so far;
+/// warp_ms, the time of drawing the layer; with `hdrVdp`, hdrvdp_q of the whole frame on the
+/// display HdrVdpDisplay{}. The GLES engine needs a current context. Throws EvalError.
 [[nodiscard]] Report evaluateTraced(const TracedRequest& request);
 
 }  // namespace mfar::eval

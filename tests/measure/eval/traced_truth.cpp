@@ -14,7 +14,7 @@
 namespace mfar::eval {
 namespace {
 
-constexpr std::uint32_t kTruthSeed = 7;  // other random numbers than the product's
+constexpr std::uint32_t kTruthSeed = 7;  // not mfard's, so that its noise is independent
 
 PathTracerOptions truthOptions() {
     PathTracerOptions out;

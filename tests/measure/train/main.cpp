@@ -15,7 +15,7 @@ using namespace mfar;
 using namespace mfar::train;
 
 constexpr const char* kHelp =
-    "Learns the filters that the product ships (pipeline/enlarge/prior.filters) from the sharp\n"
+    "Learns the filters that mfar ships (pipeline/enlarge/prior.filters) from the sharp\n"
     "pictures of recordings (truth/highres, as mfar-sim writes them). From each sharp picture,\n"
     "four video pictures are made, whose pixels are means over their areas. The first has no\n"
     "noise, the second noise of sigma 0.7 (grey levels), the third noise of sigma 1.5, and the\n"
@@ -61,7 +61,7 @@ void learn(const Options& options) {
         return 10 * std::log10(outcome.cubicError[by] / outcome.error[by]);
     };
     fmt::print(
-        "read {} pictures; {} of {} classes have a filter; on the pictures that were kept for the "
+        "read {} pictures. {} of {} classes have a filter. On the pictures that were kept for the "
         "check, the filters are better than bicubic by {:.2f} dB (classes by gradient) and "
         "{:.2f} dB (classes by curvature)\n",
         pictures, outcome.used, enlarge::kUnique, gain(0), gain(1));

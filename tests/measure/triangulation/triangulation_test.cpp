@@ -132,7 +132,7 @@ struct OffLine {
     }
 };
 
-TEST(Triangulation, ErrorResidualAndRayDistanceMatchDoublePrecision) {
+TEST(Triangulation, SigmaResidualAndRayDistanceMatchDoublePrecision) {
     const OffLine wall;
     for (const TriangulationMethod method : kMethods) {
         const auto points = triangulated(wall.views, wall.flow, {.method = method, .flowSigma = 2});

@@ -35,9 +35,9 @@ cv::Mat logOfMean(const cv::Mat& a, const cv::Mat& b) {
     return out;
 }
 
-/// One row of a band. `self`, `others` and `beside` are masks: of the same orientation, of the
-/// band's other orientations, and of the adjacent bands. `sensitivity` is null for the base (the
-/// coarsest picture of the pyramid), because addBase() has already applied it.
+/// One row of a band. `self` is the mask of the same orientation, `others` is that of the band's
+/// other orientations, and `beside` is that of the adjacent bands. `sensitivity` is null for the
+/// base (the coarsest picture of the pyramid), because addBase() has already applied it.
 struct BandRow {
     const double *difference, *self, *others, *beside, *sensitivity, *weight;
 };
@@ -104,8 +104,8 @@ void BandComparison::decompose(Pathways pathways) {
     addBase(test, reference, testLuminance, referenceLuminance);
 }
 
-// The base has so many frequencies that one sensitivity would be too coarse. So it is filtered by
-// frequency.
+// The base covers so many frequencies that one sensitivity for all of them would be too inexact. So
+// a filter applies to each frequency its own sensitivity.
 void BandComparison::addBase(const cv::Mat& test, const cv::Mat& reference, double testLuminance,
                              double referenceLuminance) {
     Band& base = bands_.back();

@@ -12,7 +12,8 @@ namespace {
 constexpr int kLuminances = 2048;
 constexpr int kCurveSamples = 256;
 constexpr double kLeastLog = -5, kMostLog = 5;
-// Scales the model's sensitivities to measured ones.
+// integrated() multiplies the model's sensitivities by this value / 10^-2.4, so that they equal
+// measured ones.
 constexpr double kPeakSensitivity = 0.006894596;
 
 template <std::size_t N>

@@ -26,8 +26,9 @@ inline constexpr ReceptorWeights kGreyWeights{0.601847152244699, 0.3167082955791
 enum class Emission { FluorescentLcd, LedLcd, Crt };
 [[nodiscard]] const std::array<ReceptorWeights, 3>& rgbWeights(Emission emission);
 
-/// Parameters of masking: exponents of signal and mask; weights of the masks of the same
-/// orientation (`self`), of the band's other orientations, and of the adjacent bands.
+/// Parameters of masking: the exponents of signal and mask, and the weights of three masks. `self`
+/// is for the mask of the same orientation, `orientations` for that of the band's other
+/// orientations, and `neighbours` for that of the adjacent bands.
 struct Masking {
     double signalExponent, maskExponent;
     double self, orientations, neighbours;

@@ -84,8 +84,8 @@ TEST(HdrVdpReference, ConstantsOfTheEyeMatchTheReferenceTable) {
         expectRelative(got, row.number("value"), 1e-9, what);
         ++checked;
     }
-    // The S cones are not used, and some rows are factors of other rows. These rows are not
-    // checked.
+    // Rows of two kinds are not checked: those of the S cones, which the program does not use, and
+    // those whose values are only factors of values in other rows.
     EXPECT_EQ(checked, 3 + 27 + 36 + 12 + 90 + 24 + 5 + 2);
 }
 

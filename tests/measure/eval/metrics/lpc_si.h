@@ -12,8 +12,9 @@ namespace mfar::eval {
 inline constexpr double kLpcRelease = 0.75, kLpcVariant = 0.33;
 
 struct LpcOrientation {
-    std::array<double, 3> filterSum{};    ///< sum of the filter's gains at each scale, finest first
-    double mean = 0, deviation = 0;       ///< of the finest scale's amplitudes, without border
+    std::array<double, 3> filterSum{};  ///< sum of the filter's gains at each scale, finest first
+    /// Mean and standard deviation of the finest scale's amplitudes, without border.
+    double mean = 0, deviation = 0;
     double threshold = 0;                 ///< mean + 2 deviation; smaller amplitudes do not count
     double energy = 0;                    ///< sum of amplitudes above the threshold, whole picture
     std::array<double, 2> coarserMean{};  ///< mean amplitude at the coarser scales, whole picture
