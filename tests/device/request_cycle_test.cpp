@@ -205,7 +205,7 @@ TEST(RequestCycle, AHangingRestartDoesNotDelayTheOtherCamera) {
     std::thread reader([&] { EXPECT_FALSE(ill.cycle.next(kPatience)); });
     for (int i = 1; i <= 50; ++i) {
         EXPECT_TRUE(takes(sound, i));
-        ill.cycle.cancelled(0);  // the driver's thread can report this during a restart, too
+        ill.cycle.cancelled(0);  // the driver can report a cancelled request even during a restart
     }
     EXPECT_EQ(ill.starts().size(), 1U);
     ill.hang(false);

@@ -169,8 +169,8 @@ TEST(SemiGlobal, ALabelThatIsCheapestEverywhereWinsEverywhere) {
     }
 }
 
-// The surface rises by one label every second pixel. Only paths that use the shift of the windows
-// can follow it.
+// The surface rises by one label every second pixel. The windows of neighbouring pixels begin with
+// different labels. Only paths that take this difference into account can follow the surface.
 TEST(SemiGlobal, FollowsASlopeThroughMovingWindows) {
     Problem p = randomProblem({60, 24}, 1, 0, 3);
     p.smoothness = {12, 60, 255};

@@ -26,7 +26,6 @@ EmissiveTriangles::Sample sampleOf(const EmissiveTriangles& emitters, const Eige
     return emitters.sample(from, sampler.pair(0), sampler.pair(1).x());
 }
 
-// The mean of 1 / density over the samples is the solid angle that they cover.
 TEST(EmissiveTriangles, MeanInverseDensityIsTheSolidAngleOfTheTriangles) {
     const TracedScene scene(sceneOf(modelOf(square(1, 0), lampOf({1, 1, 1}))), 1);
     const EmissiveTriangles emitters(scene);

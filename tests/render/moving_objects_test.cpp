@@ -143,7 +143,8 @@ TEST(MovingObjects, NoShadowStaysWhereTheObjectWas) {
     double ghost = 0;
     int shadowed = 0;
     for (std::size_t i = 0; i < truth.id.size(); ++i) {
-        // Only pixels that were in the object's shadow before it jumped, and no longer are.
+        // Compares only pixels that were in the object's shadow before it jumped and must be lit
+        // now.
         if (before.id[i] != kCatcherId || before.colour[i][3] < 25 || truth.colour[i][3] > 15)
             continue;
         ++shadowed;

@@ -79,7 +79,8 @@ TEST(Sobol, ErrorsOfSmoothIntegralsAreFarBelowThoseOfRandomNumbers) {
     const double ours = errorOf(product, integral, 64, false);
     const double chance = errorOf(product, integral, 64, true);
     EXPECT_LT(ours * 15, chance);
-    // Independent samples have this error: the standard deviation of the product, divided by 8.
+    // The error of 64 independent samples is the standard deviation of product(), divided by
+    // sqrt(64).
     EXPECT_NEAR(chance, 0.666 / 8, 0.01);
 }
 
