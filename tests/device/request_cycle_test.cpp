@@ -179,7 +179,7 @@ TEST(RequestCycle, ASecondCancellationBeforeTheRestartIsNotCounted) {
     EXPECT_TRUE(takes(camera, 2));
 }
 
-TEST(RequestCycle, NextDoesNotBlockDuringThePauseBeforeARestart) {
+TEST(RequestCycle, WaitingForAPictureTimesOutDuringThePauseBeforeARestart) {
     constexpr RestartLimits kLimits{
         .early = milliseconds(60'000), .firstPause = milliseconds(60'000), .most = 5};
     FakeDriver camera(kLimits);

@@ -140,7 +140,7 @@ TEST(SemiGlobal, MatchesTheOracleWithWindowsOfEveryShift) {
             expectTwin(randomProblem({41, 23}, 1, reach, seed));
 }
 
-TEST(SemiGlobal, MatchesTheOracleWithSeveralVectors) {
+TEST(SemiGlobal, MatchesTheOracleWithSeveralSimdVectorsOfLabels) {
     for (const int vectors : {2, 3, 5})
         for (const int reach : {0, 7, 17, 40})
             expectTwin(randomProblem({33, 19}, vectors, reach, 10 + vectors));

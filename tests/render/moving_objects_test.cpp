@@ -87,7 +87,7 @@ struct MovingRun {
     double time = 0;
 };
 
-TEST(MovingObjects, APosedTracerGivesTheSamePictureAsANewTracer) {
+TEST(MovingObjects, ATracerWithNewPosesGivesTheSamePictureAsANewTracer) {
     const auto scene = swinging();
     const PathTracer tracer(scene);
     const auto poses = posesAt(*scene, Timestamp::fromSeconds(0.7));
@@ -125,7 +125,7 @@ TEST(MovingObjects, PicturesShowObjectsAtThePosesStoredWithThem) {
     EXPECT_LT(std::abs(from - now), 0.03) << "the picture must show nearly the present poses";
 }
 
-TEST(MovingObjects, PicturesFollowEachOtherAsLongAsAnObjectMoves) {
+TEST(MovingObjects, NewPicturesAreMadeAsLongAsAnObjectMoves) {
     MovingRun run(swinging());
     run.until(1);
     const std::size_t before = run.driver.shown.size();

@@ -73,7 +73,7 @@ double errorOf(F f, double integral, std::uint32_t n, bool independent) {
     return std::sqrt(squares / kPixels);
 }
 
-TEST(Sobol, ErrorsOfSmoothIntegralsAreFarBelowThoseOfRandomNumbers) {
+TEST(Sobol, SmoothIntegralsHaveFarSmallerErrorsThanWithRandomNumbers) {
     const auto product = [](const Eigen::Vector2f& u) { return std::exp(u.x()) * u.y(); };
     const double integral = 0.5 * (std::exp(1.0) - 1);
     const double ours = errorOf(product, integral, 64, false);
