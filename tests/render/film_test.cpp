@@ -186,7 +186,7 @@ TEST(Film, EdgePixelStoresTheLightOfTheSurfaceAtItsCentre) {
         const LightPixel light = film.light(0, {});
         EXPECT_EQ(light.id, centre);
         EXPECT_NEAR(light.first[0], expected, 1e-4F) << int{centre};
-        // means() mixes all objects.
+        // means() mixes the light of both objects.
         EXPECT_NEAR(film.means(0).object[0], 0.5F, 1e-4F);
         EXPECT_NEAR(film.means(0).objectShare, 2.0F / 3, 1e-4F);
     }

@@ -188,7 +188,7 @@ TEST(Slices, PixelsWithLittleNoiseAfterTheSparseSamplesGetNoMore) {
     Slices slices({Slicing::Time, 16, 4, 1, 8});
     slices.begin({0, 0, 32, 24}, {32, 24});
     NoisyPicture picture([](std::uint32_t) { return 1e6F; });
-    // In the left half, an earlier picture already gave the light.
+    // Pixels in the left half have little noise from the start, as if they reused earlier light.
     while (true) {
         const Slice slice = slices.next(50);
         if (slice.pixels.empty()) break;
