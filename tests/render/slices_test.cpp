@@ -226,7 +226,7 @@ TEST(Slices, TilesWithoutObjectsGetOnlyTheSparseSamples) {
     EXPECT_DOUBLE_EQ(slices.progress(), 1);
 }
 
-TEST(Slices, SparseDensitySkipsTilesAndPixels) {
+TEST(Slices, DensityNoneSamplesNoPixelAndDensityQuarterEveryFourth) {
     Slices slices({Slicing::Time, 4, 2, 0, 2});
     slices.begin({0, 0, 24, 8}, {24, 8}, [](const PixelRect& tile) {
         if (tile.x0 == 0) return Slices::Density::None;
