@@ -61,8 +61,9 @@ std::vector<float> solve(const Problem& p, int threads) {
 }
 
 /// Adds the path costs L in direction (dx, dy) to `sums`. For pixel p, label k and the previous
-/// pixel q: L(p, k) = C(p, k) + min(L(q, k), L(q, k +- 1) + step, jump) - min L(p, .), normalised
-/// so that min L(q, .) = 0. A label has the same number k in the windows of p and q.
+/// pixel q: L(p, k) = C(p, k) + min(L(q, k), L(q, k +- 1) + step, jump) - c(p). The constant c(p)
+/// makes the least L(p, k) of all k zero. Equal k mean the same label, also if the windows of p and
+/// q begin with different labels.
 void addPath(const Problem& p, int dx, int dy, std::vector<int>& sums) {
     const auto [w, h] = p.guide.size;
     const int labels = p.labels();

@@ -88,7 +88,7 @@ TEST(EmissiveTriangles, ProbabilityIsProportionalToPower) {
 }
 
 TEST(EmissiveTriangles, PowerOfATexturedTriangleFollowsFromItsMeanTexel) {
-    // The left square shows the texture's white texel, the right one only the black one.
+    // The left square shows only the texture's white texel, the right one only a black texel.
     Material lamp = lampOf({1, 1, 1});
     lamp.emissionTexture = 0;
     Model model;
@@ -102,7 +102,8 @@ TEST(EmissiveTriangles, PowerOfATexturedTriangleFollowsFromItsMeanTexel) {
         mesh.uvs.assign(4, {u, 0.5F});
         model.meshes.push_back(mesh);
     }
-    // The third square shows the whole texture: a quarter of the power.
+    // The third square shows the whole texture. Only a quarter of it is white, so that the square
+    // has a quarter of the first square's power.
     model.meshes.push_back(square(1, 0));
     const TracedScene scene(sceneOf(std::move(model)), 1);
     const EmissiveTriangles emitters(scene);
