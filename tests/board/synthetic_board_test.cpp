@@ -111,7 +111,7 @@ TEST(SyntheticBoard, FramesOutliveTheBoard) {
     EXPECT_FALSE(bytes(*frame).empty());
 }
 
-TEST(SyntheticBoard, NextTimesOutIfAllVideoBuffersAreInUse) {
+TEST(SyntheticBoard, WaitingForAFrameTimesOutIfAllVideoBuffersAreInUse) {
     SyntheticOptions options = flat(Pace::Consumer);
     options.videoBuffers = 2;
     SyntheticBoard board(options);

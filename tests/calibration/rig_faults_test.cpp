@@ -34,8 +34,8 @@ void writeAll(const fs::path& root) {
     writeFile(root / "cv.yml", openCvText());
 }
 
-/// load: folder or file to load. file: the edited file in it. from, to: text and its replacement.
-/// where: required start of the message. what: required part of the message.
+/// A fault: in `file`, the text `from` is replaced by `to`. Loading the folder or file `load` must
+/// then give a message that starts with `where` and contains `what`.
 struct Fault {
     const char *load, *file, *from, *to, *where, *what;
 };

@@ -8,7 +8,7 @@
 namespace mfar {
 namespace {
 
-/// A vector along the normal, twice as long as the triangle's area.
+/// A vector along the triangle's normal. Its length is twice the triangle's area.
 Eigen::Vector3f cross(const ShapeMesh& mesh, const std::array<std::uint32_t, 3>& t) {
     const auto at = [&](int i) { return mesh.vertices[t[i]].position; };
     return (at(1) - at(0)).cross(at(2) - at(0));

@@ -56,7 +56,7 @@ Machine::Cost scaled(double factor) {
     return [factor](std::size_t level) { return factor * fourLevels()[level].ms; };
 }
 
-TEST(Governor, StartsWithTheBestLevelPredictedByTheTable) {
+TEST(Governor, StartsWithTheBestLevelWhoseTimeInTheTableMeetsTheDeadline) {
     for (const auto& [deadline, level] :
          {std::pair{10., "off"}, {33., "off"}, {66., "a"}, {100., "b"}, {133., "b"}, {150., "c"}})
         EXPECT_EQ(Governor(fourLevels(), deadline).level().name, level) << deadline;

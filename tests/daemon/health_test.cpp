@@ -55,7 +55,6 @@ TEST_F(HealthTest, AFrozenPictureIsReportedAsDegraded) {
     EXPECT_TRUE(health.isAlive());
 }
 
-// The driver's dequeue call hangs, and the daemon draws the banner again and again.
 TEST_F(HealthTest, MfardIsNotAliveWhileADriverHangsAndTheBannerIsDrawn) {
     const Heartbeat capture(hearts, "capture", budget::kCapture);
     picture = now;

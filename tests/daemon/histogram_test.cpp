@@ -11,7 +11,7 @@
 namespace mfar {
 namespace {
 
-TEST(Histogram, QuantilesStayWithinTheBucketWidth) {
+TEST(Histogram, QuantilesAreExactExceptForTheWidthOfABucket) {
     std::mt19937 random(1);
     std::lognormal_distribution<double> times(3, 1.5);
     std::vector<double> all(10001);

@@ -19,7 +19,7 @@ std::uint64_t frames(const RunHistory& history) {
     return out;
 }
 
-TEST(TimeSpread, QuantilesStayWithinTheBucketWidth) {
+TEST(TimeSpread, QuantilesAreExactExceptForTheWidthOfABucket) {
     TimeSpread spread;
     for (int i = 1; i <= 1000; ++i)
         spread.add(0.1 * i);

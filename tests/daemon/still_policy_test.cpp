@@ -77,8 +77,8 @@ TEST(StillPolicy, WithACameraAtRestTheTriggerFiresOnceEvenIfNoPixelMatchesTheSti
     EXPECT_EQ(board.run(600, frame(0, 0.01)), 1);
 }
 
-// The first frame fires the trigger. Its statistics, by which all of the frame has changed, arrive
-// only after the trigger.
+// The first frame fires the trigger. Its statistics say that all of the frame has changed. They
+// arrive only after the trigger.
 TEST(StillPolicy, StatsOlderThanTheTriggerDoNotCountAsMotion) {
     Simulation board({});
     board.delay = kFrame;

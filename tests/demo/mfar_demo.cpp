@@ -39,7 +39,7 @@ struct Request {
 };
 
 void row(const std::string& what, const std::string& upscaled, const std::string& ours) {
-    fmt::print("  {:<34}{:>16}{:>12}\n", what, upscaled, ours);
+    fmt::print("  {:<36}{:>16}{:>12}\n", what, upscaled, ours);
 }
 
 void printTable(const Quality& q) {
@@ -48,7 +48,7 @@ void printTable(const Quality& q) {
     row("PSNR [dB]", fmt::format("{:.2f}", q.upscaledPsnrDb),
         fmt::format("{:.2f}", q.resultPsnrDb));
     row("SSIM", fmt::format("{:.4f}", q.upscaledSsim), fmt::format("{:.4f}", q.resultSsim));
-    row("pixels worse than upscaled [%]", "", fmt::format("{:.2f}", 100 * q.harmRate));
+    row("pixels worse than upscaled video [%]", "", fmt::format("{:.2f}", 100 * q.harmRate));
     row("mean confidence, 0 to 1", "", fmt::format("{:.3f}", q.meanConfidence));
     row("time of a frame [ms]", "", fmt::format("{:.1f}", q.frameMs));
     for (std::size_t i = 0; i < mfar::kTileClasses; ++i) {

@@ -57,8 +57,8 @@ void addScale(cv::Mat& canvas, cv::Point corner, const std::string& from, const 
     write(canvas, to, {corner.x + kLabel + ramp.cols + 12, corner.y + 18});
 }
 
-/// Returns the window of detailSize() that contains many hidden and many visible pixels of the
-/// virtual object: the smaller of the two numbers is the largest of all windows.
+/// Returns a window of detailSize() in which much of the virtual object is hidden and much is
+/// visible: the window with the largest min(number of hidden pixels, number of visible pixels).
 cv::Rect mostHidden(const OcclusionShown& shown) {
     const cv::Size window = detailSize(shown.composite.size());
     cv::Mat hidden, visible, both;

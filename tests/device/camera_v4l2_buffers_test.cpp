@@ -51,7 +51,7 @@ TEST(CameraV4l2Buffers, AllBuffersCanBeLentAtTheSameTime) {
     EXPECT_EQ(camera.cameraCounters().missed, 1U);
 }
 
-TEST(CameraV4l2Buffers, ReturnedBuffersAreQueuedWhileNextWaits) {
+TEST(CameraV4l2Buffers, ReturnedBuffersAreQueuedWhileAThreadWaitsForAPicture) {
     FakeV4l2 fake;
     CameraV4l2 camera(fourBuffers(), fake);
     camera.start();

@@ -221,7 +221,7 @@ TEST(CameraV4l2, TheTimeOfAPictureIsTheMiddleOfItsManualExposure) {
     EXPECT_NEAR(ageWith(V4L2_BUF_FLAG_TSTAMP_SRC_SOE, V4L2_EXPOSURE_AUTO), 1.0, 0.04);
 }
 
-TEST(CameraV4l2, StopWakesAThreadThatWaitsInNext) {
+TEST(CameraV4l2, StopWakesAThreadThatWaitsForAPicture) {
     FakeV4l2 fake;
     CameraV4l2 camera(wanted(), fake);
     camera.start();

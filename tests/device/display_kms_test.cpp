@@ -130,7 +130,7 @@ TEST_F(KmsScreenTest, FollowsConnectionAndModeOfTheMonitor) {
     EXPECT_EQ(driver_.buffers, 0);
 }
 
-// The buffers of the lost context stay on the screen until the new context shows some.
+// The screen shows a buffer of the lost context until the new context shows its first buffer.
 TEST_F(KmsScreenTest, ThePictureStaysWhileTheContextIsRecreated) {
     ASSERT_EQ(screen_.look(true), Presence::Ready);
     show();

@@ -214,8 +214,8 @@ private:
         return cycle.next(milliseconds(0));
     }
     [[nodiscard]] bool has(At where) const { return std::ranges::find(at_, where) != at_.end(); }
-    /// Hands a random one of the requests at `where` to the cycle. Returns the request's index;
-    /// empty if there is none.
+    /// Moves a random request from `where` to the request cycle. Returns the request's index; empty
+    /// if `where` has no request.
     std::optional<std::size_t> take(At where) {
         std::vector<std::size_t> those;
         for (std::size_t i = 0; i < kRequests; ++i)

@@ -179,7 +179,7 @@ TEST(RequestCycle, ASecondCancellationBeforeTheRestartIsNotCounted) {
     EXPECT_TRUE(takes(camera, 2));
 }
 
-TEST(RequestCycle, NextDoesNotBlockDuringThePauseBeforeARestart) {
+TEST(RequestCycle, WaitingForAPictureTimesOutDuringThePauseBeforeARestart) {
     constexpr RestartLimits kLimits{
         .early = milliseconds(60'000), .firstPause = milliseconds(60'000), .most = 5};
     FakeDriver camera(kLimits);
@@ -205,7 +205,7 @@ TEST(RequestCycle, AHangingRestartDoesNotDelayTheOtherCamera) {
     std::thread reader([&] { EXPECT_FALSE(ill.cycle.next(kPatience)); });
     for (int i = 1; i <= 50; ++i) {
         EXPECT_TRUE(takes(sound, i));
-        ill.cycle.cancelled(0);  // the driver's thread can report this during a restart, too
+        ill.cycle.cancelled(0);  // the driver can report a cancelled request even during a restart
     }
     EXPECT_EQ(ill.starts().size(), 1U);
     ill.hang(false);

@@ -156,8 +156,8 @@ void checkInQuiet() {
     }
 }
 
-/// True once begin() has restored the first thread's signal mask. Until then the thread blocks all
-/// signals because of begin(). This does not mean that mfard handles them.
+/// True once begin() has restored the first thread's signal mask. Before that, begin() blocks all
+/// signals, so that a blocked SIGTERM does not yet show that mfard handles it.
 std::atomic<bool> hasItsMask = false;
 
 /// True if the first thread blocks SIGTERM. If not, SIGTERM ends the process at once.

@@ -55,7 +55,7 @@ const std::vector<Eigen::Vector3d>& translations() {
     return all;
 }
 
-TEST(EpipolarSearchOdd, UniformAndExtremePicturesGiveFiniteFields) {
+TEST(EpipolarSearchOdd, UniformAndExtremePicturesGiveFiniteInverseDepths) {
     const Size size{97, 71};
     std::mt19937 random(1);
     const std::function<int(int, int)> greys[] = {
@@ -78,7 +78,7 @@ TEST(EpipolarSearchOdd, UniformAndExtremePicturesGiveFiniteFields) {
     }
 }
 
-TEST(EpipolarSearchOdd, UniformPicturesGiveAUniformField) {
+TEST(EpipolarSearchOdd, UniformPicturesGiveANearlyUniformInverseDepth) {
     const Size size{97, 71};
     EpipolarSearch search = test::searchWith(cameraOf(size), 2);
     search.setStill(test::viewOf(wholePictureOf(size, [](int, int) { return 90; })));
@@ -88,7 +88,7 @@ TEST(EpipolarSearchOdd, UniformPicturesGiveAUniformField) {
     EXPECT_LT((*greatest - *least) * search.pixelsPerUnit(), 8);
 }
 
-TEST(EpipolarSearchOdd, TinyAndOddSizesGiveValidFields) {
+TEST(EpipolarSearchOdd, PicturesOfTinyAndOddSizesGiveValidInverseDepths) {
     for (const Size size : {Size{16, 16}, Size{17, 16}, Size{61, 45}, Size{45, 61}, Size{16, 100},
                             Size{100, 16}, Size{121, 119}}) {
         for (const CameraModel& camera : {cameraOf(size), barrelOf(size)}) {

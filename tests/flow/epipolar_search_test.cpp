@@ -46,9 +46,9 @@ EpipolarSearch searched(const View& view, int threads = 2) {
     return search;
 }
 
-// Upper limits of the median error [px]. The cost of a point on the epipolar line is that of the
-// nearest still pixel. The search corrects the pixel's distance along the line but not its distance
-// from the line. Results are also biased towards pixel centres.
+// Upper limits of the median error [px] for oblique epipolar lines, and for lines along an axis of
+// the picture. The nearest still pixel gives the cost of a point on the line. The search corrects
+// only the distance between pixel and point along the line. So oblique lines have larger errors.
 constexpr double kAcross = 0.38, kAlongAxis = 0.22;
 
 void expectErrors(const View& view, double median, double bad) {
@@ -140,7 +140,7 @@ TEST(EpipolarSearch, PureRotationNeedsNoSearch) {
     }
 }
 
-// Per unit of s, no pixel may move farther than this, and some must move nearly as far.
+// pixelsPerUnit() is the motion of the fastest pixel if s changes by 1 [px].
 TEST(EpipolarSearch, PixelsPerUnitIsTheLongestMotionOfAPixel) {
     for (const Eigen::Vector3d& t :
          {Eigen::Vector3d(0.2, 0, 0), Eigen::Vector3d(0.1, -0.1, 0.3), Eigen::Vector3d(0, 0, -1)}) {

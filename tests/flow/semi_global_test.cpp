@@ -61,8 +61,9 @@ std::vector<float> solve(const Problem& p, int threads) {
 }
 
 /// Adds the path costs L in direction (dx, dy) to `sums`. For pixel p, label k and the previous
-/// pixel q: L(p, k) = C(p, k) + min(L(q, k), L(q, k +- 1) + step, jump) - min L(p, .), normalised
-/// so that min L(q, .) = 0. A label has the same number k in the windows of p and q.
+/// pixel q: L(p, k) = C(p, k) + min(L(q, k), L(q, k +- 1) + step, jump) - c(p). The constant c(p)
+/// makes the least L(p, k) of all k zero. Equal k mean the same label, also if the windows of p and
+/// q begin with different labels.
 void addPath(const Problem& p, int dx, int dy, std::vector<int>& sums) {
     const auto [w, h] = p.guide.size;
     const int labels = p.labels();
@@ -140,7 +141,7 @@ TEST(SemiGlobal, MatchesTheOracleWithWindowsOfEveryShift) {
             expectTwin(randomProblem({41, 23}, 1, reach, seed));
 }
 
-TEST(SemiGlobal, MatchesTheOracleWithSeveralVectors) {
+TEST(SemiGlobal, MatchesTheOracleWithSeveralSimdVectorsOfLabels) {
     for (const int vectors : {2, 3, 5})
         for (const int reach : {0, 7, 17, 40})
             expectTwin(randomProblem({33, 19}, vectors, reach, 10 + vectors));
@@ -169,8 +170,8 @@ TEST(SemiGlobal, ALabelThatIsCheapestEverywhereWinsEverywhere) {
     }
 }
 
-// The surface rises by one label every second pixel. Only paths that use the shift of the windows
-// can follow it.
+// The surface rises by one label every second pixel. The windows of neighbouring pixels begin with
+// different labels. Only paths that take this difference into account can follow the surface.
 TEST(SemiGlobal, FollowsASlopeThroughMovingWindows) {
     Problem p = randomProblem({60, 24}, 1, 0, 3);
     p.smoothness = {12, 60, 255};

@@ -152,7 +152,7 @@ TEST(TurnedPicture, TheCanvasIsOnTheSideToWhichTheCameraRotated) {
     EXPECT_GT(right.placed.origin().x + right.placed.size().width, 5 * camera.size.width / 4);
 }
 
-TEST(TurnedPicture, OriginIsAlignedAndTheCanvasStaysWithinReach) {
+TEST(TurnedPicture, TheCanvasIsAlignedAndEndsWithinTheGivenMarginOfThePicture) {
     for (const CameraModel& camera : {test::oddPlain(), test::oddBarrel(), folding()}) {
         const double reach = kBeyond * camera.size.width;
         for (int y = -80; y <= 80; y += 10) {

@@ -87,7 +87,8 @@ TEST(GltfMotion, StepsAndSplinesAreRead) {
     spline.animate(0, "translation", {0, 2},
                    {0, 0, 0, 0, 0, 0, 4, 0, 0, 0, 0, 0, 8, 0, 0, 0, 0, 0})["interpolation"] =
         "CUBICSPLINE";
-    // Halfway: the mean of both values, and an eighth of the duration times the first tangent.
+    // Halfway, the value is the mean of both values, plus an eighth of the duration times the first
+    // tangent.
     expectNear(vertexAt(modelOf(spline), 0, 0, 1), {4 + 2.0 / 8 * 4, 0, 0});
 }
 

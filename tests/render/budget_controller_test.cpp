@@ -53,7 +53,7 @@ TEST(BudgetController, EveryFrameUsesItsBudgetIfTheCostIsConstant) {
     EXPECT_EQ(framesOff(used, 0.02), 0);
 }
 
-TEST(BudgetController, ExtraTimeIsUsedInItsFrameAndDoesNotCountAsDeviation) {
+TEST(BudgetController, FramesWithExtraTimeUseItAndCountAsKeepingTheBudget) {
     BudgetController budget(kBudget);
     const auto usedUp = [&] {
         for (BudgetGrant grant = budget.grant(); grant.samples > 0; grant = budget.grant())
@@ -128,7 +128,7 @@ TEST(BudgetController, GrantIsASmallPartOfTheFramesBudget) {
     EXPECT_GT(grant.samples, 200);
 }
 
-TEST(BudgetController, OutstandingGrantsAreReserved) {
+TEST(BudgetController, TimeOfAGrantIsNotGrantedAgainBeforeItIsReturned) {
     BudgetController budget(kBudget);
     (void)usedIn(budget, 2, 1000, [](int) { return 0.001; });
     budget.beginFrame(true);
@@ -155,7 +155,7 @@ TEST(BudgetController, UnusedTimeOfIdleFramesIsNotCarriedOver) {
     EXPECT_EQ(budget.kept().frames, 9) << "idle frames do not count";
 }
 
-TEST(BudgetController, LaterFramesRepayAPictureConversionInSmallParts) {
+TEST(BudgetController, TimeForConvertingAPictureIsRepaidByManyFrames) {
     BudgetController budget(kBudget);
     const auto cheap = [](int) { return 0.001; };
     (void)usedIn(budget, 2, 1000, cheap);
@@ -188,7 +188,7 @@ TEST(BudgetController, IdleFramesRepayOverusedTime) {
     EXPECT_NEAR(usedIn(budget, 1, 1000, [](int) { return 0.001; })[0], kBudget, 0.05 * kBudget);
 }
 
-TEST(BudgetController, FramesWithTooLittleProcessorTimeAreNotCounted) {
+TEST(BudgetController, FramesThatDoNotUseUpTheirBudgetAreNotCounted) {
     BudgetController budget(kBudget);
     (void)usedIn(budget, 10, 1000, [](int) { return 0.001; });
     for (int i = 0; i < 50; ++i) {

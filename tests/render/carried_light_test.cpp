@@ -134,7 +134,7 @@ TEST(CarriedLight, CameraAtRestGetsOwnSamplesInEachPixel) {
     EXPECT_TRUE(driver.pictures.settled());
 }
 
-// At silhouettes, a picture cannot reuse the light of an earlier picture.
+// Pixels at silhouettes cannot reuse the light of an earlier picture. So they need own samples.
 TEST(CarriedLight, CameraAtRestSeesSmoothSilhouettes) {
     Driver driver({Slicing::Time, 64, 2, 1, 16}, kProduct), exact({Slicing::Time, 256, 16, 0, 16});
     driver.look(20);

@@ -60,7 +60,8 @@ struct Estimate {
     double error() const { return deviation / 16; }
 };
 
-/// Luminance of the pixels, which must see almost the same point and be independent.
+/// Mean and deviation of the pixels' luminances. All pixels must see almost the same point, and
+/// their noise must be independent.
 Estimate estimateOf(const std::shared_ptr<const Scene>& scene, const RenderView& view, int samples,
                     PathTracerOptions options = {}) {
     options.seed = 5;
@@ -83,8 +84,8 @@ PathTracerOptions byChance() {
     return out;
 }
 
-/// Light that surfaces reflect more than once is left out, as in the closed forms. Even the lamps,
-/// whose colour is black, reflect a little.
+/// Leaves out light that is reflected more than once, because the tests' formulas leave it out too.
+/// Even the lamps, whose colour is black, reflect a little of the ground's light.
 PathTracerOptions direct() {
     PathTracerOptions out;
     out.maxDepth = 2;
@@ -223,7 +224,8 @@ void addLamps(LampCases& cases) {
 }
 
 void addFloor(Scene& scene, const Material& material) {
-    // The approximate light of an environment has an error that depends on the number of samples.
+    // Without an environment, because the error of its approximate light depends on the number of
+    // samples, which differs between the compared pictures.
     scene.lighting.environment = nullptr;
     scene.catcher = {};
     scene.objects.push_back(objectOf(modelOf(square(3, 0), material)));
@@ -262,8 +264,8 @@ std::vector<Case> lampCases() {
     return cases.take();
 }
 
-// The expected light is that of paths that hit lamps by chance. They use none of the code that
-// samples a lamp's triangles.
+// The expected light comes from paths that hit lamps by chance. Such paths use none of the code
+// that samples a lamp's triangles.
 TEST(Emission, SampledLampsGiveTheSameLightAsLampsHitByChance) {
     for (const Case& c : lampCases()) {
         const Estimate expected = estimateOf(c.scene, c.view, 512, byChance());
@@ -320,7 +322,7 @@ TEST(Emission, GroundThatNoLampLightsIsUnchanged) {
     }
 }
 
-TEST(Emission, SceneWithoutEmissionLooksTheSameBitForBit) {
+TEST(Emission, InASceneWithoutEmissionSamplingLampsChangesNoBit) {
     auto scene = std::make_shared<Scene>();
     scene->objects = {objectOf(modelOf(sphere({0, 0, 0.5F}, 0.5F, 24), grey(0.8F, 0.3F, 0.3F)))};
     scene->catcher = ground(3, 0.6F);

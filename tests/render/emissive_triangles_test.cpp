@@ -26,7 +26,6 @@ EmissiveTriangles::Sample sampleOf(const EmissiveTriangles& emitters, const Eige
     return emitters.sample(from, sampler.pair(0), sampler.pair(1).x());
 }
 
-// The mean of 1 / density over the samples is the solid angle that they cover.
 TEST(EmissiveTriangles, MeanInverseDensityIsTheSolidAngleOfTheTriangles) {
     const TracedScene scene(sceneOf(modelOf(square(1, 0), lampOf({1, 1, 1}))), 1);
     const EmissiveTriangles emitters(scene);
@@ -89,7 +88,7 @@ TEST(EmissiveTriangles, ProbabilityIsProportionalToPower) {
 }
 
 TEST(EmissiveTriangles, PowerOfATexturedTriangleFollowsFromItsMeanTexel) {
-    // The left square shows the texture's white texel, the right one only the black one.
+    // The left square shows only the texture's white texel, the right one only a black texel.
     Material lamp = lampOf({1, 1, 1});
     lamp.emissionTexture = 0;
     Model model;
@@ -103,7 +102,8 @@ TEST(EmissiveTriangles, PowerOfATexturedTriangleFollowsFromItsMeanTexel) {
         mesh.uvs.assign(4, {u, 0.5F});
         model.meshes.push_back(mesh);
     }
-    // The third square shows the whole texture: a quarter of the power.
+    // The third square shows the whole texture. Only a quarter of it is white, so that the square
+    // has a quarter of the first square's power.
     model.meshes.push_back(square(1, 0));
     const TracedScene scene(sceneOf(std::move(model)), 1);
     const EmissiveTriangles emitters(scene);

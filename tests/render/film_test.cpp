@@ -99,7 +99,7 @@ TEST(Film, DepthBelongsToThePixelsCentre) {
     EXPECT_EQ(picture.id[0], 2);
 }
 
-TEST(Film, ShadowIsBlackWithACoverageFromTheLightRatio) {
+TEST(Film, AShadowIsBlackAndItsAlphaFollowsFromTheLightRatio) {
     Film film({1, 1});
     film.setCentre(0, {{2, kCatcherId}});
     film.add(0, catcherSample({0.1F, 0.05F, 0.025F}, {0.4F, 0.2F, 0.1F}));
@@ -186,7 +186,7 @@ TEST(Film, EdgePixelStoresTheLightOfTheSurfaceAtItsCentre) {
         const LightPixel light = film.light(0, {});
         EXPECT_EQ(light.id, centre);
         EXPECT_NEAR(light.first[0], expected, 1e-4F) << int{centre};
-        // means() mixes all objects.
+        // means() mixes the light of both objects.
         EXPECT_NEAR(film.means(0).object[0], 0.5F, 1e-4F);
         EXPECT_NEAR(film.means(0).objectShare, 2.0F / 3, 1e-4F);
     }
@@ -208,7 +208,7 @@ TEST(Film, LayeredPictureDoesNotMixSurfacesAtEdges) {
     EXPECT_EQ(mixed.light, layered.light);
 }
 
-TEST(Film, EachPixelHasItsOwnMemory) {
+TEST(Film, EachPixelKeepsItsOwnValue) {
     Film film({19, 11});  // not a multiple of the tile size
     const auto count = static_cast<std::uint32_t>(19 * 11);
     for (std::uint32_t i = 0; i < count; ++i)

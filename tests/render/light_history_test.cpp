@@ -91,8 +91,8 @@ TEST(LightHistory, AtTheLastColumnAndRowOfASparsePictureTheNearestPixelsSuffice)
 }
 
 TEST(LightHistory, BetweenSparseAndFullPixelsTheSampledPixelsAreUsed) {
-    // As in a sparse picture: tiles at objects (left) have light in all pixels, others in a
-    // quarter.
+    // As in a sparse picture: tiles at objects (left) have light in all pixels, other tiles in a
+    // quarter of their pixels.
     const Film film = filmOf([](int x, int y) { return x < 8 || isEven(x, y); });
     for (const double x : {6.5, 7.0, 7.5, 8.0, 8.5, 9.0})
         EXPECT_NEAR(lightFrom(film, x, 5).second.x(), 1 + x + 20 * 5, x == 7.5 ? 0.6 : 0.1) << x;

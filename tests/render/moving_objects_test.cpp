@@ -87,7 +87,7 @@ struct MovingRun {
     double time = 0;
 };
 
-TEST(MovingObjects, APosedTracerGivesTheSamePictureAsANewTracer) {
+TEST(MovingObjects, ATracerWithNewPosesGivesTheSamePictureAsANewTracer) {
     const auto scene = swinging();
     const PathTracer tracer(scene);
     const auto poses = posesAt(*scene, Timestamp::fromSeconds(0.7));
@@ -125,7 +125,7 @@ TEST(MovingObjects, PicturesShowObjectsAtThePosesStoredWithThem) {
     EXPECT_LT(std::abs(from - now), 0.03) << "the picture must show nearly the present poses";
 }
 
-TEST(MovingObjects, PicturesFollowEachOtherAsLongAsAnObjectMoves) {
+TEST(MovingObjects, NewPicturesAreMadeAsLongAsAnObjectMoves) {
     MovingRun run(swinging());
     run.until(1);
     const std::size_t before = run.driver.shown.size();
@@ -143,7 +143,8 @@ TEST(MovingObjects, NoShadowStaysWhereTheObjectWas) {
     double ghost = 0;
     int shadowed = 0;
     for (std::size_t i = 0; i < truth.id.size(); ++i) {
-        // Only pixels that were in the object's shadow before it jumped, and no longer are.
+        // Compares only pixels that were in the object's shadow before it jumped and must be lit
+        // now.
         if (before.id[i] != kCatcherId || before.colour[i][3] < 25 || truth.colour[i][3] > 15)
             continue;
         ++shadowed;

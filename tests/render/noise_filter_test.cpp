@@ -79,8 +79,10 @@ TEST(NoiseFilter, EstimatesUnknownVariances) {
     EXPECT_LT(errorOf(pixels, flat), kSigma / 2);
 }
 
-// A quarter of the pixels has one sample each: objects block all light or none.
-TEST(NoiseFilter, FewSamplesOfASoftShadowGiveFewSpots) {
+// A quarter of the pixels has one sample each. Half-shadowed pixels need many samples: in a single
+// sample, objects block all of the light or none. So single pixels look like spots until the filter
+// mixes them. It mixes them more on the shadow catcher than on an object.
+TEST(NoiseFilter, SingleSamplesOfASoftShadowLeaveFewerSpotsOnTheCatcher) {
     const auto spots = [](std::uint8_t id) {
         std::mt19937 random(1);
         std::bernoulli_distribution isBlocked(0.25);
@@ -115,7 +117,8 @@ TEST(NoiseFilter, KeepsDifferencesAboveNoise) {
 }
 
 // Returns the error after filtering a picture whose halves differ by two standard errors. From the
-// light alone, this step looks like noise. `mark` sets ids, depths or normals that differ, too.
+// light alone, this step looks like noise. `mark` can give the halves different ids, depths or
+// normals.
 template <class Mark>
 double errorAtStep(Mark mark) {
     Pixels pixels = noisyPicture(step, 0);

@@ -183,8 +183,8 @@ TEST(PathTracer, SunlightOnAMattSurfaceIsIrradianceTimesCosine) {
 }
 
 TEST(PathTracer, MirrorShowsTheSunWithItsRadiance) {
-    // The sun's disc fills the reflection lobe. Only the weighted sum of both sampling strategies
-    // gives its radiance.
+    // The sun's disc fills the reflection lobe. Some rays are sampled from the disc, others from
+    // the lobe. Only the weighted sum of both gives the sun's radiance.
     auto scene = sceneOf(square(1, 0), materialOf({1, 1, 1}, 1, 0.1F));
     scene->lighting.sun = Sun{Eigen::Vector3f(0, 1, 1).normalized(), {2, 2, 2}, 0.4F};
     const RenderView view = lookingAt({0, -3, 3}, {0, 0, 0}, {4, 4}, 2000);

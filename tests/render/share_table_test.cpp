@@ -38,7 +38,7 @@ TEST(ShareTable, IndicesOfWeightZeroAreNeverDrawn) {
         EXPECT_EQ(shares[i], 0) << i;
 }
 
-TEST(ShareTable, RestIsUniformWhicheverIndexIsDrawn) {
+TEST(ShareTable, TheUnusedPartOfTheRandomNumberIsUniformForEachIndex) {
     const ShareTable table(std::vector<double>{1, 5, 2, 8});
     std::array<double, 4> sums{}, squares{}, counts{};
     constexpr int kCount = 100000;

@@ -188,7 +188,7 @@ TEST(Slices, PixelsWithLittleNoiseAfterTheSparseSamplesGetNoMore) {
     Slices slices({Slicing::Time, 16, 4, 1, 8});
     slices.begin({0, 0, 32, 24}, {32, 24});
     NoisyPicture picture([](std::uint32_t) { return 1e6F; });
-    // In the left half, an earlier picture already gave the light.
+    // Pixels in the left half have little noise from the start, as if they reused earlier light.
     while (true) {
         const Slice slice = slices.next(50);
         if (slice.pixels.empty()) break;
@@ -226,7 +226,7 @@ TEST(Slices, TilesWithoutObjectsGetOnlyTheSparseSamples) {
     EXPECT_DOUBLE_EQ(slices.progress(), 1);
 }
 
-TEST(Slices, SparseDensitySkipsTilesAndPixels) {
+TEST(Slices, DensityNoneSamplesNoPixelAndDensityQuarterEveryFourth) {
     Slices slices({Slicing::Time, 4, 2, 0, 2});
     slices.begin({0, 0, 24, 8}, {24, 8}, [](const PixelRect& tile) {
         if (tile.x0 == 0) return Slices::Density::None;

@@ -73,13 +73,14 @@ double errorOf(F f, double integral, std::uint32_t n, bool independent) {
     return std::sqrt(squares / kPixels);
 }
 
-TEST(Sobol, ErrorsOfSmoothIntegralsAreFarBelowThoseOfRandomNumbers) {
+TEST(Sobol, SmoothIntegralsHaveFarSmallerErrorsThanWithRandomNumbers) {
     const auto product = [](const Eigen::Vector2f& u) { return std::exp(u.x()) * u.y(); };
     const double integral = 0.5 * (std::exp(1.0) - 1);
     const double ours = errorOf(product, integral, 64, false);
     const double chance = errorOf(product, integral, 64, true);
     EXPECT_LT(ours * 15, chance);
-    // Independent samples have this error: the standard deviation of the product, divided by 8.
+    // The error of 64 independent samples is the standard deviation of product(), divided by
+    // sqrt(64).
     EXPECT_NEAR(chance, 0.666 / 8, 0.01);
 }
 

@@ -16,7 +16,8 @@ constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 TEST(NextStep, StepDependsOnTheChangesOfTheView) {
     using enum TracedStep;
-    // Changes of the view since the shown picture and since the next one, see nextStep().
+    // Arguments and result of nextStep(). The arguments are viewChange() since the views of the
+    // shown and of the next picture; empty: there is no such picture.
     struct Case {
         std::optional<double> sinceShown, sinceNext;
         TracedStep step;

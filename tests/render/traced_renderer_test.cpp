@@ -184,7 +184,7 @@ TEST(TracedRenderer, SleepsWhenTheFramesBudgetIsUsedUp) {
     EXPECT_LE(frames.renderer.counters().budget.mean, 1.1);
     const double used = frames.renderer.counters().cpuMs;
     std::this_thread::sleep_for(std::chrono::milliseconds(500));
-    frames.frame(view);  // counters() belongs to the time before this frame
+    frames.frame(view);  // from now on, counters() includes the time before this frame
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
     // The limit is the budget of 20 frames, because the counters lag by some frames. Threads that
     // did not sleep would use the budget of hundreds of frames.

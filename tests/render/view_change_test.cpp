@@ -27,7 +27,7 @@ double change(const RenderView& from, const RenderView& to) {
 }
 
 TEST(ViewChange, IsTheAngleAboutTheObjectRelativeToTheLimit) {
-    // At the object's height, the azimuth is the angle about the object.
+    // At elevation 0, the camera's azimuth is its angle about the object. kLimits allows 4 degrees.
     const RenderView from = viewFrom(kSize, 20, 0);
     EXPECT_NEAR(change(from, from), 0, 1e-12);
     EXPECT_NEAR(change(from, viewFrom(kSize, 22, 0)), 0.5, 1e-9);

@@ -12,7 +12,7 @@ goes_on() {
     more() { [ "$(frames)" -gt $((shown + 5)) ]; }
     until_true more
 }
-# Without stills. A still would reach the size limit before the recording has a complete frame.
+# No stills are taken: a still would reach the size limit before the recording has a complete frame.
 quiet='source = "synthetic:flat,rest"
 [superres]
 mode = "off"

@@ -12,8 +12,8 @@ id() { sed -n "s/^constexpr std::string_view $1 = \"\(.*\)\";/\1/p" "$ids"; }
 "$listener" socket heard &
 pids+=($!)
 until_true test -S socket
-# True if one message in the file `heard` has both fields. Messages end with an empty line. The
-# length of a text precedes a text of several lines.
+# heard FIELD FIELD: true if one message in the file `heard` has both fields. Messages end with an
+# empty line. A text of several lines is sent with its length (binary) in front of it.
 heard() {
     tr '\0' ' ' <heard |
         awk -v RS= -v a="$1" -v b="$2" '$0 ~ a && $0 ~ b {found = 1} END {exit !found}'

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""Files that claim or contain far more than they show take no more memory than [limits] memory_mb,
-neither at the start nor when they are read again, and each is refused in a line with its name or read.
+"""Tests files that claim or contain far more data than they show. mfard must need at most
+[limits] memory_mb, at the start and when it reads its configuration again. It must read each file,
+or refuse it in a line that names it.
 
 Usage: 290-hostile-files.py MFARD"""
 
@@ -214,9 +215,9 @@ def require(holds, what):
 
 def check_run(name, arguments):
     peak, code, said = peak_of(arguments)
-    print(f'{name}: {peak:.0f} MB, {code}: {said[:140].splitlines()[:1]}')
-    require(code in (0, *REFUSED), f'{name}: mfard ended with {code}: {said[:500]}')
-    require(peak <= LEAST_MB, f'{name}: {peak:.0f} MB, {LEAST_MB} MB are configured')
+    print(f'{name}: {peak:.0f} MB, exit code {code}: {said[:140].splitlines()[:1]}')
+    require(code in (0, *REFUSED), f'{name}: mfard ended with exit code {code}: {said[:500]}')
+    require(peak <= LEAST_MB, f'{name}: {peak:.0f} MB were in use; memory_mb is {LEAST_MB}')
     if code != 0:
         require('hostile.toml' in said or 'bad' in said or 'tags.toml' in said, f'{name}: no file is named')
 
@@ -265,10 +266,10 @@ def while_it_runs():
             wait_for(lambda: answers() > before, f'{name}: no answer')
         status = Path(f'/proc/{process.pid}/status').read_text()
         peak = int(status.split('VmHWM:')[1].split()[0]) / 1024
-        print(f'read again {answers()} times: {peak:.0f} MB')
-        require(peak <= RUNNING_MB, f'{peak:.0f} MB were in use, {RUNNING_MB} MB are configured')
+        print(f'configuration read again {answers()} times: {peak:.0f} MB')
+        require(peak <= RUNNING_MB, f'{peak:.0f} MB were in use; memory_mb is {RUNNING_MB}')
         process.terminate()
-        require(process.wait(LONGEST) == 0, f'mfard ended with {process.returncode}')
+        require(process.wait(LONGEST) == 0, f'mfard ended with exit code {process.returncode}')
     finally:
         process.kill()
 

@@ -14,8 +14,8 @@ using Bytes = std::vector<std::uint8_t>;
 
 constexpr Size kVideo{256, 192}, kStill{1024, 768};
 const PixelRect kHidden{0, 0, 400, 768};
-constexpr int kRoom =
-    24;  // pixels this near to a border of the picture or of kHidden are not scored
+// Pixels are not compared within this distance of a border of the picture or of kHidden [px].
+constexpr int kRoom = 24;
 
 StereoRig simpleRig() {
     StereoRig rig;

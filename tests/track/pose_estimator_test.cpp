@@ -45,8 +45,8 @@ private:
     double unit_;
 };
 
-/// Counts of a run. `turns`: number of frames at which the error of the pose changes by more than a
-/// limit.
+/// Counts of a run. `turns`: number of frames at which the pose's error in rotation changes by more
+/// than 3 degrees. `lost`: number of frames without a pose.
 struct Followed {
     int turns = 0, flips = 0, lost = 0;
     double worst = 0;

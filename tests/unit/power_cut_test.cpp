@@ -213,7 +213,8 @@ Files afterCut(const std::vector<Operation>& operations, std::size_t count, std:
     return disk;
 }
 
-/// Number of rows of a list that the first `count` operations synchronised.
+/// Number of rows of the file `list` that are certainly on the disk after the first `count`
+/// operations.
 std::size_t safeRows(const std::vector<Operation>& operations, std::size_t count,
                      const std::string& list) {
     std::size_t rows = 0, safe = 0;

@@ -88,7 +88,7 @@ TEST(Progress, AShortCommandIsSilentInAPipe) {
     EXPECT_THAT(out.taken(), IsEmpty());
 }
 
-TEST(ProgressPart, PartsOfPartsAreSharesOfTheWhole) {
+TEST(ProgressPart, ANestedPartShowsItsShareOfTheWhole) {
     Output out;
     Progress progress(out.file(), true);
     const ProgressPart second = ProgressPart(progress).part(1, 2, "shelf");

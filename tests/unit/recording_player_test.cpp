@@ -115,7 +115,7 @@ TEST(RecordingPlayer, InRealTimeNoPictureIsDeliveredBeforeItsTime) {
     EXPECT_EQ(player.stills().next(seconds(10))->time().ns, 5060 * kMs);
 }
 
-TEST(RecordingPlayer, InRealTimeNextTimesOutBeforeThePictureIsDue) {
+TEST(RecordingPlayer, InRealTimeWaitingForAPictureTimesOutBeforeItIsDue) {
     const TempFolder folder;
     writeSmallRecording(folder.path(), {0, 600'000 * kMs}, {});
     RecordingPlayer player(loadRecording(folder.path()), {.pace = Pace::Realtime});

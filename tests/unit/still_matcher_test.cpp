@@ -312,7 +312,6 @@ private:
             return;
         }
         EXPECT_TRUE(given_.insert(match->pulse.ns).second) << "a pulse got two stills";
-        // A still that the camera sends twice counts as one.
         const std::int64_t off = (still.exposed - match->pulse).count() - constant_.count();
         EXPECT_LE(std::abs(off), 450'000) << "a still that belongs to no pulse was used";
         EXPECT_EQ(match->pulse, still.pulse.value_or(match->pulse))

@@ -96,7 +96,7 @@ TEST_F(WarpEdgesGl, RenderedEdgesThatArriveAfterACameraMotionAreIgnored) {
     EXPECT_TRUE(s.edgesAt(3)) << "the late answer does not prevent the next request";
 }
 
-TEST_F(WarpEdgesGl, EdgesAreNotRequestedWhereNothingIsRendered) {
+TEST_F(WarpEdgesGl, ModesThatDoNotRenderHolesRequestNoEdges) {
     for (const HoleFilling filling : {HoleFilling::None, HoleFilling::PushPull}) {
         Resting s({.filling = filling});
         EXPECT_FALSE(s.edgesAt(2));

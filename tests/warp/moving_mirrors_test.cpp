@@ -15,7 +15,7 @@ namespace mfar::simd {
 namespace {
 
 constexpr Size kPicture{21, 40};
-constexpr float kTwice = 2;  // light in roughness 1's table, divided by light in roughness 0's
+constexpr float kTwice = 2;  // factor between the light in the tables of roughness 1 and 0
 
 CameraModel camera() {
     return {kPicture, 30, 30, 9.5, 18.5, {-0.1, 0.02, 0, 0, 0}};

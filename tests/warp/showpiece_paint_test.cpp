@@ -76,9 +76,9 @@ TEST(ShowpiecePaint, PaintOfTheShowpieceMatchesTracedRays) {
     }
     const auto psnr = [&](double sum) { return 10 * std::log10(255.0 * 255 * pixels / sum); };
     EXPECT_GT(pixels, 12000);
-    // For rays, colour and metallic share are interpolated separately and then multiplied. For
-    // paint, their product is interpolated. So the means over a texel differ at the border of the
-    // gilding. With texels a third as wide, the PSNR is 34.7 dB.
+    // Rays interpolate colour and metallic share separately and then multiply them. Paint
+    // interpolates their product. So both differ in the texels at the border of the gilding, which
+    // limits the PSNR. With texels a third as wide, it is 34.7 dB.
     EXPECT_GT(psnr(diffuse), 30.5);
     EXPECT_GT(psnr(facing), 29.3);
 }

@@ -225,8 +225,9 @@ TEST(SurfacePaint, ABallIsPaintedWithFactorsAndTexturesOfTwoSizes) {
     EXPECT_LT(errors.mean, 3.6);
 }
 
-// Tolerance: textures store square roots of linear values in bytes. Half a step is 0.75 grey levels
-// in dark areas.
+// Tolerance of 1.25 grey levels: texels are bytes with 255 times the square root of linear values.
+// In dark areas, rounding to such a byte changes up to 0.75 grey levels. The result is rounded
+// again.
 TEST(SurfacePaint, PlainColoursAreExactUpToTwoRoundings) {
     for (const bool hasTexture : {false, true})
         for (int level = 0; level < 256; ++level) {
@@ -280,7 +281,7 @@ TEST(SurfacePaint, TheObjectThatCoversMostQuartersOfAPixelIsPainted) {
             return words[static_cast<std::size_t>(y) * kPainted.width + x].diffuse & 0xFFFFFFU;
         };
         EXPECT_EQ(at(30, 20), 0x000000FFU);
-        // If each object covers two quarters, the lowest quarter decides.
+        // If each object covers two quarters of the pixel, the object in the lower left is painted.
         EXPECT_EQ(at(30, 19), 0x000000FFU);
         EXPECT_EQ(at(31, 20), 0x000000FFU);
         EXPECT_EQ(at(31, 19), 0x00FF0000U);

@@ -11,8 +11,8 @@
 
 namespace mfar::test {
 
-/// An engine that only warps. Default: the environment variable MFAR_ENGINE names it. GLES needs a
-/// current context.
+/// An engine that only warps. Without arguments, the environment variable MFAR_ENGINE names it. The
+/// GLES engine needs a current context.
 inline std::unique_ptr<Engine> warpEngine(EngineKind kind, int threads = 0) {
     const CameraModel camera{{64, 48}, 60, 60, 31.5, 23.5, {}};
     StepSetup setup{};
