@@ -28,8 +28,8 @@ public:
 
     explicit Mailbox(HandOver handOver) : handOver_(handOver) {}
 
-    /// Stores an item. Returns Closed if the mailbox is closed. The item is then destroyed, unless
-    /// the receiver took it before.
+    /// Stores an item. HandOver::Lossless also waits until it was taken and the next one is asked
+    /// for. Returns Closed if the mailbox is closed before or during this wait.
     Put put(T item) {
         std::unique_lock lock(mutex_);
         if (closed_) return Put::Closed;

@@ -154,8 +154,8 @@ bool VirtualView::mayHideShadow(const PixelRect& tile, float nearest,
     });
 }
 
-// True if the real surface certainly hides the objects in and around the tile. `nearest` is the
-// smallest z of these objects, so it suffices to test the real surface at the tile's own pixels.
+// True if at each pixel of the tile the real surface is certainly nearer than `nearest`, the
+// smallest z of the objects in and around the tile.
 bool VirtualView::isHidden(const PixelRect& tile, float nearest,
                            const InverseDepthField& known) const {
     const TileBounds most{.findings = 0, .unknown = kMostGaps};

@@ -35,11 +35,11 @@ public:
     void setScene(std::shared_ptr<const Scene> scene);
     [[nodiscard]] TracedLayer* traced() { return traced_.get(); }
 
-    /// Places the objects for a camera at this pose and hides them without a pose. Returns the
-    /// rectangle of the video pixels whose real depth decides which parts of the objects are
-    /// visible. The rectangle is empty if no object is in the picture. It is also empty in most
-    /// frames if the real scene certainly lies behind all objects. `known` is the approximate depth
-    /// of the real scene as the camera sees it.
+    /// Places the objects for a camera at this pose. Without a pose, no object is shown. Returns
+    /// the rectangle of the video pixels whose real depth must be measured to find which parts of
+    /// the objects are visible. It is empty if no object is in the picture, or if `known` shows
+    /// that the real scene lies behind all objects; even then it is measured once in kMostRelied +
+    /// 1 frames. `known` is the approximate depth of the real scene as the camera sees it.
     PixelRect place(const std::optional<RigidTransform>& T_world_video, Timestamp time,
                     const InverseDepthField& known);
     [[nodiscard]] const PixelRect& region() const { return region_; }

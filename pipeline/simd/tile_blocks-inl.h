@@ -35,7 +35,7 @@ struct Blocks {
     using CellSums = std::array<std::array<std::int32_t, kRowCells>, kCells>;
     HWY_ALIGN Values light;               // mean luma of each block of the new frame
     HWY_ALIGN Values rough;               // half the absolute twist of the new frame's luma
-    HWY_ALIGN Values lumaSum, lumaTwist;  // sum and twist of the luma's difference in each block
+    HWY_ALIGN Values lumaSum, lumaTwist;  // of each block of luma differences
     HWY_ALIGN CellSums redSum, blueSum;   // sum of the difference of red or blue over each cell
     // Each value is computed for all three colour channels of a cell, and the largest is stored.
     // farthest: |sum of the differences|. absolute: sum of the |differences|.

@@ -45,7 +45,8 @@ struct ViewLookUpInput {
 
 struct ViewRow {
     int count;
-    const std::uint32_t *upper, *lower;  ///< surfaces at twice the layer's resolution
+    const std::uint32_t *upper, *lower;  ///< the two rows of surface numbers in this row; they have
+                                         ///< twice the layer's resolution
     const PaintWords* paint;             ///< see SurfaceRaster::paintRow(); read only if
                                          ///< ViewLookUpInput::lights is not null
     const float *rayX, *rayY;            ///< rays with z = 1

@@ -54,7 +54,7 @@ TEST_F(RestartPauseTest, OldFailuresDoNotCount) {
     EXPECT_EQ(fail().inARow, 1);
 }
 
-TEST_F(RestartPauseTest, FailureBeforeTheSystemWasStartedDoesNotCount) {
+TEST_F(RestartPauseTest, FailureBeforeTheLastBootDoesNotCount) {
     for (int i = 0; i < 4; ++i)
         (void)fail();
     now = Timestamp::fromSeconds(20);

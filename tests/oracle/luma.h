@@ -87,7 +87,7 @@ inline Grey halved(const Grey& g) {
     });
 }
 
-/// Position in the still of the infinitely distant point that a video pixel shows.
+/// Still pixel that shows the same point as this video pixel if the point is infinitely far away.
 inline Eigen::Vector2d stillPixel(const StereoRig& rig, const Eigen::Vector2d& videoPixel) {
     const Eigen::Vector3d ray =
         rig.T_still_video.rotation * rig.video.unproject(videoPixel).homogeneous();

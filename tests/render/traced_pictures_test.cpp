@@ -33,7 +33,8 @@ TEST(NextStep, StepDependsOnTheChangesOfTheView) {
              {0.6, 2.0, Start},       // the shown picture serves meanwhile
              {0.1, 0.7, Drop},        // the camera came back to the shown picture's view
              {0.2, 0.7, Continue},    // the camera came back only in part
-             // The camera moves fast, but the next picture's view is nearer than the shown one's.
+             // The camera moves fast, but is closer to the next picture's view than to the shown
+             // one's.
              {2.0, 1.5, Continue},
              {1.5, 2.0, Start},  // the camera moves in another direction than predicted
          }) {

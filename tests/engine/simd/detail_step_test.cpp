@@ -111,7 +111,7 @@ void expectDetailIn(const DetailCase& frame, const Drawn& drawn, Size output,
     EXPECT_GT(most, 5) << "the test needs detail that would be visible in other tiles";
 }
 
-TEST(DetailStep, DetailOfAWholeFrameStaysInTheGivenRectangle) {
+TEST(DetailStep, DetailIsOnlyAddedInTheGivenRectangleOfTiles) {
     const Size output{576, 432};
     DetailCase frame({160, 120}, {400, 300});
     frame.work.detailTiles = {2, 1, 7, 6};

@@ -38,9 +38,9 @@ struct TagScore {
     int wrong = 0;
 };
 
-/// Scores of the tags that are found in the whole picture. `detector`: with the detector's corners;
-/// `refined`: with corners that are refined as if the lens had no distortion. Uses families,
-/// decimation, threads and gamma of the options.
+/// Returns two named scores of the tags that are found in the whole picture: "detector", with the
+/// detector's corners, and "refined", with corners that are refined as if the lens had no
+/// distortion. Uses families, decimation, threads and gamma of the options.
 [[nodiscard]] std::vector<std::pair<std::string, TagScore>>
 compareTags(const TagPictureFile& picture, const TrackerOptions& options);
 
