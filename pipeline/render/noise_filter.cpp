@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 namespace mfar {
 namespace {
@@ -24,6 +26,8 @@ constexpr float kTolerance = 2.5F;
 // kTolerance on the shadow catcher.
 constexpr int kSparseStep = 4;
 constexpr float kSparseTolerance = 5;
+// From this number of samples on, a pixel's light is not limited to that of its neighbours.
+constexpr float kEnoughSamples = 10;
 constexpr int kBefore = 2;               // number of stages before the first level
 constexpr float kLeastVariance = 1e-7F;  // (a tenth of a grey level)^2 at white
 // Upper limit of the relative change of depth per pixel on one surface.
@@ -54,6 +58,28 @@ struct Spread {
     }
 };
 
+/// The third largest of the added values. With fewer than three values, it is infinite.
+class ThirdLargest {
+public:
+    void add(float value) {
+        ++count_;
+        for (float& each : largest_)
+            if (value > each) std::swap(value, each);
+    }
+    [[nodiscard]] float value() const {
+        return count_ < largest_.size() ? std::numeric_limits<float>::infinity() : largest_.back();
+    }
+
+private:
+    std::array<float, 3> largest_{};
+    std::size_t count_ = 0;
+};
+
+void limit(Eigen::Array3f& light, float most) {
+    const float y = luminanceOf(light);
+    if (y > most) light *= most / y;
+}
+
 }  // namespace
 
 void NoiseFilter::begin(Size size, const PixelRect& where) {
@@ -69,6 +95,7 @@ void NoiseFilter::begin(Size size, const PixelRect& where) {
     };
     resize(pixels_, count);
     resize(variances_, count);
+    resize(limits_, count);
     stride_ = count + 2 * simd::kNoiseMargin;
     resize(values_, kArrays * stride_);
 }
@@ -79,8 +106,10 @@ void NoiseFilter::run(int stage, int firstRow, int lastRow) {
             filterRow(stage - kBefore, y);
             continue;
         }
-        for (int x = where_.x0; x < where_.x1; ++x)
+        for (int x = where_.x0; x < where_.x1; ++x) {
+            if (stage == 0) limits_[static_cast<std::size_t>(y) * size_.width + x] = limitsAt(x, y);
             stage == 0 ? spreadVariance(x, y) : meanVariance(x, y);
+        }
     }
 }
 
@@ -100,6 +129,27 @@ void NoiseFilter::forNeighbours(int x, int y, int reach, int step, Use use) cons
             if (std::abs(there.depth - centre.depth) <= kDepthSlope * away * centre.depth) use(i);
         }
     }
+}
+
+// The shadow catcher is left out: its light is a change, which is below 0 in a shadow.
+NoiseFilter::Limits NoiseFilter::limitsAt(int x, int y) const {
+    const std::size_t i = static_cast<std::size_t>(y) * size_.width + x;
+    const LightPixel& pixel = pixels_[i];
+    const auto isFew = [](float count) { return count > 0 && count < kEnoughSamples; };
+    if (pixel.id == 0 || pixel.id == kCatcherId || pixel.kept ||
+        !(isFew(pixel.firstCount) || isFew(pixel.secondCount)))
+        return {};
+    ThirdLargest first, second;
+    forNeighbours(x, y, 1, 1, [&](std::size_t j) {
+        if (j == i) return;
+        const LightPixel& there = pixels_[j];
+        if (there.firstCount > 0) first.add(luminanceOf(there.first));
+        if (there.secondCount > 0) second.add(luminanceOf(there.second));
+    });
+    Limits out;
+    if (isFew(pixel.firstCount)) out.first = first.value();
+    if (isFew(pixel.secondCount)) out.second = second.value();
+    return out;
 }
 
 void NoiseFilter::spreadVariance(int x, int y) {
@@ -136,6 +186,8 @@ void NoiseFilter::meanVariance(int x, int y) {
         });
         pixel.firstVariance = firsts > 0 ? sum.first / firsts : 0;
         pixel.secondVariance = seconds > 0 ? sum.second / seconds : 0;
+        limit(pixel.first, limits_[i].first);
+        limit(pixel.second, limits_[i].second);
     }
     pack(i);
 }

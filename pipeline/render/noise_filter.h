@@ -8,6 +8,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -33,10 +34,10 @@ struct LightPixel {
 /// The filter works on light without the surface's paint, so that textures stay sharp. A pixel
 /// ignores neighbours across a depth edge or on another surface. Neighbours with another normal
 /// have less weight. Pixels without an id stay unchanged. A pixel without samples gets its
-/// neighbours' light. Variances fall with the number of samples, so that the filter finally changes
-/// nothing.
-/// The filter runs in stages, one after the other. Several threads may filter rows of the same
-/// stage at the same time.
+/// neighbours' light. A few samples may hold a rare bright one, so the light of an object's pixel
+/// with few samples is limited to that of its neighbours. Variances fall with the number of
+/// samples, so that the filter finally changes nothing. The filter runs in stages, one after the
+/// other. Several threads may filter rows of the same stage at the same time.
 class NoiseFilter {
 public:
     static constexpr int kLevels = 4;
@@ -55,6 +56,11 @@ private:
     struct Variances {
         float first = 0, second = 0;
     };
+    /// Upper limits of a pixel's luminances.
+    struct Limits {
+        float first = std::numeric_limits<float>::infinity(), second = first;
+    };
+    [[nodiscard]] Limits limitsAt(int x, int y) const;
     void spreadVariance(int x, int y);
     void meanVariance(int x, int y);
     void pack(std::size_t pixel);
@@ -83,6 +89,7 @@ private:
     PixelRect where_;
     std::vector<LightPixel> pixels_;
     std::vector<Variances> variances_;
+    std::vector<Limits> limits_;
     std::vector<float> values_;  ///< the filter's arrays, one after the other; see array()
     std::size_t stride_ = 0;     ///< distance between the beginnings of two arrays in values_
 };

@@ -104,6 +104,35 @@ TEST(NoiseFilter, SingleSamplesOfASoftShadowLeaveFewerSpotsOnTheCatcher) {
     EXPECT_LT(spots(kCatcherId), 0.8 * spots(1));
 }
 
+// Returns the middle of a dark picture after filtering, if only this pixel was bright.
+LightPixel brightPixelFiltered(float samples, std::uint8_t id) {
+    Pixels pixels = noisyPicture(flat, 0);
+    for (LightPixel& p : pixels) {
+        p.firstVariance = p.secondVariance = samples < LightPixel::kFew ? -1 : 1e-6F;
+        p.firstCount = p.secondCount = samples;
+        p.id = id;
+    }
+    const std::size_t middle = 16 * kNoisySize.width + 20;
+    pixels[middle].first = pixels[middle].second = Eigen::Array3f(10, 5, 5);
+    return filtered(kNoisySize, pixels)[middle];
+}
+
+TEST(NoiseFilter, ABrightPixelWithFewSamplesIsLimitedToItsNeighbours) {
+    const LightPixel found = brightPixelFiltered(1, 1);
+    for (const Eigen::Array3f& light : {found.first, found.second})
+        EXPECT_NEAR(0.2126F * light[0] + 0.7152F * light[1] + 0.0722F * light[2], 0.5F, 0.02F);
+}
+
+TEST(NoiseFilter, ABrightPixelWithManySamplesStaysBright) {
+    const LightPixel found = brightPixelFiltered(10, 1);
+    EXPECT_NEAR(found.first[0], 10, 0.1F);
+    EXPECT_NEAR(found.second[1], 5, 0.1F);
+}
+
+TEST(NoiseFilter, BrightPixelsOfTheShadowCatcherAreNotLimited) {
+    EXPECT_GT(brightPixelFiltered(1, kCatcherId).first[0], 1);
+}
+
 TEST(NoiseFilter, KeepsDifferencesAboveNoise) {
     const auto edge = [](int x, int) { return x < kNoisySize.width / 2 ? 0.1F : 0.9F; };
     Pixels pixels = noisyPicture(edge);
