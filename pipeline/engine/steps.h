@@ -127,9 +127,9 @@ public:
     virtual ~WeighStep() = default;
     virtual const CellWeights& run(const LumaPyramid& luma, const FlowCells& flow,
                                    const TileWork& work) = 0;
-    /// Lowers the weights of cells in which the still does not show the video's finest detail as
-    /// well as usual (`match`), see params::kFineRoom. Must be called after run() for the same
-    /// frame.
+    /// Raises small weights, and lowers the weights of cells in which the still does not show the
+    /// video's finest detail as well as usual (`match`), see params::kFineRoom and kRaisedWeight.
+    /// Must be called after run() for the same frame.
     virtual const CellWeights& confirm(const VideoFrame& frame, const StillPictures& still,
                                        const TileWork& work, const FineMatch& match) = 0;
 };

@@ -234,7 +234,8 @@ public:
     const CellWeights& confirm(const VideoFrame& frame, const StillPictures& still,
                                const TileWork& work, const FineMatch& match) override {
         if (work.changed == 0 || work.matched == 0) return weights_;
-        weigh_.lower(fine_.run(frame.planes, stills_->of(still), weigh_.lookUps(), work, match));
+        weigh_.confirm(fine_.run(frame.planes, stills_->of(still), weigh_.lookUps(), weigh_.bent(),
+                                 work, match));
         return written();
     }
 
