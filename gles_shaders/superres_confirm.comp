@@ -1,7 +1,7 @@
-// Lowers the weights of cells in which the still does not show the video's finest detail; see
-// kFineRoom.
+// Raises small weights, and lowers the weights of cells in which the still does not show the video's
+// finest detail; see kFineRoom and kRaisedWeight.
 // In: image of superres_fine.comp, images of superres_weigh.comp. Out: the images of
-// superres_weigh.comp with the lowered weights.
+// superres_weigh.comp with the new weights.
 // Range: newCells -2e4..2e4, -2e4..2e4, 0..2.31, 0..1
 // Range: newLookUps -4e3..4e3, -4e3..4e3, 0..2.31, 0..1
 #include "pipeline/engine/params/weigh.h"
@@ -11,31 +11,43 @@ layout(std140, binding = 0) uniform Params {
     ConfirmCells params;
 };
 layout(binding = 0) uniform sampler2D fineField;
-layout(binding = 1) uniform sampler2D cellField;
+layout(binding = 1) uniform sampler2D displacement;
 layout(binding = 2) uniform sampler2D weightField;
 layout(binding = 3) uniform sampler2D lookupField;
 layout(rgba32f, binding = 0) uniform writeonly highp image2D newCells;
 layout(rgba8, binding = 1) uniform writeonly highp image2D newWeights;
 layout(rgba16f, binding = 2) uniform writeonly highp image2D newLookUps;
 
-void main() {
-    ivec2 cell = ivec2(gl_GlobalInvocationID.xy), last = ivec2(params.columns, params.rows) - 1;
-    if (any(greaterThan(cell, last))) return;
-    int above = cell.y / kFineStep, below = min((cell.y + kFineStep - 1) / kFineStep, last.y / kFineStep);
+#include "flow_bend.glsl"
+
+vec3 fineAround(ivec2 cell) {
     vec3 sum = vec3(0.0);
-    for (int x = -1; x <= 1; ++x) {
-        int column = clamp(cell.x + x, 0, last.x);
-        sum += float(2 - abs(x)) * (texelFetch(fineField, ivec2(column, above), 0).xyz +
-                                    texelFetch(fineField, ivec2(column, below), 0).xyz);
-    }
-    sum /= 8.0;
+    for (int y = -1; y <= 1; ++y)
+        for (int x = -1; x <= 1; ++x) {
+            ivec2 c = clamp(cell + ivec2(x, y), ivec2(0), lastCell());
+            sum += float((2 - abs(x)) * (2 - abs(y))) * texelFetch(fineField, c, 0).xyz;
+        }
+    return sum / 16.0;
+}
+
+float keptShare(ivec2 cell) {
+    vec3 sum = fineAround(cell);
     float both = max(sum.y, 0.0);
     float unexplained = sum.x - both * both / (sum.z + kFineLeast);
     float allowed = kFineRoom * params.noise + kFineShareRoom * params.share * sum.x;
-    float kept = allowed / max(unexplained, kFineLeast);
-    if (!(kept < 1.0)) kept = 1.0;
-    vec3 keptWeight = vec3(1.0, 1.0, kept);
-    imageStore(newCells, cell, texelFetch(cellField, cell, 0) * vec4(keptWeight, 1.0));
-    imageStore(newLookUps, cell, texelFetch(lookupField, cell, 0) * vec4(keptWeight, 1.0));
-    imageStore(newWeights, cell, texelFetch(weightField, cell, 0) * vec4(kept, 1.0, 1.0, 1.0));
+    float even = min(allowed / max(unexplained, kFineLeast), 1.0);
+    float wrong = max(unexplained - kFineNoise * params.noise, 0.0);
+    float explained = 1.0 - wrong / (sum.x + kFineLeast);
+    float kept = mix(even, explained * explained, bentAt(cell));
+    return kept < 1.0 ? kept : 1.0;
+}
+
+void main() {
+    ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThan(cell, lastCell()))) return;
+    vec4 weighed = texelFetch(displacement, cell, 0);
+    float weight = weighed.z * max(kRaisedWeight - weighed.z, 1.0) * keptShare(cell);
+    imageStore(newCells, cell, vec4(weighed.xy, weight, weighed.w));
+    imageStore(newLookUps, cell, vec4(texelFetch(lookupField, cell, 0).xy, weight, weighed.w));
+    imageStore(newWeights, cell, vec4(0.5 * weight, texelFetch(weightField, cell, 0).yzw));
 }

@@ -1,16 +1,16 @@
-// Compares the finest detail of video and still in each cell; see kFineRoom. The finest detail is
-// the difference between a pixel and the mean of its 2x2 block.
+// Compares the finest detail of video and still in each cell; see kFineRoom. The finest detail
+// consists of the differences between neighbouring pixels.
 // In: states of the tiles, look-ups, luma of the still with amplified finest detail, video.
-// Out: means of three products over the middle two rows of the cell [grey levels^2]: video * video,
-// video * still and still * still, each of finest detail. The means are zero in tiles that are not
-// matched and in cells that are only partly inside the frame.
-// One workgroup per tile, one invocation per cell. Only every kFineStep-th row of cells is sampled.
-// Range: fineField 0..65025, -65025..65025, 0..65025, 0
+// Out: halves of the means of three products over the middle two rows of the cell [grey levels^2]:
+// video * video, video * still and still * still, each of finest detail. The means are zero in
+// tiles that are not matched and in cells that are only partly inside the frame.
+// One workgroup per tile, one invocation per cell.
+// Range: fineField 0..32513, -32513..32513, 0..32513, 0
 #include "luma.glsl"
 #include "still_linear.glsl"
 #include "pipeline/engine/params/weigh.h"
 
-layout(local_size_x = 4, local_size_y = 2) in;
+layout(local_size_x = 4, local_size_y = 4) in;
 layout(std140, binding = 0) uniform Params {
     SumFine params;
 };
@@ -34,26 +34,32 @@ float stillAt(ivec2 pixel) {
     return 0.25 * sum;
 }
 
-vec3 sumsOfBlock(ivec2 first) {
-    vec4 video, seen;
-    for (int i = 0; i < 4; ++i) {
-        ivec2 p = first + ivec2(i & 1, i >> 1);
-        video[i] = 255.0 * lumaOf(texelFetch(picture, p, 0).rgb);
-        seen[i] = 255.0 * stillAt(p);
-    }
-    video -= dot(video, vec4(0.25));
-    seen -= dot(seen, vec4(0.25));
-    return vec3(dot(video, video), dot(video, seen), dot(seen, seen)) / 8.0;
+// Returns the luma of video (x) and still (y) [grey levels].
+vec2 bothAt(ivec2 pixel) {
+    ivec2 p = ivec2(min(pixel.x, params.videoWidth - 1), pixel.y);
+    return 255.0 * vec2(lumaOf(texelFetch(picture, p, 0).rgb), stillAt(p));
+}
+
+vec3 productsOf(vec2 difference) {
+    return difference.xxy * difference.xyy;
 }
 
 void main() {
-    ivec2 sampled = ivec2(gl_GlobalInvocationID.xy), cell = sampled * ivec2(1, kFineStep);
+    ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(cell, ivec2(params.columns, params.rows)))) return;
     bool matched = tiles[gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x].y != 0u;
     bool isWhole = all(lessThanEqual(4 * cell + 4, ivec2(params.videoWidth, params.videoHeight)));
     vec3 sums = vec3(0.0);
-    if (matched && isWhole)
-        for (int i = 0; i < 2; ++i)
-            sums += sumsOfBlock(4 * cell + ivec2(2 * i, 1));
-    imageStore(fineField, sampled, vec4(sums, 0.0));
+    if (matched && isWhole) {
+        ivec2 first = 4 * cell + ivec2(0, 1);
+        vec2 upper = bothAt(first), lower = bothAt(first + ivec2(0, 1));
+        for (int i = 1; i <= 4; ++i) {
+            sums += productsOf(lower - upper);
+            vec2 nextUpper = bothAt(first + ivec2(i, 0)), nextLower = bothAt(first + ivec2(i, 1));
+            sums += productsOf(nextUpper - upper) + productsOf(nextLower - lower);
+            upper = nextUpper;
+            lower = nextLower;
+        }
+    }
+    imageStore(fineField, cell, vec4(sums / 24.0, 0.0));
 }

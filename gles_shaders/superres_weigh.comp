@@ -28,20 +28,7 @@ layout(rgba32f, binding = 0) uniform writeonly highp image2D cellField;
 layout(rgba8, binding = 1) uniform writeonly highp image2D weightField;
 layout(rgba16f, binding = 2) uniform writeonly highp image2D lookupField;
 
-ivec2 lastCell() {
-    return ivec2(params.columns, params.rows) - 1;
-}
-
-vec2 flowAt(ivec2 c) {
-    return texelFetch(displacement, clamp(c, ivec2(0), lastCell()), 0).xy;
-}
-
-// Returns the change of the flow around the cell [px per px].
-float bendAt(ivec2 c) {
-    vec2 dx = flowAt(c + ivec2(1, 0)) - flowAt(c - ivec2(1, 0));
-    vec2 dy = flowAt(c + ivec2(0, 1)) - flowAt(c - ivec2(0, 1));
-    return sqrt(dot(dx, dx) + dot(dy, dy)) / 8.0;
-}
+#include "flow_bend.glsl"
 
 // Returns the magnitude of the second difference of the flow at the cell [px]. Rotations and zooms
 // have a second difference of zero.
@@ -86,8 +73,7 @@ void main() {
     float lowShare = low.z / (low.z + kLowContrast * lowNoise);
     gain = min(mix(gain, max(gain, lowGain), lowShare), kLargestGain);
     float ncc2 = covariance * covariance / ((varianceVideo + noise) * (varianceStill + noise));
-    float apart = smoothstep(kEvenFlow, kBentFlow, bendAt(cell));
-    float trust = mix(kLookUpLoss * smoothstep(kUnlikePatches, kAlikePatches, ncc2), ncc2 * ncc2, apart);
+    float trust = mix(kLookUpLoss * smoothstep(kUnlikePatches, kAlikePatches, ncc2), ncc2 * ncc2, bentAt(cell));
     float torn = smoothstep(kSmoothStep, kTornStep, tearAt(cell));
     float weight = gain * trust * confidence * (1.0 - torn);
     if (!(weight > kSmallestWeight)) weight = 0.0;

@@ -230,8 +230,8 @@ Pipeline::State::Match Pipeline::State::matchStill(const VideoFrame& frame, cons
         const int tiles = forDepth.empty() ? work.matched : work.changed;
         if (tiles > 0 && !where.empty()) epipolar->run(frame.view, *pose, where);
         lap("epipolar");
-        newest.flow->refine(pyramids, work, epipolar->forward(), epipolar->occlusion());
-        found = &newest.flow->matchDirectly(frame, *newest.pictures, work);
+        found = &newest.flow->refine({frame, *newest.pictures}, pyramids, work,
+                                     {epipolar->forward(), epipolar->occlusion()});
     } else {
         found = &newest.flow->run(pyramids, work,
                                   newest.lastFlow != nullptr && options.skips.knownFlow);

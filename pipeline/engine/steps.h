@@ -95,6 +95,15 @@ public:
 class FlowStep {
 public:
     using Cells = std::span<const std::array<float, 4>>;
+    /// Flow along epipolar lines. The first two numbers of each entry of `vectors` are the cell's
+    /// flow [px]; the first number of each entry of `errors` is its two-way error [px].
+    struct AlongLines {
+        Cells vectors, errors;
+    };
+    struct Pictures {
+        const VideoFrame& video;
+        const StillPictures& still;
+    };
 
     virtual ~FlowStep() = default;
     /// Sets the options that can change between frames, see changed() in flow_options.h. Throws
@@ -103,16 +112,12 @@ public:
     /// Searches the flow from video to still (forward) and from still to video (backward). If
     /// `usePrior` is true, the last frame's flow vectors are candidates in all cells.
     virtual const FlowCells& run(const LumaPyramid& luma, const TileWork& work, bool usePrior) = 0;
-    /// Refines the flow `vectors` of all cells, whose errors must be below a pixel. The first
-    /// number of each entry of `errors` is the cell's two-way error [px]. Tiles in which the
-    /// vectors do not fit the pictures are searched in two dimensions.
-    virtual const FlowCells& refine(const LumaPyramid& luma, const TileWork& work, Cells vectors,
-                                    Cells errors) = 0;
-    /// Improves the result of the last refine(), which must have been called for the same frame:
-    /// compares doubtful cells with the still itself, see params::kPatchSamples. The `vectors` of
-    /// refine() must still be valid.
-    virtual const FlowCells& matchDirectly(const VideoFrame& frame, const StillPictures& still,
-                                           const TileWork& work) = 0;
+    /// Refines the flow `along` epipolar lines, whose errors must be below a pixel. Tiles in which
+    /// the vectors do not fit the pictures are searched in two dimensions. Then doubtful cells are
+    /// compared with the still itself, see params::kPatchSamples. `luma` must be that of
+    /// `pictures`.
+    virtual const FlowCells& refine(const Pictures& pictures, const LumaPyramid& luma,
+                                    const TileWork& work, const AlongLines& along) = 0;
     /// Returns a flag for each tile, row-major: true if the last refine() searched the tile. Waits
     /// for the GPU if necessary.
     [[nodiscard]] virtual std::vector<bool> searchedTiles() const = 0;
@@ -127,9 +132,9 @@ public:
     virtual ~WeighStep() = default;
     virtual const CellWeights& run(const LumaPyramid& luma, const FlowCells& flow,
                                    const TileWork& work) = 0;
-    /// Lowers the weights of cells in which the still does not show the video's finest detail as
-    /// well as usual (`match`), see params::kFineRoom. Must be called after run() for the same
-    /// frame.
+    /// Raises small weights, and lowers the weights of cells in which the still does not show the
+    /// video's finest detail as well as usual (`match`), see params::kFineRoom and kRaisedWeight.
+    /// Must be called after run() for the same frame.
     virtual const CellWeights& confirm(const VideoFrame& frame, const StillPictures& still,
                                        const TileWork& work, const FineMatch& match) = 0;
 };

@@ -69,23 +69,25 @@ private:
 };
 
 Sums sumsOf(const MatchedPictures& pictures, const Sampler& sampler, int column, int row) {
+    std::array<std::array<Sums, kCell + 1>, 2> at;  // two rows of pixels
+    for (int j = 0; j < 2; ++j)
+        for (int i = 0; i <= kCell; ++i) {
+            const int x = std::min(kCell * column + i, pictures.video.width - 1),
+                      y = kCell * row + 1 + j;
+            at[j][i].video = pictures.row(y)[x] / double(kLumaScale);
+            at[j][i].still = sampler.pixel(x, y);
+        }
     Sums out;
-    for (const int x0 : {kCell * column, kCell * column + 2}) {
-        std::array<Sums, 4> at;
-        Sums mean;
-        for (int i = 0; i < 4; ++i) {
-            const int x = x0 + i % 2, y = kCell * row + 1 + i / 2;
-            at[i].video = pictures.row(y)[x] / double(kLumaScale);
-            at[i].still = sampler.pixel(x, y);
-            mean.video += at[i].video / 4;
-            mean.still += at[i].still / 4;
-        }
-        for (const Sums& of : at) {
-            const double a = of.video - mean.video, b = of.still - mean.still;
-            out.video += a * a / 8;
-            out.both += a * b / 8;
-            out.still += b * b / 8;
-        }
+    const auto add = [&out](const Sums& from, const Sums& to) {
+        const double a = to.video - from.video, b = to.still - from.still;
+        out.video += a * a / 24;
+        out.both += a * b / 24;
+        out.still += b * b / 24;
+    };
+    for (int i = 0; i < kCell; ++i) {
+        add(at[0][i], at[0][i + 1]);
+        add(at[1][i], at[1][i + 1]);
+        add(at[0][i], at[1][i]);
     }
     return out;
 }

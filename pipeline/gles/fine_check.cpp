@@ -6,8 +6,7 @@ namespace mfar {
 
 FineCheck::FineCheck(const StereoRig& stillRig)
     : rig_(stillRig), cells_(cellsOf(stillRig.video.size)),
-      sums_({cells_.width, divideUp(cells_.height, params::kFineStep)}, gpu::TexelFormat::Rgba32F),
-      weighed_(cells_, gpu::TexelFormat::Rgba32F),
+      sums_(cells_, gpu::TexelFormat::Rgba32F), weighed_(cells_, gpu::TexelFormat::Rgba32F),
       lookUps_(cells_, gpu::TexelFormat::Rgba16F, gpu::Filter::Linear),
       trust_(cells_, gpu::TexelFormat::Rgba8, gpu::Filter::Linear), sum_("superres_fine.comp"),
       confirm_("superres_confirm.comp") {}

@@ -8,8 +8,8 @@
 
 namespace mfar {
 
-/// Lowers the weights of cells in which the still does not show the video's finest detail, see
-/// params::kFineRoom.
+/// Raises small weights, and lowers the weights of cells in which the still does not show the
+/// video's finest detail, see params::kFineRoom and kRaisedWeight.
 class FineCheck {
 public:
     /// The still camera of `stillRig` must have the resolution of run()'s `still`.

@@ -148,17 +148,14 @@ public:
         flow_.run(lumaOf(luma), frame_.tiles(work), usePrior);
         return written();
     }
-    const FlowCells& refine(const LumaPyramid& luma, const TileWork& work, Cells vectors,
-                            Cells errors) override {
-        flow_.refine(lumaOf(luma), frame_.tiles(work), vectors, errors);
-        return written();
-    }
-    const FlowCells& matchDirectly(const VideoFrame& frame, const StillPictures& still,
-                                   const TileWork& work) override {
+    const FlowCells& refine(const Pictures& pictures, const LumaPyramid& luma, const TileWork& work,
+                            const AlongLines& along) override {
+        const TileBuffer& tiles = frame_.tiles(work);
+        flow_.refine(lumaOf(luma), tiles, along.vectors, along.errors);
         if (work.matched > 0)
             direct_.run(flow_.cells(),
                         {flow_.forward().offset, flow_.seed(), flow_.backward().offset},
-                        frame_.video(frame), raisedOf(still), frame_.tiles(work));
+                        frame_.video(pictures.video), raisedOf(pictures.still), tiles);
         return written();
     }
     std::vector<bool> searchedTiles() const override { return flow_.searched().read(); }

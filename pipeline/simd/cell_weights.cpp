@@ -79,7 +79,7 @@ HWY_INLINE void HalfAround(const WeighRow::Half& rows, int chunk, LowRow& out) {
 }
 
 struct Weight {
-    V weight, signal, unexplained;
+    V weight, signal, unexplained, bent;
 };
 
 HWY_INLINE Weight WeightOf(const WeighRow& row, int x, V low, V lowStill, V confidence,
@@ -103,8 +103,8 @@ HWY_INLINE Weight WeightOf(const WeighRow& row, int x, V low, V lowStill, V conf
         hn::Mul(hn::Sqrt(hn::Add(Bend(row.flowX, x), Bend(row.flowY, x))), Const(1.0F / 8));
     const V even = hn::Mul(SmoothStep(params::kUnlikePatches, params::kAlikePatches, ncc2),
                            Const(params::kLookUpLoss));
-    const V trust =
-        Mix(even, hn::Mul(ncc2, ncc2), SmoothStep(params::kEvenFlow, params::kBentFlow, bend));
+    const V bent = SmoothStep(params::kEvenFlow, params::kBentFlow, bend);
+    const V trust = Mix(even, hn::Mul(ncc2, ncc2), bent);
     const V tear = hn::Sqrt(hn::Add(Tear(row.flowX, x), Tear(row.flowY, x)));
     const V whole = hn::Sub(Const(1), SmoothStep(params::kSmoothStep, params::kTornStep, tear));
     const V weight = hn::Mul(hn::Mul(gain, trust), hn::Mul(confidence, whole));
@@ -115,7 +115,7 @@ HWY_INLINE Weight WeightOf(const WeighRow& row, int x, V low, V lowStill, V conf
         hn::Ge(video, Const(params::kTexturedContrast * (ofPatch + params::kPatchPixels)));
     const auto unlike = hn::Le(hn::Mul(ncc2, confidence), Const(params::kUnexplainedMatch));
     return {hn::IfThenElseZero(counts, weight), hn::Max(hn::Min(signal, Const(1)), zero),
-            hn::IfThenElseZero(hn::And(textured, unlike), Const(1))};
+            hn::IfThenElseZero(hn::And(textured, unlike), Const(1)), bent};
 }
 
 void WeighCells(const WeighRow& row, float noise) {
@@ -136,6 +136,7 @@ void WeighCells(const WeighRow& row, float noise) {
                                   w.weight, confidence, d, &row.lookUps[x].x);
             hn::StoreInterleaved4(hn::Min(hn::Mul(w.weight, Const(0.5F)), Const(1)), confidence,
                                   w.signal, w.unexplained, d, &row.trust[x].halfWeight);
+            hn::StoreU(w.bent, d, row.bent + x);
         }
     }
 }

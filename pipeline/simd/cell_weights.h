@@ -29,6 +29,7 @@ struct WeighRow {
     WeighedCell* weighed;
     LookUpCell* lookUps;
     TrustCell* trust;
+    float* bent;  ///< see WeighStep::bent()
 };
 
 /// Computes the weight of the still's detail at each cell, as superres_weigh.comp does. `noise`:

@@ -6,36 +6,34 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <utility>
 
 namespace mfar::simd {
 namespace {
 
-using params::kFineStep;
-static_assert(kCellsPerTile % kFineStep == 0);
-constexpr int kBlock = 2;
-constexpr int kFirst = (kCell - 2) / 2;  // first of the two pixel rows of a cell that are compared
-constexpr int kRoom = 64;                // number of pixels after a row that vectors can access
+constexpr int kRows = 2;                     // number of pixel rows of a cell that are compared
+constexpr int kFirst = (kCell - kRows) / 2;  // the first of them
+constexpr int kRoom = 64;                    // number of pixels after a row that vectors can access
 
 }  // namespace
 
 FineCheck::Scratch::Scratch(const FineCheck& check)
     : lookUps(check.cells_, kSamples * check.video_.width),
-      video({check.video_.width + kRoom, kBlock}),
-      still({kSamples * (check.video_.width + kRoom), kSamples * kBlock}) {
+      video({check.video_.width + kRoom, kRows}),
+      still({kSamples * (check.video_.width + kRoom), kSamples * kRows}) {
     cells.reserve(static_cast<std::size_t>(check.cells_.width));
 }
 
 FineCheck::FineCheck(const StereoRig& stillRig, std::shared_ptr<Workers> workers)
-    : video_(stillRig.video.size), cells_(cellsOf(video_)),
-      sampled_{cells_.width, divideUp(cells_.height, kFineStep)}, workers_(std::move(workers)),
-      taps_(stillRig, {kSamples * video_.width, kSamples * video_.height}), ofVideo_(sampled_),
-      ofBoth_(sampled_), ofStill_(sampled_), shares_(wholeVectors(cells_)),
+    : video_(stillRig.video.size), cells_(cellsOf(video_)), workers_(std::move(workers)),
+      taps_(stillRig, {kSamples * video_.width, kSamples * video_.height}), ofVideo_(cells_),
+      ofBoth_(cells_), ofStill_(cells_), shares_(wholeVectors(cells_)),
       scratch_(workers_->count(), [this] { return Scratch(*this); }) {}
 
 Rows<const float> FineCheck::run(const RgbPlanes& video, const StillPairs& still,
-                                 Rows<const LookUpCell> lookUps, const TileWork& work,
-                                 const FineMatch& match) {
+                                 Rows<const LookUpCell> lookUps, Rows<const float> bent,
+                                 const TileWork& work, const FineMatch& match) {
     const Frame frame{video, still, lookUps, work};
     // The lambda captures only a pointer and a reference, so that std::function stores it without
     // allocating memory.
@@ -45,16 +43,13 @@ Rows<const float> FineCheck::run(const RgbPlanes& video, const StillPairs& still
                 sumTiles(frame, scratch, row);
         });
     });
-    workers_->forRange(cells_.height, kCellsPerTile, [this, &match](int first, int last) {
+    const auto shares = [&](int first, int last) {
         for (int row = first; row < last; ++row)
-            fineShareRow({near(ofVideo_, row), near(ofBoth_, row), near(ofStill_, row)}, match,
-                         cells_.width, shares_[row]);
-    });
+            fineShareRow({ofVideo_.around(row), ofBoth_.around(row), ofStill_.around(row)},
+                         bent[row], match, cells_.width, shares_[row]);
+    };
+    workers_->forRange(cells_.height, kCellsPerTile, std::ref(shares));
     return {shares_[0], shares_.pitch(), cells_};
-}
-
-FineSumsNear::Pair FineCheck::near(CellPlane& sums, int row) const {
-    return {sums[row / kFineStep], sums[std::min(divideUp(row, kFineStep), sampled_.height - 1)]};
 }
 
 void FineCheck::sumTiles(const Frame& frame, Scratch& scratch, int tileRow) {
@@ -66,33 +61,36 @@ void FineCheck::sumTiles(const Frame& frame, Scratch& scratch, int tileRow) {
     if (!scratch.cells.empty())
         scratch.lookUps.begin(frame.lookUps, taps_, false,
                               kSamples * kCell * scratch.cells.front().begin,
-                              kSamples * kCell * scratch.cells.back().end);
+                              kSamples * pixelsOf(scratch.cells.back().end));
     const int last = std::min(kCellsPerTile * (tileRow + 1), cells_.height);
-    for (int row = kCellsPerTile * tileRow; row < last; row += kFineStep)
+    for (int row = kCellsPerTile * tileRow; row < last; ++row)
         sum(frame, scratch, row);
 }
 
+int FineCheck::pixelsOf(int cells) const {
+    return std::min(kCell * cells + 1, video_.width);
+}
+
 void FineCheck::sum(const Frame& frame, Scratch& scratch, int row) {
-    const int sampled = row / kFineStep;
     const bool isWhole = kCell * (row + 1) <= video_.height;
     if (isWhole) {
         const int y = kCell * row + kFirst;
-        std::array<std::int16_t*, kSamples * kBlock> still{};
-        for (int k = 0; k < kSamples * kBlock; ++k) {
+        std::array<std::int16_t*, kSamples * kRows> still{};
+        for (int k = 0; k < kSamples * kRows; ++k) {
             still[k] = scratch.still[k];
             const LookUpRows lookUps =
                 scratch.cells.empty() ? LookUpRows{} : scratch.lookUps.row(kSamples * y + k);
             for (const auto& [begin, end] : scratch.cells)
-                warpRow(frame.still, lookUps, kSamples * kCell * begin, kSamples * kCell * end,
+                warpRow(frame.still, lookUps, kSamples * kCell * begin, kSamples * pixelsOf(end),
                         still[k]);
         }
         for (const auto& [begin, end] : scratch.cells) {
-            for (int k = 0; k < kBlock; ++k)
+            for (int k = 0; k < kRows; ++k)
                 lumaEighthsRow({frame.video.row(0, y + k), frame.video.row(1, y + k),
                                 frame.video.row(2, y + k)},
-                               kCell * begin, kCell * end, scratch.video[k]);
-            fineSumsRow({scratch.video[0], scratch.video[1]}, still, begin, end,
-                        {ofVideo_[sampled], ofBoth_[sampled], ofStill_[sampled]});
+                               kCell * begin, pixelsOf(end), scratch.video[k]);
+            fineSumsRow({scratch.video[0], scratch.video[1]}, still, begin, end, video_.width,
+                        {ofVideo_[row], ofBoth_[row], ofStill_[row]});
         }
     }
     for (CellPlane* plane : {&ofVideo_, &ofBoth_, &ofStill_}) {
@@ -101,11 +99,11 @@ void FineCheck::sum(const Frame& frame, Scratch& scratch, int row) {
         int done = 0;
         for (const auto& [begin, end] : scratch.cells) {
             if (!isWhole) break;
-            std::fill((*plane)[sampled] + done, (*plane)[sampled] + begin, 0.0F);
+            std::fill((*plane)[row] + done, (*plane)[row] + begin, 0.0F);
             done = end;
         }
-        std::fill((*plane)[sampled] + done, (*plane)[sampled] + cells_.width, 0.0F);
-        plane->repeatBorder(sampled);
+        std::fill((*plane)[row] + done, (*plane)[row] + cells_.width, 0.0F);
+        plane->repeatBorder(row);
     }
 }
 

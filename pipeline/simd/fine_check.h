@@ -26,10 +26,10 @@ public:
 
     /// Returns for each cell the factor of its weight, [0, 1]. The result is valid until the next
     /// call. Cells of unmatched tiles and incomplete cells at the border are not measured. Their
-    /// factor depends only on the neighbouring cells.
+    /// factor depends only on the neighbouring cells. `bent`: see WeighStep::bent().
     Rows<const float> run(const RgbPlanes& video, const StillPairs& still,
-                          Rows<const LookUpCell> lookUps, const TileWork& work,
-                          const FineMatch& match);
+                          Rows<const LookUpCell> lookUps, Rows<const float> bent,
+                          const TileWork& work, const FineMatch& match);
 
 private:
     static constexpr int kSamples = 2;  // samples of the still per video pixel, along each axis
@@ -48,9 +48,10 @@ private:
 
     void sumTiles(const Frame& frame, Scratch& scratch, int tileRow);
     void sum(const Frame& frame, Scratch& scratch, int row);
-    [[nodiscard]] FineSumsNear::Pair near(CellPlane& sums, int row) const;
+    /// Number of pixels from the frame's left border to the first one after `cells` cells.
+    [[nodiscard]] int pixelsOf(int cells) const;
 
-    Size video_, cells_, sampled_;  // sampled_: like cells_, but only every kFineStep-th row
+    Size video_, cells_;
     std::shared_ptr<Workers> workers_;
     LookUpTaps taps_;
     CellPlane ofVideo_, ofBoth_, ofStill_;

@@ -2,6 +2,8 @@
 
 #include "pipeline/engine/params/weigh.h"
 
+#include <algorithm>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/fine_rows.cpp"
 #include <hwy/foreach_target.h>
@@ -41,67 +43,89 @@ HWY_INLINE void SumSamples(std::int16_t* upper, const std::int16_t* lower, int b
     }
 }
 
-void FineSumsRow(const std::array<const std::int16_t*, 2>& video,
-                 const std::array<std::int16_t*, 4>& still, int begin, int end,
+/// Differences between neighbouring pixels of two rows: for each column of a cell, to the right in
+/// both rows, and from the upper to the lower row.
+struct Differences {
+    hn::Vec<F> of[4][3];
+};
+
+HWY_INLINE Differences DifferencesOf(const std::int16_t* upper, const std::int16_t* lower, int cell,
+                                     float scale) {
+    const auto unit = hn::Set(F(), scale);
+    const Quads above = QuadsOf(upper, cell), below = QuadsOf(lower, cell),
+                rightAbove = QuadsOf(upper + 1, cell), rightBelow = QuadsOf(lower + 1, cell);
+    Differences out;
+    for (int i = 0; i < 4; ++i) {
+        const auto a = Wide(above.at[i]), b = Wide(below.at[i]);
+        out.of[i][0] = hn::Mul(unit, hn::Sub(Wide(rightAbove.at[i]), a));
+        out.of[i][1] = hn::Mul(unit, hn::Sub(Wide(rightBelow.at[i]), b));
+        out.of[i][2] = hn::Mul(unit, hn::Sub(b, a));
+    }
+    return out;
+}
+
+void FineSumsRow(const std::array<std::int16_t*, 2>& video,
+                 const std::array<std::int16_t*, 4>& still, int begin, int end, int pixels,
                  const FineSums& to) {
     const F d;
     const int lanes = static_cast<int>(hn::Lanes(d));
     // A row of sums is half as long as the row of samples that it replaces, so it overwrites only
     // samples that are already added.
-    SumSamples(still[0], still[1], 4 * begin, 4 * end);
-    SumSamples(still[2], still[3], 4 * begin, 4 * end);
+    const int last = std::min(4 * end + 1, pixels);
+    SumSamples(still[0], still[1], 4 * begin, last);
+    SumSamples(still[2], still[3], 4 * begin, last);
+    if (last == pixels)
+        for (std::int16_t* row : {video[0], video[1], still[0], still[2]})
+            row[pixels] = row[pixels - 1];
     constexpr float kVideo = 1.0F / 8, kStill = 1.0F / 128;
-    const auto scaleVideo = hn::Set(d, kVideo), scaleStill = hn::Set(d, kStill);
-    const auto quarter = hn::Set(d, 0.25F), eighth = hn::Set(d, 1.0F / 8);
+    const auto mean = hn::Set(d, 1.0F / 24);
     for (int cell = begin; cell < end; cell += lanes) {
-        const Quads v[2] = {QuadsOf(video[0], cell), QuadsOf(video[1], cell)};
-        const Quads s[2] = {QuadsOf(still[0], cell), QuadsOf(still[2], cell)};
+        const Differences v = DifferencesOf(video[0], video[1], cell, kVideo),
+                          s = DifferencesOf(still[0], still[2], cell, kStill);
         auto ofVideo = hn::Zero(d), ofBoth = ofVideo, ofStill = ofVideo;
-        for (int block = 0; block < 2; ++block) {
-            hn::Vec<F> a[4], b[4];
-            for (int i = 0; i < 4; ++i) {
-                a[i] = hn::Mul(Wide(v[i / 2].at[2 * block + i % 2]), scaleVideo);
-                b[i] = hn::Mul(Wide(s[i / 2].at[2 * block + i % 2]), scaleStill);
-            }
-            const auto meanOf = [&](const hn::Vec<F>* of) HWY_ATTR {
-                return hn::Mul(hn::Add(hn::Add(of[0], of[1]), hn::Add(of[2], of[3])), quarter);
-            };
-            const auto meanA = meanOf(a), meanB = meanOf(b);
-            for (int i = 0; i < 4; ++i) {
-                const auto p = hn::Sub(a[i], meanA), q = hn::Sub(b[i], meanB);
+        for (int i = 0; i < 4; ++i)
+            for (int k = 0; k < 3; ++k) {
+                const auto p = v.of[i][k], q = s.of[i][k];
                 ofVideo = hn::MulAdd(p, p, ofVideo);
                 ofBoth = hn::MulAdd(p, q, ofBoth);
                 ofStill = hn::MulAdd(q, q, ofStill);
             }
-        }
-        hn::StoreU(hn::Mul(ofVideo, eighth), d, to.video + cell);
-        hn::StoreU(hn::Mul(ofBoth, eighth), d, to.both + cell);
-        hn::StoreU(hn::Mul(ofStill, eighth), d, to.still + cell);
+        hn::StoreU(hn::Mul(ofVideo, mean), d, to.video + cell);
+        hn::StoreU(hn::Mul(ofBoth, mean), d, to.both + cell);
+        hn::StoreU(hn::Mul(ofStill, mean), d, to.still + cell);
     }
 }
 
-HWY_INLINE hn::Vec<F> Smoothed(const FineSumsNear::Pair& rows, int x) {
+HWY_INLINE hn::Vec<F> Smoothed(const RowsAround& rows, int x) {
     const F d;
+    const auto two = hn::Set(d, 2.0F);
     const auto column = [&](int at) HWY_ATTR {
-        return hn::Add(hn::LoadU(d, rows.above + at), hn::LoadU(d, rows.below + at));
+        return hn::MulAdd(two, hn::LoadU(d, rows.here + at),
+                          hn::Add(hn::LoadU(d, rows.above + at), hn::LoadU(d, rows.below + at)));
     };
-    return hn::Mul(hn::MulAdd(hn::Set(d, 2.0F), column(x), hn::Add(column(x - 1), column(x + 1))),
-                   hn::Set(d, 1.0F / 8));
+    return hn::Mul(hn::MulAdd(two, column(x), hn::Add(column(x - 1), column(x + 1))),
+                   hn::Set(d, 1.0F / 16));
 }
 
-void FineShareRow(const FineSumsNear& sums, const FineMatch& match, int count, float* to) {
+void FineShareRow(const FineSumsAround& sums, const float* bent, const FineMatch& match, int count,
+                  float* to) {
     const F d;
     const int lanes = static_cast<int>(hn::Lanes(d));
-    const auto one = hn::Set(d, 1.0F);
-    const auto noise = hn::Set(d, params::kFineRoom * match.noise),
-               share = hn::Set(d, params::kFineShareRoom * match.share);
+    const auto zero = hn::Zero(d), one = hn::Set(d, 1.0F), least = hn::Set(d, params::kFineLeast);
+    const auto room = hn::Set(d, params::kFineRoom * match.noise),
+               share = hn::Set(d, params::kFineShareRoom * match.share),
+               noise = hn::Set(d, params::kFineNoise * match.noise);
     for (int x = 0; x < count; x += lanes) {
         const auto video = Smoothed(sums.video, x);
-        const auto both = hn::Max(Smoothed(sums.both, x), hn::Zero(d));
-        const auto still = hn::Add(Smoothed(sums.still, x), hn::Set(d, params::kFineLeast));
+        const auto both = hn::Max(Smoothed(sums.both, x), zero);
+        const auto still = hn::Add(Smoothed(sums.still, x), least);
         const auto unexplained = hn::Sub(video, hn::Div(hn::Mul(both, both), still));
-        const auto allowed = hn::MulAdd(share, video, noise);
-        const auto kept = hn::Div(allowed, hn::Max(unexplained, hn::Set(d, params::kFineLeast)));
+        const auto allowed = hn::MulAdd(share, video, room);
+        const auto even = hn::Min(hn::Div(allowed, hn::Max(unexplained, least)), one);
+        const auto wrong = hn::Max(hn::Sub(unexplained, noise), zero);
+        const auto explained = hn::NegMulAdd(wrong, hn::Div(one, hn::Add(video, least)), one);
+        const auto kept =
+            hn::MulAdd(hn::LoadU(d, bent + x), hn::Sub(hn::Mul(explained, explained), even), even);
         // If `kept` is NaN, the comparison is false, and the cell keeps its whole weight.
         hn::StoreU(hn::IfThenElse(hn::Lt(kept, one), kept, one), d, to + x);
     }
@@ -116,14 +140,15 @@ namespace mfar::simd {
 HWY_EXPORT(FineSumsRow);
 HWY_EXPORT(FineShareRow);
 
-void fineSumsRow(const std::array<const std::int16_t*, 2>& video,
-                 const std::array<std::int16_t*, 4>& still, int begin, int end,
+void fineSumsRow(const std::array<std::int16_t*, 2>& video,
+                 const std::array<std::int16_t*, 4>& still, int begin, int end, int pixels,
                  const FineSums& to) {
-    HWY_DYNAMIC_DISPATCH(FineSumsRow)(video, still, begin, end, to);
+    HWY_DYNAMIC_DISPATCH(FineSumsRow)(video, still, begin, end, pixels, to);
 }
 
-void fineShareRow(const FineSumsNear& sums, const FineMatch& match, int count, float* to) {
-    HWY_DYNAMIC_DISPATCH(FineShareRow)(sums, match, count, to);
+void fineShareRow(const FineSumsAround& sums, const float* bent, const FineMatch& match, int count,
+                  float* to) {
+    HWY_DYNAMIC_DISPATCH(FineShareRow)(sums, bent, match, count, to);
 }
 
 }  // namespace mfar::simd

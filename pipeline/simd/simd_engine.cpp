@@ -133,38 +133,17 @@ public:
     const FlowCells& run(const LumaPyramid& luma, const TileWork& work, bool usePrior) override {
         flow_.run(lumaOf(luma), work, usePrior);
         copy(flow_.backward());
-        return written(work);
+        return written();
     }
-    const FlowCells& refine(const LumaPyramid& luma, const TileWork& work, Cells vectors,
-                            Cells errors) override {
-        lines_ = vectors;
-        flow_.refine(lumaOf(luma), work, vectors, errors);
+    const FlowCells& refine(const Pictures& pictures, const LumaPyramid& luma, const TileWork& work,
+                            const AlongLines& along) override {
+        flow_.refine(lumaOf(luma), work, along.vectors, along.errors);
         const Rows<const ErrorCell> given = flow_.errors();
-        ErrorCell* to = reinterpret_cast<ErrorCell*>(row_[0] + cells_.count());
+        ErrorCell* to = errors();
         for (int y = 0; y < given.size.height; ++y)
             to = std::copy_n(given[y], given.size.width, to);
-        return written(work);
-    }
-    const FlowCells& matchDirectly(const VideoFrame& frame, const StillPictures& still,
-                                   const TileWork& work) override {
-        if (work.matched == 0) return cells_;
-        const simd::StillPairs pairs = stills_->of(still);
-        const simd::DirectMatch match{frame.planes,
-                                      pairs,
-                                      lookUp_,
-                                      cells_.forward,
-                                      lines_.data(),
-                                      static_cast<float>(work.noise),
-                                      leastTexture(work.noise)};
-        auto* errors = reinterpret_cast<ErrorCell*>(row_[0] + cells_.count());
-        workers_->forRange(cells_.forward.height, 1, [&](int first, int last) {
-            for (int y = first; y < last; ++y)
-                simd::forRuns(work, y / kCellsPerTile, kCellsPerTile, cells_.forward.width,
-                              [&](bool matched, int begin, int end) {
-                                  if (matched)
-                                      simd::matchDirectly(match, y, begin, end, row_[0], errors);
-                              });
-        });
+        written();
+        if (work.matched > 0) matchDirectly(pictures, work, along.vectors);
         return cells_;
     }
     std::vector<bool> searchedTiles() const override { return flow_.searchedTiles(); }
@@ -175,12 +154,28 @@ private:
         const Rows<const std::uint32_t> words = luma.words.host();
         return {luma.video, luma.still, {words.data, static_cast<std::size_t>(words.size.width)}};
     }
+    ErrorCell* errors() { return reinterpret_cast<ErrorCell*>(row_[0] + cells_.count()); }
+    void matchDirectly(const Pictures& pictures, const TileWork& work, Cells lines) {
+        const simd::StillPairs pairs = stills_->of(pictures.still);
+        const simd::DirectMatch match{
+            pictures.video.planes,   pairs,        lookUp_,
+            cells_.forward,          lines.data(), static_cast<float>(work.noise),
+            leastTexture(work.noise)};
+        workers_->forRange(cells_.forward.height, 1, [&](int first, int last) {
+            for (int y = first; y < last; ++y)
+                simd::forRuns(work, y / kCellsPerTile, kCellsPerTile, cells_.forward.width,
+                              [&](bool matched, int begin, int end) {
+                                  if (matched)
+                                      simd::matchDirectly(match, y, begin, end, row_[0], errors());
+                              });
+        });
+    }
     void copy(Rows<const FlowCell> backward) {
         FlowCell* to = row_[0] + cells_.count();
         for (int y = 0; y < backward.size.height; ++y)
             to = std::copy_n(backward[y], backward.size.width, to);
     }
-    const FlowCells& written(const TileWork&) {
+    const FlowCells& written() {
         const Rows<const FlowCell> forward = flow_.forward();
         FlowCell* to = row_[0];
         for (int y = 0; y < forward.size.height; ++y)
@@ -196,7 +191,6 @@ private:
     simd::Flow2d flow_;
     FlowCells cells_;
     AlignedRows<FlowCell> row_;
-    Cells lines_;
 };
 
 class SimdWeigh final : public WeighStep {
@@ -234,7 +228,8 @@ public:
     const CellWeights& confirm(const VideoFrame& frame, const StillPictures& still,
                                const TileWork& work, const FineMatch& match) override {
         if (work.changed == 0 || work.matched == 0) return weights_;
-        weigh_.lower(fine_.run(frame.planes, stills_->of(still), weigh_.lookUps(), work, match));
+        weigh_.confirm(fine_.run(frame.planes, stills_->of(still), weigh_.lookUps(), weigh_.bent(),
+                                 work, match));
         return written();
     }
 

@@ -1,5 +1,6 @@
 #include "pipeline/simd/weigh_step.h"
 
+#include "pipeline/engine/params/weigh.h"
 #include "pipeline/flow/cell_field.h"
 
 #include <algorithm>
@@ -26,7 +27,7 @@ WeighStep::WeighStep(const StereoRig& stillRig, std::shared_ptr<Workers> workers
       varianceStill_(cells_), confidence_(cells_), lookX_(cells_), lookY_(cells_),
       halfFlowX_(halfCells_), halfFlowY_(halfCells_), halfCovariance_(halfCells_),
       halfVarianceStill_(halfCells_), weighed_(wholeVectors(cells_)),
-      lookUps_(wholeVectors(cells_)), trust_(wholeVectors(cells_)) {}
+      lookUps_(wholeVectors(cells_)), trust_(wholeVectors(cells_)), bent_(wholeVectors(cells_)) {}
 
 void WeighStep::run(const WeighInput& in) {
     assert(in.forward.size == cells_);
@@ -122,13 +123,14 @@ void WeighStep::measureGain(const WeighInput& in, int row) {
     halfVarianceStill_.repeatBorder(row);
 }
 
-void WeighStep::lower(Rows<const float> shares) {
+void WeighStep::confirm(Rows<const float> shares) {
     forRows(cells_.height, kCellsPerTile, [&](int row) {
         const float* share = shares[row];
         for (int x = 0; x < cells_.width; ++x) {
-            weighed_[row][x].weight *= share[x];
-            lookUps_[row][x].weight *= share[x];
-            trust_[row][x].halfWeight *= share[x];
+            float& weight = weighed_[row][x].weight;
+            weight *= share[x] * std::max(params::kRaisedWeight - weight, 1.0F);
+            lookUps_[row][x].weight = weight;
+            trust_[row][x].halfWeight = std::min(0.5F * weight, 1.0F);
         }
     });
 }
@@ -149,7 +151,8 @@ void WeighStep::weigh(int row, float noise) {
                 .halfVarianceStill = {halfVarianceStill_[near], halfVarianceStill_[other]},
                 .weighed = weighed_[row],
                 .lookUps = lookUps_[row],
-                .trust = trust_[row]},
+                .trust = trust_[row],
+                .bent = bent_[row]},
                noise);
 }
 

@@ -50,8 +50,12 @@ public:
     /// have one entry per cell and are valid until the next run().
     void run(const WeighInput& in);
 
-    /// Multiplies the weight of each cell by the cell's entry in `shares`.
-    void lower(Rows<const float> shares);
+    /// Raises small weights (see params::kRaisedWeight), then multiplies the weight of each cell by
+    /// the cell's entry in `shares`.
+    void confirm(Rows<const float> shares);
+
+    /// For each cell, 0 where the flow is even, 1 where it is bent; see params::kEvenFlow.
+    [[nodiscard]] Rows<const float> bent() const { return shown(bent_); }
 
     [[nodiscard]] Rows<const WeighedCell> weighed() const { return shown(weighed_); }
     [[nodiscard]] Rows<const LookUpCell> lookUps() const { return shown(lookUps_); }
@@ -80,6 +84,7 @@ private:
     AlignedRows<WeighedCell> weighed_;
     AlignedRows<LookUpCell> lookUps_;
     AlignedRows<TrustCell> trust_;
+    AlignedRows<float> bent_;
 };
 
 }  // namespace mfar::simd

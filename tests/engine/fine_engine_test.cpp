@@ -4,6 +4,7 @@
 #include "tests/engine/gl_test.h"
 #include "tests/engine/simd/detail_case.h"
 #include "tests/oracle/fine.h"
+#include "tests/oracle/superres.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,15 +17,37 @@ using Shares = std::vector<float>;
 
 constexpr FineMatch kMatch{5, 0.02F};
 
+/// Weights before the comparison, from 0.25 to 1.75.
+float weightAt(std::size_t cell) {
+    return 0.25F + 0.25F * static_cast<float>(cell % 7);
+}
+double raised(double weight) {
+    return weight < 1 ? weight * (params::kRaisedWeight - weight) : weight;
+}
+
 struct FineInput {
     explicit FineInput(Size video, Size stillSize)
-        : frame(video, stillSize), still(frame.rig, stillSize, std::make_shared<Workers>(2)) {
+        : frame(video, stillSize), still(frame.rig, stillSize, std::make_shared<Workers>(2)),
+          bent(frame.cells) {
         still.set(frame.stillView());
+        flow.size = frame.cells;
+        // The flow is even on the left and bent on the right.
+        const double most = 0.2 / frame.cells.width;
+        for (int y = 0; y < frame.cells.height; ++y)
+            for (int x = 0; x < frame.cells.width; ++x)
+                for (const double value : {most * x * x, 2.0, 0.0, 0.0})
+                    flow.values.push_back(static_cast<float>(value));
+        for (int y = 0; y < frame.cells.height; ++y)
+            for (int x = 0; x < frame.cells.width; ++x)
+                bent[y][x] = static_cast<float>(bentAt(x, y));
         for (std::size_t i = 0; i < frame.work.flags.size(); ++i)
             frame.work.flags[i].matched = i % 4 != 1;
     }
     [[nodiscard]] Rows<const LookUpCell> lookUps() const {
         return {frame.lookUps.data(), frame.cells.width, frame.cells};
+    }
+    [[nodiscard]] double bentAt(int x, int y) const {
+        return twin::smoothstep(params::kEvenFlow, params::kBentFlow, twin::bendAt(flow, x, y));
     }
     [[nodiscard]] std::vector<double> wanted() const {
         const Size video = frame.rig.video.size, size = frame.rig.still.size;
@@ -54,19 +77,22 @@ struct FineInput {
                                      std::clamp(py, 0.0, size.height - 1.0));
             },
             [&](int x, int y) { return frame.work.at(x / 4, y / 4).matched != 0; }};
-        return twin::fineShares(in, frame.cells, kMatch);
+        return twin::fineShares(
+            in, frame.cells, [this](int x, int y) { return bentAt(x, y); }, kMatch);
     }
 
     DetailCase frame;
     simd::StillPreparation still;
+    twin::Cells flow;
+    AlignedRows<float> bent;
 };
 
 Shares onHost(const FineInput& in) {
     simd::FineCheck check(in.still.rig(), std::make_shared<Workers>(2));
     Shares out;
     for (int run = 0; run < 2; ++run) {
-        const Rows<const float> rows =
-            check.run(in.frame.video, in.still.pairs(), in.lookUps(), in.frame.work, kMatch);
+        const Rows<const float> rows = check.run(in.frame.video, in.still.pairs(), in.lookUps(),
+                                                 in.bent.rows(), in.frame.work, kMatch);
         out.clear();
         for (int y = 0; y < rows.size.height; ++y)
             out.insert(out.end(), rows[y], rows[y] + rows.size.width);
@@ -85,11 +111,14 @@ gpu::Texture uploaded(const std::vector<Cell>& cells, Size size, gpu::TexelForma
 
 Shares onGpu(const FineInput& in) {
     const Size cells = in.frame.cells, video = in.frame.rig.video.size;
-    std::vector<WeighedCell> ones(in.frame.weighed.size(), {1, 2, 1, 0.5F});
+    std::vector<WeighedCell> cellsIn(in.frame.weighed.size());
     std::vector<LookUpCell> lookUps = in.frame.lookUps;
-    std::vector<TrustCell> trust(ones.size(), {1, 0.5F, 0.25F, 1});
-    for (LookUpCell& cell : lookUps)
-        cell.weight = 1;
+    std::vector<TrustCell> trust(cellsIn.size(), {1, 0.5F, 0.25F, 1});
+    for (std::size_t i = 0; i < cellsIn.size(); ++i) {
+        cellsIn[i] = {in.flow.values[4 * i], in.flow.values[4 * i + 1], weightAt(i), 0.5F};
+        lookUps[i].weight = weightAt(i);
+        lookUps[i].confidence = 0.5F;
+    }
     const simd::StillPairs pairs = in.still.pairs();
     std::vector<std::uint8_t> luma;
     for (int y = 0; y < pairs.size.height; ++y)
@@ -98,7 +127,7 @@ Shares onGpu(const FineInput& in) {
     gpu::Texture picture(video, gpu::TexelFormat::Rgba8);
     TextureCopy(picture).upload(in.frame.videoPixels.data(), 4L * video.width);
     const gpu::Texture still = uploaded(luma, pairs.size, gpu::TexelFormat::R8),
-                       weighed = uploaded(ones, cells, gpu::TexelFormat::Rgba32F),
+                       weighed = uploaded(cellsIn, cells, gpu::TexelFormat::Rgba32F),
                        looked = uploaded(lookUps, cells, gpu::TexelFormat::Rgba16F),
                        trusted = uploaded(trust, cells, gpu::TexelFormat::Rgba8, true);
     TileBuffer tiles(video);
@@ -109,15 +138,15 @@ Shares onGpu(const FineInput& in) {
                              gotLooked = check.weights().lookUps.readRgba32F();
     const std::vector<std::uint8_t> gotTrust = check.weights().trust.readRgba8();
     Shares out;
-    for (std::size_t i = 0; i < ones.size(); ++i) {
-        const float share = got[4 * i + 2];
-        out.push_back(share);
-        EXPECT_EQ(got[4 * i], 1);
+    for (std::size_t i = 0; i < cellsIn.size(); ++i) {
+        const float weight = got[4 * i + 2];
+        out.push_back(static_cast<float>(weight / raised(weightAt(i))));
+        EXPECT_EQ(got[4 * i], cellsIn[i].x);
         EXPECT_EQ(got[4 * i + 1], 2);
         EXPECT_EQ(got[4 * i + 3], 0.5F);
         EXPECT_NEAR(gotLooked[4 * i], lookUps[i].x, 1e-3 * std::abs(lookUps[i].x) + 1e-3);
-        EXPECT_NEAR(gotLooked[4 * i + 2], share, 1e-3);
-        EXPECT_NEAR(gotTrust[4 * i] / 255.0, share, 3e-3);
+        EXPECT_NEAR(gotLooked[4 * i + 2], weight, 1e-3);
+        EXPECT_NEAR(gotTrust[4 * i] / 255.0, std::min(weight / 2, 1.0F), 3e-3);
         EXPECT_NEAR(gotTrust[4 * i + 2] / 255.0, 0.25, 3e-3);
         EXPECT_EQ(gotTrust[4 * i + 3], 255);
     }

@@ -7,6 +7,7 @@
 #include <Eigen/Dense>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <vector>
 
@@ -21,30 +22,36 @@ struct FineCase {
 };
 
 /// Returns variance of the video, covariance of video and still, and variance of the still. They
-/// are computed from the two blocks of 2x2 pixels in the middle two rows of a cell.
+/// are computed from the differences between neighbouring pixels of the middle two rows of a cell,
+/// and from the differences to the pixels right of them.
 inline Eigen::Vector3d fineSums(const FineCase& in, int cellX, int cellY) {
-    Eigen::Vector3d out = Eigen::Vector3d::Zero();
     const Size size = in.video.size;
     if (!in.isMatched(cellX, cellY) || 4 * cellX + 4 > size.width || 4 * cellY + 4 > size.height)
-        return out;
-    for (const int first : {4 * cellX, 4 * cellX + 2}) {
-        Eigen::Vector4d video, still;
-        for (int i = 0; i < 4; ++i) {
-            const int x = first + i % 2, y = 4 * cellY + 1 + i / 2;
-            video[i] = in.video.at(x, y);
-            still[i] = (in.still(x - 0.25, y - 0.25) + in.still(x + 0.25, y - 0.25) +
-                        in.still(x - 0.25, y + 0.25) + in.still(x + 0.25, y + 0.25)) /
-                       4;
-        }
-        video.array() -= video.mean();
-        still.array() -= still.mean();
-        out += Eigen::Vector3d(video.dot(video), video.dot(still), still.dot(still)) / 8;
+        return Eigen::Vector3d::Zero();
+    const auto at = [&in, size](int x, int y) {
+        x = std::min(x, size.width - 1);
+        const double still = in.still(x - 0.25, y - 0.25) + in.still(x + 0.25, y - 0.25) +
+                             in.still(x - 0.25, y + 0.25) + in.still(x + 0.25, y + 0.25);
+        return Eigen::Vector2d(in.video.at(x, y), still / 4);
+    };
+    Eigen::Vector3d out = Eigen::Vector3d::Zero();
+    const auto add = [&out](const Eigen::Vector2d& d) {
+        out += Eigen::Vector3d(d[0] * d[0], d[0] * d[1], d[1] * d[1]) / 24;
+    };
+    const int upper = 4 * cellY + 1, lower = upper + 1;
+    for (int x = 4 * cellX; x < 4 * cellX + 4; ++x) {
+        for (const int y : {upper, lower})
+            add(at(x + 1, y) - at(x, y));
+        add(at(x, lower) - at(x, upper));
     }
     return out;
 }
 
 /// Returns for each cell, row by row, the share of its weight that remains after the comparison.
-inline std::vector<double> fineShares(const FineCase& in, Size cells, const FineMatch& match) {
+/// `bent`: 0 for each cell with even flow, 1 for each with bent flow.
+inline std::vector<double> fineShares(const FineCase& in, Size cells,
+                                      const std::function<double(int x, int y)>& bent,
+                                      const FineMatch& match) {
     std::vector<Eigen::Vector3d> sums;
     for (int y = 0; y < cells.height; ++y)
         for (int x = 0; x < cells.width; ++x)
@@ -53,18 +60,19 @@ inline std::vector<double> fineShares(const FineCase& in, Size cells, const Fine
     for (int y = 0; y < cells.height; ++y)
         for (int x = 0; x < cells.width; ++x) {
             Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-            // Only even rows of cells are sampled. Odd rows use the even rows above and below them.
-            const int above = y - y % 2, below = std::min(y + y % 2, (cells.height - 1) / 2 * 2);
             for (int i = x - 1; i <= x + 1; ++i)
-                for (const int j : {above, below})
-                    mean += (i == x ? 2 : 1) / 8.0 *
-                            sums[j * cells.width + std::clamp(i, 0, cells.width - 1)];
-            const double both = std::max(mean[1], 0.0);
-            const double unexplained = mean[0] - both * both / (mean[2] + params::kFineLeast);
-            const double allowed = params::kFineRoom * double(match.noise) +
-                                   params::kFineShareRoom * double(match.share) * mean[0];
-            out.push_back(
-                std::min(allowed / std::max(unexplained, double(params::kFineLeast)), 1.0));
+                for (int j = y - 1; j <= y + 1; ++j)
+                    mean += (i == x ? 2 : 1) * (j == y ? 2 : 1) / 16.0 *
+                            sums[std::clamp(j, 0, cells.height - 1) * cells.width +
+                                 std::clamp(i, 0, cells.width - 1)];
+            const double both = std::max(mean[1], 0.0), least = params::kFineLeast,
+                         noise = match.noise;
+            const double unexplained = mean[0] - both * both / (mean[2] + least);
+            const double allowed =
+                params::kFineRoom * noise + params::kFineShareRoom * double(match.share) * mean[0];
+            const double even = std::min(allowed / std::max(unexplained, least), 1.0);
+            const double wrong = std::max(unexplained - params::kFineNoise * noise, 0.0);
+            out.push_back(std::lerp(even, std::pow(1 - wrong / (mean[0] + least), 2), bent(x, y)));
         }
     return out;
 }

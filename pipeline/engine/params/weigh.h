@@ -44,20 +44,31 @@ inline constexpr float kTexturedContrast = 8.0F;
 /// A textured cell has no reliable match if (squared correlation) * confidence is at most this.
 inline constexpr float kUnexplainedMatch = 0.25F;
 
-/// The finest detail is the difference of pixels from the mean of their 2x2 block. It shows look-up
+/// The finest detail consists of the differences between neighbouring pixels. It shows look-up
 /// errors of a fraction of a pixel. For each cell, the variance of the video's finest detail that
-/// the still does not explain is measured. Its limit is kFineRoom * FineMatch::noise +
+/// the still does not explain is measured: half of the mean squared difference, which is the
+/// variance of white noise.
+/// Where the flow is even (see kEvenFlow), cells are hardly misplaced, and detail that aliases in
+/// the video also remains unexplained. The limit there is kFineRoom * FineMatch::noise +
 /// kFineShareRoom * FineMatch::share * (variance of the video's finest detail). Above the limit,
 /// the weight of the still is multiplied by limit / (measured variance). kFineRoom = 4 allows twice
 /// the usual deviation. kFineShareRoom is smaller, because otherwise edges that only the still
 /// shows would be accepted.
 inline constexpr float kFineRoom = 4.0F;
 inline constexpr float kFineShareRoom = 3.0F;
-/// The finest detail is compared only in every kFineStep-th row of cells. The rows between them get
-/// the mean of the rows above and below.
-inline constexpr int kFineStep = 2;
+/// Where the flow is bent (see kBentFlow), the still is likely to be misplaced or to show another
+/// surface. A misplacement by a normally distributed distance multiplies the correlation at a
+/// spatial frequency f by exp(-c * f^2). The still's detail lies an octave above the video's finest
+/// detail, so its correlation is the fourth power: the square of the explained share of the
+/// variance. The weight is multiplied by that. kFineNoise * FineMatch::noise of the unexplained
+/// variance are taken to be noise, because FineMatch::noise is a low quantile.
+inline constexpr float kFineNoise = 2.0F;
 /// Variances of the finest detail below this are not significant [grey levels^2].
 inline constexpr float kFineLeast = 0.1F;
+/// The weight before the comparison of the finest detail is cautious where the flow is bent or
+/// patches are unlike. If the finest detail is as usual, a weight w below 1 is raised to
+/// w * (kRaisedWeight - w).
+inline constexpr float kRaisedWeight = 2.0F;
 
 struct alignas(16) AssessCells {
     Rig rig;

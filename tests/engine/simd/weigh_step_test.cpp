@@ -244,6 +244,50 @@ TEST(WeighStep, ResultsDoNotDependOnTheNumberOfThreads) {
     }
 }
 
+TEST(WeighStep, BentFlowIsMarked) {
+    WeighCase c = plainCase();
+    c.run();
+    twin::Cells flow{.size = c.cells, .values = {}};
+    for (int y = 0; y < c.cells.height; ++y)
+        for (int x = 0; x < c.cells.width; ++x)
+            for (const float value : {c.forward[y][x].x, c.forward[y][x].y, 0.0F, 0.0F})
+                flow.values.push_back(value);
+    int bent = 0;
+    for (int y = 0; y < c.cells.height; ++y)
+        for (int x = 0; x < c.cells.width; ++x) {
+            const double wanted =
+                twin::smoothstep(params::kEvenFlow, params::kBentFlow, twin::bendAt(flow, x, y));
+            ASSERT_NEAR(c.step.bent()[y][x], wanted, 1e-4) << x << ", " << y;
+            bent += wanted > 0.5 ? 1 : 0;
+        }
+    EXPECT_GT(bent, 20);
+    EXPECT_LT(bent, c.cells.width * c.cells.height - 20);
+}
+
+TEST(WeighStep, ConfirmedWeightsBelowOneAreRaised) {
+    WeighCase c = plainCase();
+    c.run();
+    const std::vector<WeighedCell> before = copied(c.step.weighed());
+    AlignedRows<float> shares(c.cells);
+    for (int y = 0; y < c.cells.height; ++y)
+        for (int x = 0; x < c.cells.width; ++x)
+            shares[y][x] = x % 2 == 0 ? 1.0F : 0.5F;
+    c.step.confirm(shares.rows());
+    int small = 0, large = 0;
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        const int x = static_cast<int>(i) % c.cells.width, y = static_cast<int>(i) / c.cells.width;
+        const float w = before[i].weight, weight = c.step.weighed()[y][x].weight;
+        const float raised = w < 1 ? w * (params::kRaisedWeight - w) : w;
+        EXPECT_FLOAT_EQ(weight, raised * shares[y][x]);
+        EXPECT_EQ(c.step.lookUps()[y][x].weight, weight);
+        EXPECT_EQ(c.step.trust()[y][x].halfWeight, std::min(0.5F * weight, 1.0F));
+        small += w > 0 && w < 1 ? 1 : 0;
+        large += w > 1 ? 1 : 0;
+    }
+    EXPECT_GT(small, 20);
+    EXPECT_GT(large, 20);
+}
+
 TEST(WeighStep, WithoutChangedTilesNothingIsComputed) {
     WeighCase c = plainCase();
     c.run();

@@ -1,0 +1,18 @@
+// Reads a flow field in the x and y of a texture. The shader must declare the sampler displacement
+// and params (columns, rows).
+#include "pipeline/engine/params/weigh.h"
+
+ivec2 lastCell() {
+    return ivec2(params.columns, params.rows) - 1;
+}
+
+vec2 flowAt(ivec2 c) {
+    return texelFetch(displacement, clamp(c, ivec2(0), lastCell()), 0).xy;
+}
+
+// Returns 0 where the flow is even, 1 where it is bent; see kEvenFlow.
+float bentAt(ivec2 c) {
+    vec2 dx = flowAt(c + ivec2(1, 0)) - flowAt(c - ivec2(1, 0));
+    vec2 dy = flowAt(c + ivec2(0, 1)) - flowAt(c - ivec2(0, 1));
+    return smoothstep(kEvenFlow, kBentFlow, sqrt(dot(dx, dx) + dot(dy, dy)) / 8.0);
+}
