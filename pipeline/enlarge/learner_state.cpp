@@ -13,11 +13,13 @@ using namespace enlarge;
 
 constexpr char kMagic[] = "mfarlern";
 constexpr std::size_t kMagicSize = 8;
-constexpr std::array<std::uint64_t, 4> kHeader{5, kUnique, kTaps, kPhases};
+constexpr std::array<std::uint64_t, 4> kHeader{6, kUnique, kTaps, kPhases};
 // Older versions of the format, which can still be read. The first has no guidance. The second has
 // one factor of guidance (ten numbers). The third has both factors, but no FineMatch. The fourth
-// has no tone curve.
-constexpr std::uint64_t kWithoutGuidance = 1, kOneFactor = 2, kTwoFactors = 3, kWithoutTone = 4;
+// has no tone curve. FineMatch of the fourth and fifth was measured within blocks of 2x2 pixels; it
+// is skipped and learned again.
+constexpr std::uint64_t kWithoutGuidance = 1, kOneFactor = 2, kTwoFactors = 3, kWithoutTone = 4,
+                        kFineInBlocks = 5;
 constexpr int kOneFactorNumbers = 10;
 constexpr std::size_t kChecksumSize = 4;
 constexpr std::size_t kMostKeySize = 4096;
@@ -176,10 +178,12 @@ EnlargerLearner EnlargerLearner::restored(std::span<const std::uint8_t> bytes,
     if (in.version() >= kTwoFactors &&
         !out.guidance_.restore(in.reals<GuidanceLearner::kNumbers>()))
         in.refuse("has guidance factors that are out of range");
-    if (in.version() >= kWithoutTone &&
-        !out.fineMatch_.restore(in.reals<FineMatchLearner::kNumbers>()))
-        in.refuse("has values of fine_noise or fine_share that are out of range");
-    if (in.version() == kHeader[0] && !out.tone_.restore(in.reals<ToneLearner::kNumbers>()))
+    if (in.version() >= kWithoutTone) {
+        const auto fineMatch = in.reals<FineMatchLearner::kNumbers>();
+        if (in.version() > kFineInBlocks && !out.fineMatch_.restore(fineMatch))
+            in.refuse("has values of fine_noise or fine_share that are out of range");
+    }
+    if (in.version() >= kFineInBlocks && !out.tone_.restore(in.reals<ToneLearner::kNumbers>()))
         in.refuse("has values of the tone curve that are out of range");
     in.finish();
     if (!out.putInPlace(weights, learned)) in.refuse("has filter weights that are too large");

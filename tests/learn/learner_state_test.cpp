@@ -108,19 +108,27 @@ TEST(LearnerState, StateOfVersionThreeIsReadWithGuidanceButWithoutFineMatch) {
     EXPECT_FALSE(then.filters()->fineMatch().isKnown());
 }
 
-TEST(LearnerState, AStateOfVersionFourIsReadWithoutTheToneCurve) {
+TEST(LearnerState, StatesOfVersionsFourAndFiveAreReadWithoutFineMatch) {
     EnlargerLearner now;
     now.add(matchedPictures(sharpDiscs(1), {.gain = 0.7, .gamma = 1.3}));
     ASSERT_FALSE(now.filters()->tone().isIdentity());
-    auto bytes = now.stored("a, b");
-    EXPECT_EQ(EnlargerLearner::restored(bytes, "a, b", "state").filters()->tone(),
-              now.filters()->tone());
-    bytes.resize(bytes.size() - 4 - kToneSize);
-    bytes[8] = 4;
-    enlarge::putNumber(bytes, enlarge::fnv1a(bytes), 4);
-    const EnlargerLearner then = EnlargerLearner::restored(bytes, "a, b", "state");
-    EXPECT_TRUE(then.filters()->tone().isIdentity());
-    EXPECT_EQ(then.filters()->fineMatch(), now.filters()->fineMatch());
+    ASSERT_TRUE(now.filters()->fineMatch().isKnown());
+    const auto whole = now.stored("a, b");
+    const EnlargerLearner again = EnlargerLearner::restored(whole, "a, b", "state");
+    EXPECT_EQ(again.filters()->tone(), now.filters()->tone());
+    EXPECT_EQ(again.filters()->fineMatch(), now.filters()->fineMatch());
+    for (const int version : {4, 5}) {
+        auto bytes = whole;
+        bytes.resize(bytes.size() - 4 - (version == 4 ? kToneSize : 0));
+        bytes[8] = static_cast<std::uint8_t>(version);
+        enlarge::putNumber(bytes, enlarge::fnv1a(bytes), 4);
+        const EnlargerLearner then = EnlargerLearner::restored(bytes, "a, b", "state");
+        EXPECT_FALSE(then.filters()->fineMatch().isKnown()) << version;
+        if (version == 4)
+            EXPECT_TRUE(then.filters()->tone().isIdentity());
+        else
+            EXPECT_EQ(then.filters()->tone(), now.filters()->tone());
+    }
 }
 
 TEST(LearnerState, NumbersOutOfRangeAreRefusedDespiteAValidChecksum) {
