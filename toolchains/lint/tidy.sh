@@ -76,7 +76,9 @@ tidyFile() {
         sources=$(sed -n 's|^#include "\(.*\)"$|\1|p' "$file")
         sources=${sources//"$PWD/"/}
     fi
-    said=$(clang-tidy-19 -p .build/host "$@" "$file" 2>/dev/null) || status=1
+    # clang-tidy allocates so much memory that large pages save a tenth of its CPU time.
+    said=$(GLIBC_TUNABLES=glibc.malloc.hugetlb=1 \
+        clang-tidy-19 -p .build/host "$@" "$file" 2>/dev/null) || status=1
     # shellcheck disable=SC2086 # $sources is a list of words
     printf '  %s\n' $sources
     [[ -z $said ]] || printf '%s\n' "$said"

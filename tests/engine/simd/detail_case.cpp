@@ -2,36 +2,40 @@
 
 #include "pipeline/flow/cell_field.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace mfar::simd {
 namespace {
 
-double pattern(double x, double y, int channel) {
+double pattern(double x, double y) {
     const double waves = std::sin(0.19 * x + 0.07 * y) + std::sin(0.11 * y - 0.05 * x) +
                          0.7 * std::sin(1.3 * x) * std::sin(1.1 * y);
     const double fine = std::sin(0.004 * x) > -0.3 ? 18 * std::sin(3.9 * x + 1.7 * y) : 0;
     const double edge = std::fmod(std::abs(x + 0.3 * y), 53) < 20 ? 40 : -20;
-    return 120 + 25 * waves + fine + edge + 8 * channel;
+    return 120 + 25 * waves + fine + edge;
 }
 
 std::vector<std::uint8_t> shoot(Size size, double step, double footprint) {
     std::vector<std::uint8_t> out(4UL * size.width * size.height, 255);
     constexpr int kSamples = 3;
     for (int y = 0; y < size.height; ++y)
-        for (int x = 0; x < size.width; ++x)
-            for (int c = 0; c < 3; ++c) {
-                double sum = 0;
-                for (int i = 0; i < kSamples * kSamples; ++i) {
-                    const int column = i % kSamples, row = i / kSamples;
-                    const double dx = (column + 0.5) / kSamples - 0.5,
-                                 dy = (row + 0.5) / kSamples - 0.5;
-                    sum += pattern((x + 0.5) * step - 0.5 + dx * footprint,
-                                   (y + 0.5) * step - 0.5 + dy * footprint, c);
-                }
-                out[4UL * (1UL * y * size.width + x) + c] =
-                    static_cast<std::uint8_t>(std::clamp(sum / (kSamples * kSamples), 0.0, 255.0));
+        for (int x = 0; x < size.width; ++x) {
+            std::array<double, 3> sums{};
+            for (int i = 0; i < kSamples * kSamples; ++i) {
+                const int column = i % kSamples, row = i / kSamples;
+                const double dx = (column + 0.5) / kSamples - 0.5,
+                             dy = (row + 0.5) / kSamples - 0.5;
+                const double grey = pattern((x + 0.5) * step - 0.5 + dx * footprint,
+                                            (y + 0.5) * step - 0.5 + dy * footprint);
+                for (int c = 0; c < 3; ++c)
+                    sums[c] += grey + 8 * c;
             }
+            for (int c = 0; c < 3; ++c)
+                out[4UL * (1UL * y * size.width + x) + c] = static_cast<std::uint8_t>(
+                    std::clamp(sums[c] / (kSamples * kSamples), 0.0, 255.0));
+        }
     return out;
 }
 
