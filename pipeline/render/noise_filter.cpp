@@ -75,9 +75,10 @@ private:
     std::size_t count_ = 0;
 };
 
-void limit(Eigen::Array3f& light, float most) {
-    const float y = luminanceOf(light);
-    if (y > most) light *= most / y;
+// Limits the luminance to `most` if noise of this variance explains the excess.
+void limit(Eigen::Array3f& light, float most, float variance) {
+    const float y = luminanceOf(light), excess = y - most;
+    if (excess > 0 && excess * excess <= kTolerance * kTolerance * variance) light *= most / y;
 }
 
 }  // namespace
@@ -186,8 +187,8 @@ void NoiseFilter::meanVariance(int x, int y) {
         });
         pixel.firstVariance = firsts > 0 ? sum.first / firsts : 0;
         pixel.secondVariance = seconds > 0 ? sum.second / seconds : 0;
-        limit(pixel.first, limits_[i].first);
-        limit(pixel.second, limits_[i].second);
+        limit(pixel.first, limits_[i].first, variances_[i].first);
+        limit(pixel.second, limits_[i].second, variances_[i].second);
     }
     pack(i);
 }

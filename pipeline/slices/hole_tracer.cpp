@@ -3,18 +3,9 @@
 #include "pipeline/slices/view_change.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace mfar {
-namespace {
-
-// Light of the shadow catcher is averaged over pixels up to this distance [px], whose z differs by
-// less than this fraction.
-constexpr int kReach = 2;
-constexpr float kSameDepth = 0.05F;
-
-}  // namespace
 
 void HoleTracer::take(HoleRequest& request) {
     std::swap(request_, request);
@@ -52,33 +43,6 @@ std::span<const std::uint32_t> HoleTracer::next(std::int64_t mostSamples) {
     return out;
 }
 
-LightPixel HoleTracer::catcherLight(std::uint32_t pixel, const Exposure& exposure) const {
-    LightPixel out = film_->light(pixel, exposure);
-    if (out.id != kCatcherId) return {};
-    const auto [width, height] = film_->size();
-    const int x = static_cast<int>(pixel) % width, y = static_cast<int>(pixel) / width;
-    Eigen::Array3f first{0, 0, 0}, second{0, 0, 0};
-    float firsts = 0, seconds = 0;
-    for (int v = std::max(y - kReach, 0); v <= std::min(y + kReach, height - 1); ++v)
-        for (int u = std::max(x - kReach, 0); u <= std::min(x + kReach, width - 1); ++u) {
-            const std::size_t i = static_cast<std::size_t>(v) * width + u;
-            if (film_->samples(i) == 0) continue;
-            const LightPixel there = film_->light(i, exposure);
-            if (there.id != kCatcherId ||
-                std::abs(there.depth - out.depth) > kSameDepth * out.depth)
-                continue;
-            first += there.firstCount * there.first;
-            second += there.secondCount * there.second;
-            firsts += there.firstCount;
-            seconds += there.secondCount;
-        }
-    if (firsts > 0) out.first = first / firsts;
-    if (seconds > 0) out.second = second / seconds;
-    return out;
-}
-
-// A few samples of a soft shadow are noisy, so pixels that no picture shows are smoothed on the
-// shadow catcher. Pixels at edges are not: they are traced anew because they must be sharp.
 void HoleTracer::answer(const Exposure& exposure, HoleAnswer& out) {
     out.view = request_.view;
     out.samples = request_.samples;
@@ -91,8 +55,7 @@ void HoleTracer::answer(const Exposure& exposure, HoleAnswer& out) {
     out.id.clear();
     out.light.clear();
     for (const std::uint32_t pixel : out.pixels) {
-        const LightPixel smoothed = request_.edges ? LightPixel{} : catcherLight(pixel, exposure);
-        const auto [colour, hit, light] = film_->resolvedFrom(smoothed, pixel, exposure);
+        const auto [colour, hit, light] = film_->resolved(pixel, exposure);
         out.colour.push_back(colour);
         out.depth.push_back(hit.depth);
         out.id.push_back(hit.id);

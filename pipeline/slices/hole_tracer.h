@@ -50,10 +50,6 @@ public:
     [[nodiscard]] std::uint64_t answered() const { return answered_; }
 
 private:
-    /// Mean light of the shadow catcher over the requested pixels that show it at and near this
-    /// pixel. The result's id is 0 if the pixel does not show the shadow catcher.
-    [[nodiscard]] LightPixel catcherLight(std::uint32_t pixel, const Exposure& exposure) const;
-
     enum class Stage : unsigned char { Idle, Taken, Tracing };
 
     const std::size_t mostPixels_;

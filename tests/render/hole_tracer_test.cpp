@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numeric>
 #include <vector>
 
 namespace mfar {
@@ -39,7 +38,7 @@ HoleAnswer answered(HoleTracer& holes, const PathTracer& tracer, HoleRequest req
     return out;
 }
 
-TEST(HoleTracer, ObjectsMatchAPictureOfTheView) {
+TEST(HoleTracer, AnswersMatchAPictureOfTheView) {
     const PathTracer tracer(render_scenes::stillLife());
     const RenderView view = render_scenes::viewFrom(kHoleSize, 20);
     PixelList all(kHoleSize.width * kHoleSize.height);
@@ -60,7 +59,6 @@ TEST(HoleTracer, ObjectsMatchAPictureOfTheView) {
         ASSERT_EQ(answer.colour.size(), some.size());
         int objects = 0;
         for (std::size_t i = 0; i < some.size(); ++i) {
-            if (truth.id[some[i]] == kCatcherId || answer.id[i] == kCatcherId) continue;
             EXPECT_EQ(answer.colour[i], truth.colour[some[i]]);
             EXPECT_EQ(answer.depth[i], truth.depth[some[i]]);
             EXPECT_EQ(answer.id[i], truth.id[some[i]]);
@@ -69,43 +67,6 @@ TEST(HoleTracer, ObjectsMatchAPictureOfTheView) {
         EXPECT_GT(objects, 20);
     }
     EXPECT_EQ(holes.answered(), all.size() / 2 + all.size() / 3);
-}
-
-RenderedPicture pictureOf(const PathTracer& tracer, const PixelList& pixels, int samples) {
-    const RenderView view = render_scenes::viewFrom(kHoleSize, 20);
-    Film film(kHoleSize);
-    tracer.trace(view, pixels, samples, film);
-    RenderedPicture out;
-    resolve(film, view, {}, out);
-    return out;
-}
-
-// Root mean square error of the coverage of the shadow catcher's pixels.
-double shadowError(const HoleAnswer& answer, const RenderedPicture& truth) {
-    double squares = 0;
-    int count = 0;
-    for (std::size_t i = 0; i < answer.pixels.size(); ++i) {
-        if (truth.id[answer.pixels[i]] != kCatcherId) continue;
-        const double off = answer.colour[i][3] - truth.colour[answer.pixels[i]][3];
-        squares += off * off;
-        ++count;
-    }
-    EXPECT_GT(count, 100);
-    return std::sqrt(squares / count);
-}
-
-TEST(HoleTracer, ShadowsAreSmoothedUnlessPixelsAreAtEdges) {
-    const PathTracer tracer(render_scenes::stillLife());
-    PixelList all(kHoleSize.width * kHoleSize.height);
-    std::iota(all.begin(), all.end(), 0U);
-    const RenderedPicture truth = pictureOf(tracer, all, 256), noisy = pictureOf(tracer, all, 4);
-    HoleTracer holes(10000);
-    HoleRequest request = requestFor(all, 4);
-    const double smooth = shadowError(answered(holes, tracer, request, 1000), truth);
-    request.edges = true;
-    const HoleAnswer atEdges = answered(holes, tracer, request, 1000);
-    EXPECT_LT(smooth, 0.75 * shadowError(atEdges, truth));
-    EXPECT_EQ(atEdges.colour, noisy.colour);
 }
 
 TEST(HoleTracer, EachPixelInsideThePictureIsTracedOnce) {
