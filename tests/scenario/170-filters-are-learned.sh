@@ -45,7 +45,7 @@ echo "mfarctl learn reset deletes the learned filters"
 start --config mfard.toml --source synthetic:office,rest --control control
 until_true started
 "$ctl" --socket control status >answer
-says answer '^learned +[1-9][0-9]* stills, '
+says answer '^learned +[1-9][0-9]* stills; '
 "$ctl" --socket control learn reset
 forgotten() { [ ! -e "$file" ]; }
 until_true forgotten
