@@ -109,6 +109,14 @@ gpu::Texture uploaded(const std::vector<Cell>& cells, Size size, gpu::TexelForma
     return out;
 }
 
+gpu::Texture uploadedLuma(const simd::StillPairs& pairs) {
+    std::vector<std::uint8_t> luma;
+    for (int y = 0; y < pairs.size.height; ++y)
+        for (int x = 0; x < pairs.size.width; ++x)
+            luma.push_back(static_cast<std::uint8_t>((pairs.data + y * pairs.pitch)[x] & 255));
+    return uploaded(luma, pairs.size, gpu::TexelFormat::R8);
+}
+
 Shares onGpu(const FineInput& in) {
     const Size cells = in.frame.cells, video = in.frame.rig.video.size;
     std::vector<WeighedCell> cellsIn(in.frame.weighed.size());
@@ -119,14 +127,9 @@ Shares onGpu(const FineInput& in) {
         lookUps[i].weight = weightAt(i);
         lookUps[i].confidence = 0.5F;
     }
-    const simd::StillPairs pairs = in.still.pairs();
-    std::vector<std::uint8_t> luma;
-    for (int y = 0; y < pairs.size.height; ++y)
-        for (int x = 0; x < pairs.size.width; ++x)
-            luma.push_back(static_cast<std::uint8_t>((pairs.data + y * pairs.pitch)[x] & 255));
     gpu::Texture picture(video, gpu::TexelFormat::Rgba8);
     TextureCopy(picture).upload(in.frame.videoPixels.data(), 4L * video.width);
-    const gpu::Texture still = uploaded(luma, pairs.size, gpu::TexelFormat::R8),
+    const gpu::Texture still = uploadedLuma(in.still.pairs()),
                        weighed = uploaded(cellsIn, cells, gpu::TexelFormat::Rgba32F),
                        looked = uploaded(lookUps, cells, gpu::TexelFormat::Rgba16F),
                        trusted = uploaded(trust, cells, gpu::TexelFormat::Rgba8, true);
