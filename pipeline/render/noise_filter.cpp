@@ -1,6 +1,7 @@
 #include "pipeline/render/noise_filter.h"
 
 #include "base/large_pages.h"
+#include "base/luminance.h"
 #include "pipeline/render/rendered_picture.h"
 
 #include <algorithm>
@@ -33,16 +34,12 @@ constexpr float kLeastVariance = 1e-7F;  // (a tenth of a grey level)^2 at white
 // Upper limit of the relative change of depth per pixel on one surface.
 constexpr float kDepthSlope = 0.01F;
 
-float luminanceOf(const Eigen::Array3f& rgb) {
-    return 0.2126F * rgb.x() + 0.7152F * rgb.y() + 0.0722F * rgb.z();
-}
-
 struct Spread {
     float sum = 0, squares = 0, count = 0;
 
     void add(const Eigen::Array3f& light, float samples) {
         if (!(samples > 0)) return;
-        const float y = luminanceOf(light);
+        const float y = luminanceOf<float>(light.matrix());
         sum += y;
         squares += y * y;
         ++count;
@@ -52,7 +49,7 @@ struct Spread {
     /// kSurely values, the square of the mean is added.
     [[nodiscard]] float varianceOf(const Eigen::Array3f& light) const {
         if (!(count > 0)) return 0;
-        const float mean = sum / count, off = luminanceOf(light) - mean;
+        const float mean = sum / count, off = luminanceOf<float>(light.matrix()) - mean;
         const float spread = std::max(0.0F, squares / count - mean * mean) + off * off;
         return count < kSurely ? spread + mean * mean : spread;
     }
@@ -77,7 +74,7 @@ private:
 
 // Limits the luminance to `most` if noise of this variance explains the excess.
 void limit(Eigen::Array3f& light, float most, float variance) {
-    const float y = luminanceOf(light), excess = y - most;
+    const float y = luminanceOf<float>(light.matrix()), excess = y - most;
     if (excess > 0 && excess * excess <= kTolerance * kTolerance * variance) light *= most / y;
 }
 
@@ -107,10 +104,8 @@ void NoiseFilter::run(int stage, int firstRow, int lastRow) {
             filterRow(stage - kBefore, y);
             continue;
         }
-        for (int x = where_.x0; x < where_.x1; ++x) {
-            if (stage == 0) limits_[static_cast<std::size_t>(y) * size_.width + x] = limitsAt(x, y);
-            stage == 0 ? spreadVariance(x, y) : meanVariance(x, y);
-        }
+        for (int x = where_.x0; x < where_.x1; ++x)
+            stage == 0 ? estimateNoise(x, y) : meanVariance(x, y);
     }
 }
 
@@ -144,8 +139,8 @@ NoiseFilter::Limits NoiseFilter::limitsAt(int x, int y) const {
     forNeighbours(x, y, 1, 1, [&](std::size_t j) {
         if (j == i) return;
         const LightPixel& there = pixels_[j];
-        if (there.firstCount > 0) first.add(luminanceOf(there.first));
-        if (there.secondCount > 0) second.add(luminanceOf(there.second));
+        if (there.firstCount > 0) first.add(luminanceOf<float>(there.first.matrix()));
+        if (there.secondCount > 0) second.add(luminanceOf<float>(there.second.matrix()));
     });
     Limits out;
     if (isFew(pixel.firstCount)) out.first = first.value();
@@ -153,8 +148,9 @@ NoiseFilter::Limits NoiseFilter::limitsAt(int x, int y) const {
     return out;
 }
 
-void NoiseFilter::spreadVariance(int x, int y) {
+void NoiseFilter::estimateNoise(int x, int y) {
     const std::size_t i = static_cast<std::size_t>(y) * size_.width + x;
+    limits_[i] = limitsAt(x, y);
     const LightPixel& pixel = pixels_[i];
     variances_[i] = {pixel.firstVariance, pixel.secondVariance};
     if (pixel.id == 0 || (pixel.firstVariance >= 0 && pixel.secondVariance >= 0)) return;

@@ -62,7 +62,8 @@ private:
         float first = std::numeric_limits<float>::infinity(), second = first;
     };
     [[nodiscard]] Limits limitsAt(int x, int y) const;
-    void spreadVariance(int x, int y);
+    /// Sets the limits of a pixel, and its variances where they are unknown.
+    void estimateNoise(int x, int y);
     void meanVariance(int x, int y);
     void pack(std::size_t pixel);
     void unpack(std::size_t pixel, int set);
