@@ -33,7 +33,8 @@ std::uint64_t hashOfWarps(int threads) {
     warp.setScene(scene.scene());
     warp.setTracedPicture(tracedPicture(scene.cast({warp.camera(), test::orbit(0)})));
     for (const double degrees : {1.0, 7.0, 25.0}) {
-        const LayerPicture& layer = test::settled(warp, scene, test::orbit(degrees));
+        const RigidTransform pose = test::orbit(degrees);
+        const LayerPicture& layer = test::settled(warp, scene, pose);
         hash = hashed(hash, test::bytesOf(layer.colour));
         hash = hashed(hash, test::valuesOf(layer.depth));
     }

@@ -58,7 +58,8 @@ inline double meanGreen(Warp& warp, const RigidTransform& pose,
 }
 
 /// Runs `frames` frames at this pose and answers all requests for holes. By then, the answers are
-/// fully shown.
+/// fully shown. `pose` should be a variable: GCC 14 warns that the result might refer to a
+/// temporary argument.
 inline const LayerPicture& settled(Warp& warp, const CastScene& scene, const RigidTransform& pose,
                                    int frames = 12) {
     for (int i = 0; i < frames; ++i) {

@@ -25,7 +25,8 @@ struct Shown {
         return {warp.camera(), test::orbit(degrees)};
     }
     [[nodiscard]] double psnrAt(double degrees) {
-        const LayerPicture& layer = test::settled(warp, scene, test::orbit(degrees));
+        const RigidTransform pose = test::orbit(degrees);
+        const LayerPicture& layer = test::settled(warp, scene, pose);
         return psnrInside(test::bytesOf(layer.colour), scene.cast(view(degrees), 3));
     }
     CastScene scene;
@@ -188,7 +189,8 @@ TEST_F(WarpGl, LayersOfOddSizesAreWarped) {
         Warp warp(test::bentCamera(kLayer), size, *engine);
         warp.setScene(scene.scene(16));
         warp.setTracedPicture(tracedPicture(scene.cast({warp.camera(), test::orbit(0)})));
-        const LayerPicture& layer = test::settled(warp, scene, test::orbit(10), 3);
+        const RigidTransform pose = test::orbit(10);
+        const LayerPicture& layer = test::settled(warp, scene, pose, 3);
         EXPECT_TRUE(layer.bounds.x1 <= size.width && layer.bounds.y1 <= size.height);
     }
 }
