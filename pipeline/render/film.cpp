@@ -94,15 +94,6 @@ namespace {
 const Eigen::Vector3f kNoFar{1, 1, 1};
 constexpr double kTrustedCentre = 8, kManyHits = 16;
 
-struct PaintWeights {
-    double diffuse, specular;
-};
-PaintWeights weightsOf(const Paint& paint) {
-    constexpr double kLeast = 1e-3;
-    return {kLeast + luminanceOf<float>(paint.diffuse),
-            kLeast + luminanceOf<float>(paint.specular())};
-}
-
 }  // namespace
 
 Film::Pixel& Film::begun(std::size_t pixel) {
@@ -252,11 +243,9 @@ SurfaceLight Film::farOf(const Pixel& p) {
     // few samples.
     const double fewer = std::max(0.0, 1 - p.object.hits / kManyHits);
     const double trust = 1 + kTrustedCentre * fewer;
-    auto [diffuse, specular] = weightsOf(p.seen.paint);
-    diffuse *= trust;
-    specular *= trust;
-    return {mean(p.object.first, diffuse, p.seen.far.diffuse),
-            mean(p.object.second, specular, p.seen.far.specular)};
+    const auto [diffuse, specular] = weightsOf(p.seen.paint);
+    return {mean(p.object.first, trust * diffuse, p.seen.far.diffuse),
+            mean(p.object.second, trust * specular, p.seen.far.specular)};
 }
 
 float Film::error(std::size_t pixel, const Exposure& exposure) const {

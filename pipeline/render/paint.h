@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/light_word.h"
+#include "base/luminance.h"
 #include "pipeline/render/microfacet.h"
 
 #include <Eigen/Core>
@@ -31,6 +32,17 @@ struct Paint {
             Eigen::Vector3f::Constant((1 - metallic) * kDielectricReflectance) +
                 metallic * baseColour,
             albedo};
+}
+
+/// Weights of a point's light in means over a pixel. They follow the paint by which the light is
+/// multiplied, and are above 0.
+struct PaintWeights {
+    float diffuse, specular;
+};
+[[nodiscard]] inline PaintWeights weightsOf(const Paint& paint) {
+    constexpr float kLeast = 1e-3F;
+    return {kLeast + luminanceOf<float>(paint.diffuse),
+            kLeast + luminanceOf<float>(paint.specular())};
 }
 
 struct SurfaceLight {

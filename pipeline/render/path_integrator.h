@@ -52,6 +52,9 @@ public:
     [[nodiscard]] SurfaceLight far(const SurfacePoint& point,
                                    const Eigen::Vector3f& direction) const;
 
+    /// Mean brightness of the distant light without the sun.
+    [[nodiscard]] float farBrightness() const { return far_.brightness(); }
+
     [[nodiscard]] MirrorLight mirrorLight() const;
 
     /// Radiance of the shadow catcher with objects and without them, computed from the same random

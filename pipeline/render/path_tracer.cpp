@@ -5,6 +5,7 @@
 #include "pipeline/render/lens_rays.h"
 #include "pipeline/render/microfacet.h"
 #include "pipeline/render/path_integrator.h"
+#include "pipeline/render/pixel_surface.h"
 #include "pipeline/render/scene_check.h"
 #include "pipeline/render/traced_scene.h"
 #include "pipeline/render/view_bounds.h"
@@ -23,7 +24,6 @@ namespace mfar {
 namespace {
 
 constexpr std::size_t kBatch = 64;
-constexpr float kLeastMean = 0.1F;
 
 /// A sample of a pixel, or the ray through the pixel's centre, which is traced before the first
 /// sample.
@@ -121,24 +121,22 @@ struct PathTracer::Parts {
 class PathTracer::Batch {
 public:
     Batch(const Parts& parts, const RenderView& view, Film& film, const LightHistory* history)
-        : parts_(parts), lens_(parts.lensOf(view.camera)),
-          rotation_(view.T_world_camera.rotation.normalized().toRotationMatrix().cast<float>()),
-          eye_(view.T_world_camera.translation.cast<float>()),
-          focal_(static_cast<float>(view.camera.fx)),
+        : parts_(parts), rays_(view, parts.lensOf(view.camera)),
+          surfaces_(parts.scene, parts.integrator, rays_),
           width_(static_cast<std::uint32_t>(view.camera.size.width)), film_(film),
           history_(history) {}
 
     void add(const CameraSample& sample) {
         samples_[count_] = sample;
-        rays_[count_] = rayOf(sample);
+        batch_[count_] = rayOf(sample);
         if (++count_ == kBatch) flush();
     }
 
     void flush() {
-        parts_.scene.objects().firstOfEach(std::span(rays_).first(count_),
+        parts_.scene.objects().firstOfEach(std::span(batch_).first(count_),
                                            std::span(hits_).first(count_));
         for (std::size_t i = 0; i < count_; ++i)
-            finish(samples_[i], rays_[i], hits_[i]);
+            finish(samples_[i], batch_[i], hits_[i]);
         count_ = 0;
     }
 
@@ -148,12 +146,13 @@ private:
                 parts_.options.independentSamples};
     }
 
-    /// The direction has z = 1 in the camera's frame, so that a distance along the ray is the
-    /// depth.
+    [[nodiscard]] Eigen::Vector2f positionOf(std::uint32_t pixel) const {
+        return {pixel % width_, pixel / width_};
+    }
     [[nodiscard]] Ray rayOf(const CameraSample& sample) const {
-        Eigen::Vector2f at{sample.pixel % width_, sample.pixel / width_};
+        Eigen::Vector2f at = positionOf(sample.pixel);
         if (!sample.centre) at += filtered(parts_.options.filter, samplerOf(sample).pair(0));
-        return {eye_, rotation_ * lens_->at(at.x(), at.y()).homogeneous()};
+        return rays_.at(at);
     }
 
     void finish(const CameraSample& sample, const Ray& ray, const RayHit& first) {
@@ -165,7 +164,6 @@ private:
             look(sample.pixel, ray, object, real);
             return;
         }
-        if (sample.number == 0 && history_ == nullptr) lookAgain(sample.pixel);
         FilmSample out;
         if (object.found()) out.hit = {object.t, scene.idOf(object)};
         if (real.found()) out.hit = {real.t, kCatcherId};
@@ -188,80 +186,24 @@ private:
         const TracedScene& scene = parts_.scene;
         SeenSurface seen;
         if (object.found())
-            // Smoothing the normal takes time, and the first picture (without a history) must be
-            // ready soon. For that picture, lookAgain() smooths the normal at the first sample.
-            seen = surfaceOf(pixel, ray, object, history_ != nullptr);
+            seen = surfaces_.at(positionOf(pixel), ray, object);
         else if (real.found())
             seen = {{real.t, kCatcherId}, scene.catcherPoint(real, ray.direction).shading, {}, 1};
         film_.setCentre(pixel, seen);
         if (history_ != nullptr)
-            film_.carry(pixel, history_->at(seen, eye_ + seen.hit.depth * ray.direction, eye_));
-    }
-
-    void lookAgain(std::uint32_t pixel) {
-        const std::uint8_t id = film_.centre(pixel).hit.id;
-        if (id == 0 || id == kCatcherId) return;
-        const Ray ray = rayOf({pixel, 0, true});
-        const RayHit object = parts_.scene.shown(ray, parts_.scene.objects().first(ray));
-        if (object.found()) film_.setCentre(pixel, surfaceOf(pixel, ray, object, true));
-    }
-
-    [[nodiscard]] SeenSurface surfaceOf(std::uint32_t pixel, const Ray& ray, const RayHit& object,
-                                        bool smoothly) const {
-        const TracedScene& scene = parts_.scene;
-        SurfacePoint point = scene.objectPoint(object, ray.direction);
-        if (smoothly && !scene.isEven(object, object.t / focal_))
-            smooth(pixel, scene.idOf(object), point);
-        return {{object.t, scene.idOf(object)},
-                point.shading,
-                point.paint(ray.direction),
-                point.look.roughness,
-                parts_.integrator.far(point, ray.direction)};
-    }
-
-    /// Replaces the normal by the mean of the normals in the pixel's quarters. Raises the roughness
-    /// with their spread (Toksvig 2005). On a fine relief, the light for a single normal would be
-    /// noise.
-    void smooth(std::uint32_t pixel, std::uint8_t id, SurfacePoint& point) const {
-        const TracedScene& scene = parts_.scene;
-        Eigen::Vector3f sum = point.shading;
-        float count = 1;
-        constexpr std::size_t kQuarters = 4;
-        std::array<Ray, kQuarters> rays;
-        std::array<RayHit, kQuarters> hits;
-        for (std::size_t i = 0; i < kQuarters; ++i) {
-            const Eigen::Vector2f at =
-                Eigen::Vector2f(pixel % width_, pixel / width_) +
-                Eigen::Vector2f((i & 1) != 0 ? 0.25F : -0.25F, (i & 2) != 0 ? 0.25F : -0.25F);
-            rays[i] = {eye_, rotation_ * lens_->at(at.x(), at.y()).homogeneous()};
-        }
-        scene.objects().firstOfEach(rays, hits);
-        for (std::size_t i = 0; i < kQuarters; ++i) {
-            const RayHit hit = scene.shown(rays[i], hits[i]);
-            if (!hit.found() || scene.idOf(hit) != id) continue;
-            sum += scene.bareObjectPoint(hit, rays[i].direction).shading;
-            ++count;
-        }
-        const float length = sum.norm();
-        if (!(length > kLeastMean * count)) return;
-        point.shading = sum / length;
-        // The spread of so few normals is too small on average. count / (count - 1) corrects it.
-        const float spread = count > 1 ? (1 - length / count) * count / (count - 1) : 0;
-        const float alpha = alphaOf(point.look.roughness);
-        point.look.roughness = std::min(1.0F, std::sqrt(std::sqrt(alpha * alpha + 2 * spread)));
+            film_.carry(pixel, history_->at(seen, rays_.eye() + seen.hit.depth * ray.direction,
+                                            rays_.eye()));
     }
 
     const Parts& parts_;
-    std::shared_ptr<const LensRays> lens_;
-    Eigen::Matrix3f rotation_;
-    Eigen::Vector3f eye_;
-    float focal_;
+    ViewRays rays_;
+    PixelSurfaces surfaces_;
     std::uint32_t width_;
     Film& film_;
     const LightHistory* history_;
     std::size_t count_ = 0;
     std::array<CameraSample, kBatch> samples_;
-    std::array<Ray, kBatch> rays_;
+    std::array<Ray, kBatch> batch_;
     std::array<RayHit, kBatch> hits_;
 };
 

@@ -276,8 +276,7 @@ bool TracedScene::isEven(const RayHit& hit, float width) const {
     return true;
 }
 
-SurfacePoint TracedScene::bareObjectPoint(const RayHit& hit,
-                                          const Eigen::Vector3f& direction) const {
+SurfacePoint TracedScene::objectPoint(const RayHit& hit, const Eigen::Vector3f& direction) const {
     const TracedMesh& mesh = *meshes_[hit.mesh];
     const auto& corners = mesh.mesh->triangles[hit.triangle];
     const Eigen::Vector3f wo = -direction.normalized();
@@ -287,12 +286,6 @@ SurfacePoint TracedScene::bareObjectPoint(const RayHit& hit,
     out.position = interpolated(mesh.positions, corners, hit);
     out.geometric = side * front;
     out.shading = shownTowards(side * shadingNormal(mesh, hit, front), wo);
-    return out;
-}
-
-SurfacePoint TracedScene::objectPoint(const RayHit& hit, const Eigen::Vector3f& direction) const {
-    const TracedMesh& mesh = *meshes_[hit.mesh];
-    SurfacePoint out = bareObjectPoint(hit, direction);
     setLook(mesh, hit, out);
     if (isOnBack(mesh, hit, direction)) out.emission.setZero();
     return out;

@@ -75,9 +75,6 @@ public:
     [[nodiscard]] bool isEven(const RayHit& hit, float width) const;
     [[nodiscard]] SurfacePoint objectPoint(const RayHit& hit,
                                            const Eigen::Vector3f& direction) const;
-    /// Returns objectPoint() without look and emission, which take most of its time.
-    [[nodiscard]] SurfacePoint bareObjectPoint(const RayHit& hit,
-                                               const Eigen::Vector3f& direction) const;
     [[nodiscard]] SurfacePoint catcherPoint(const RayHit& hit,
                                             const Eigen::Vector3f& direction) const;
 
