@@ -3,7 +3,6 @@
 #include "base/luminance.h"
 #include "base/se3.h"
 #include "pipeline/render/lens_rays.h"
-#include "pipeline/render/microfacet.h"
 #include "pipeline/render/path_integrator.h"
 #include "pipeline/render/pixel_surface.h"
 #include "pipeline/render/scene_check.h"
