@@ -125,6 +125,7 @@ GLuint Program::id() const {
 }
 
 void Program::use(const void* params, std::size_t bytes, Bindings bindings) {
+    if (detail::validation != nullptr) detail::validation->beforePass(*this, bindings);
     glUseProgram(linked_->id());
     params_.write(std::span(static_cast<const std::byte*>(params), bytes));
     glBindBufferBase(GL_UNIFORM_BUFFER, 0, params_.id());

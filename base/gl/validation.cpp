@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <span>
 #include <utility>
 
 namespace mfar::gpu {
@@ -25,6 +26,32 @@ public:
 
 private:
     GLint before_ = 0;
+};
+
+/// The bytes of a buffer, for reading.
+class MappedBuffer {
+public:
+    explicit MappedBuffer(GLuint buffer) {
+        glBindBuffer(GL_COPY_READ_BUFFER, buffer);
+        glGetBufferParameteriv(GL_COPY_READ_BUFFER, GL_BUFFER_SIZE, &bytes_);
+        data_ = static_cast<const std::uint8_t*>(
+            glMapBufferRange(GL_COPY_READ_BUFFER, 0, bytes_, GL_MAP_READ_BIT));
+        if (data_ == nullptr) throw GlError("the GPU buffer cannot be mapped for validation");
+    }
+    MappedBuffer(const MappedBuffer&) = delete;
+    MappedBuffer& operator=(const MappedBuffer&) = delete;
+    ~MappedBuffer() {
+        glUnmapBuffer(GL_COPY_READ_BUFFER);
+        glBindBuffer(GL_COPY_READ_BUFFER, 0);
+    }
+
+    [[nodiscard]] std::span<const std::uint8_t> bytes() const {
+        return {data_, static_cast<std::size_t>(bytes_)};
+    }
+
+private:
+    GLint bytes_ = 0;
+    const std::uint8_t* data_ = nullptr;
 };
 
 Size sizeOf(GLuint texture) {
@@ -101,6 +128,17 @@ const std::vector<PassOutput>& Validation::outputs(const Program& program) {
     return outputs_[key] = outputsOf(program.id(), shaders::source(program.name()));
 }
 
+void Validation::beforePass(const Program& program, std::initializer_list<Binding> bindings) {
+    before_.clear();
+    for (const PassOutput& output : outputs(program))
+        for (const Binding& bound : bindings)
+            if (bound.index == output.index && bound.kind == Binding::Kind::Storage &&
+                output.kind == PassOutput::Kind::Storage) {
+                const MappedBuffer mapped(bound.id);
+                before_[bound.id].assign(mapped.bytes().begin(), mapped.bytes().end());
+            }
+}
+
 void Validation::check(const Program& program, std::initializer_list<Binding> bindings,
                        const Framebuffer* target) {
     const std::string& pass = program.name();
@@ -121,23 +159,18 @@ void Validation::check(const Program& program, std::initializer_list<Binding> bi
 }
 
 void Validation::checkStorage(const std::string& pass, const PassOutput& output, GLuint buffer) {
-    GLint whole = 0;
-    glBindBuffer(GL_COPY_READ_BUFFER, buffer);
-    glGetBufferParameteriv(GL_COPY_READ_BUFFER, GL_BUFFER_SIZE, &whole);
+    const MappedBuffer mapped(buffer);
+    const std::uint8_t* data = mapped.bytes().data();
     const auto guarded = guarded_.find(buffer);
-    const std::size_t bytes = guarded != guarded_.end() ? guarded->second : whole;
-    const auto* data = static_cast<const std::uint8_t*>(
-        glMapBufferRange(GL_COPY_READ_BUFFER, 0, whole, GL_MAP_READ_BIT));
-    if (data == nullptr) throw GlError("the GPU buffer cannot be mapped for validation");
+    const std::size_t bytes = guarded != guarded_.end() ? guarded->second : mapped.bytes().size();
     if (bytes >= output.offset + 4UL * output.components) {
         const std::size_t room = (bytes - output.offset) / output.stride;
         const std::size_t count = output.count > 0 ? std::min(output.count, room) : room;
-        checkValues(pass, output, data + output.offset, count, {});
+        checkValues(pass, output, data + output.offset, before_.at(buffer).data() + output.offset,
+                    count, {});
         counts_[pass].values += static_cast<long>(count);
     }
     if (guarded != guarded_.end()) checkGuard(pass, buffer, data + bytes);
-    glUnmapBuffer(GL_COPY_READ_BUFFER);
-    glBindBuffer(GL_COPY_READ_BUFFER, 0);
 }
 
 void Validation::checkGuard(const std::string& pass, GLuint buffer, const std::uint8_t* end) {
@@ -194,18 +227,22 @@ void Validation::checkPixels(const std::string& pass, const PassOutput& output, 
     glReadPixels(area.x0, area.y0, area.width, area.height, GL_RGBA, GL_FLOAT, values.data());
     PassOutput texels = output;
     texels.stride = 4 * sizeof(float);
-    checkValues(pass, texels, reinterpret_cast<const std::uint8_t*>(values.data()), count, area);
+    checkValues(pass, texels, reinterpret_cast<const std::uint8_t*>(values.data()), nullptr, count,
+                area);
     counts_[pass].values += static_cast<long>(count);
     if (output.kind == PassOutput::Kind::Image && output.index == 0)
         counts_[pass].pixels += static_cast<long>(count);
 }
 
 void Validation::checkValues(const std::string& pass, const PassOutput& output,
-                             const std::uint8_t* first, std::size_t count, const Area& area) {
+                             const std::uint8_t* first, const std::uint8_t* before,
+                             std::size_t count, const Area& area) {
     if (!output.isFloat && output.ranges.empty()) return;
     for (std::size_t i = 0; i < count; ++i) {
         for (int c = 0; c < output.components; ++c) {
-            const double value = valueAt(first + i * output.stride + 4UL * c, output.isFloat);
+            const std::size_t offset = i * output.stride + 4UL * c;
+            if (before != nullptr && std::memcmp(first + offset, before + offset, 4) == 0) continue;
+            const double value = valueAt(first + offset, output.isFloat);
             ValueRange range{};
             if (!output.ranges.empty())
                 range = output.ranges[std::min<std::size_t>(c, output.ranges.size() - 1)];

@@ -28,6 +28,8 @@ struct ValidationFault {
 [[nodiscard]] std::string describe(const ValidationFault& fault);
 
 /// While a Validation object exists, all outputs of its thread's passes are read back and checked.
+/// Of a storage buffer, only the values that a pass changed are checked, because passes with other
+/// ranges may have written the rest.
 /// Every Buffer that is created in that time is followed by guard bytes (NaN as floats), which must
 /// not change. Validation makes a pass ten times as slow. Without a Validation object, a pass only
 /// tests one pointer. The passes' GL context must be current; its state is restored. A thread has
@@ -50,7 +52,7 @@ public:
 
     struct Count {
         long runs = 0;
-        long values = 0;  ///< number of checked texels and buffer elements
+        long values = 0;  ///< number of texels and buffer elements that were read back
         long pixels = 0;  ///< number of pixels that were drawn or written to images
     };
     [[nodiscard]] const std::map<std::string, Count>& counts() const { return counts_; }
@@ -60,6 +62,8 @@ public:
     // Only Buffer and the passes call the following functions.
     static Validation* active();
     void guard(GLuint buffer, std::size_t bytes) { guarded_[buffer] = bytes; }
+    /// Copies the storage buffers that the pass is about to write.
+    void beforePass(const Program& program, std::initializer_list<Binding> bindings);
     void check(const Program& program, std::initializer_list<Binding> bindings,
                const Framebuffer* target);
 
@@ -73,13 +77,15 @@ private:
     void checkImage(const std::string& pass, const PassOutput& output, GLuint texture);
     void checkColour(const std::string& pass, const PassOutput& output, const Framebuffer& target);
     void checkPixels(const std::string& pass, const PassOutput& output, const Area& area);
+    /// Does not check values that are the same at `before`; null: checks all.
     void checkValues(const std::string& pass, const PassOutput& output, const std::uint8_t* first,
-                     std::size_t count, const Area& area);
+                     const std::uint8_t* before, std::size_t count, const Area& area);
     void report(ValidationFault fault);
 
     std::map<std::string, Count> counts_;
     std::map<std::string, std::vector<PassOutput>> outputs_;
     std::map<GLuint, std::size_t> guarded_;
+    std::map<GLuint, std::vector<std::uint8_t>> before_;  ///< storage buffers before the pass
     std::map<std::string, bool> reported_;
     std::vector<ValidationFault> faults_;
     long frame_ = 0;

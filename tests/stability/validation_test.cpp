@@ -1,6 +1,7 @@
 #include "base/gl/pass.h"
 #include "base/gl/validation.h"
 #include "gles_shaders/shaders.h"
+#include "pipeline/engine/params/flow.h"
 #include "pipeline/engine/params/weigh.h"
 #include "tests/engine/pictures.h"
 #include "tests/stability/gl_watch.h"
@@ -104,6 +105,31 @@ TEST_F(ValidationTest, WritesBehindABufferAreFaults) {
     const auto faults = run();
     ASSERT_EQ(faults.size(), 1U);
     EXPECT_EQ(faults[0].output, "guard");
+}
+
+// Passes of the flow share a buffer in which other passes keep values of other ranges.
+TEST_F(ValidationTest, OnlyValuesThatAPassWroteIntoABufferAreChecked) {
+    const auto gl = context();
+    gpu::Validation validation;
+    constexpr int kTarget = 16;  // the source comes before it, values of another pass behind it
+    std::vector<std::array<float, 4>> cells(3UL * kTarget);
+    cells.back()[2] = 1e5F;  // no cost of flow_filter.comp is larger than 2.02
+    gpu::Buffer buffer(16 * cells.size());
+    const gpu::Buffer tiles(16);
+    gpu::ComputePass<params::FilterFlow> pass("flow_filter.comp");
+    const auto run = [&] {
+        buffer.write(std::span<const std::array<float, 4>>(cells));
+        pass.run(
+            {.columns = 4, .rows = 4, .target = kTarget, .source = 0, .planeFits = 1, .byTile = 0},
+            {gpu::storage(1, buffer), gpu::storage(2, tiles)}, {1, 1, 1});
+        return validation.takeFaults();
+    };
+    EXPECT_TRUE(run().empty());
+    cells[5][2] = 3;
+    const auto faults = run();
+    ASSERT_EQ(faults.size(), 1U);
+    EXPECT_EQ(faults[0].x, kTarget + 5);
+    EXPECT_EQ(faults[0].value, 3);
 }
 
 TEST_F(ValidationTest, PassesAreNotCheckedOnceTheValidationIsDestroyed) {
