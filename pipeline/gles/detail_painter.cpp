@@ -147,14 +147,16 @@ void DetailPainter::drawDetail(Composites passes, const TileParams& params, gpu:
     passes.whole.run(params, bindings, outputTarget_);
 }
 
+// Returns the output pixels whose centres are in these tiles, as tile_rect.vert draws them.
 PixelRect DetailPainter::outputOf(const PixelRect& tiles) const {
     const auto [width, height] = output_.size();
-    const auto at = [](int tile, int video, int out, int rest) {
-        const long pixels = std::min(tile * kTileSize, video) * static_cast<long>(out);
-        return static_cast<int>((pixels + rest * (video - 1)) / video);
+    const auto firstBehind = [](int tile, int video, int out) {
+        const long edge = 2L * std::min(tile * kTileSize, video) * out;
+        return static_cast<int>((edge + video - 1) / (2L * video));
     };
-    return {at(tiles.x0, video_.width, width, 0), at(tiles.y0, video_.height, height, 0),
-            at(tiles.x1, video_.width, width, 1), at(tiles.y1, video_.height, height, 1)};
+    return {
+        firstBehind(tiles.x0, video_.width, width), firstBehind(tiles.y0, video_.height, height),
+        firstBehind(tiles.x1, video_.width, width), firstBehind(tiles.y1, video_.height, height)};
 }
 
 void DetailPainter::draw(const gpu::Texture& video, const Matched* matched, const TileBuffer& tiles,

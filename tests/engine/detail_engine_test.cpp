@@ -1,118 +1,10 @@
-#include "base/workers.h"
-#include "pipeline/engine/engine.h"
-#include "tests/engine/gl_test.h"
-#include "tests/engine/simd/detail_oracle.h"
+#include "tests/engine/detail_drawing.h"
 
 namespace mfar {
 namespace {
 
-using simd::DetailCase;
-
-struct StepEngines {
-    EngineKind detail, still;
-};
-
-class DetailEngineTest : public GlTest, public testing::WithParamInterface<StepEngines> {};
-INSTANTIATE_TEST_SUITE_P(Engines, DetailEngineTest,
-                         testing::Values(StepEngines{EngineKind::Gles, EngineKind::Gles},
-                                         StepEngines{EngineKind::Gles, EngineKind::Simd},
-                                         StepEngines{EngineKind::Simd, EngineKind::Gles},
-                                         StepEngines{EngineKind::Simd, EngineKind::Simd}),
-                         [](const auto& tested) {
-                             return std::string(nameOf(tested.param.detail)) + "_still_" +
-                                    std::string(nameOf(tested.param.still));
-                         });
-
-/// Reduces the contrast, so that no value leaves a byte's range when sharpening overshoots: shaders
-/// would clamp it, but the oracle does not.
-DetailCase withRoom(DetailCase frame) {
-    for (std::vector<std::uint8_t>* pixels : {&frame.videoPixels, &frame.stillPixels})
-        for (std::uint8_t& byte : *pixels)
-            byte = static_cast<std::uint8_t>(51 + byte * 3 / 5);
-    frame.video.take(frame.videoView());
-    return frame;
-}
-
-class Drawing {
-public:
-    Drawing(const StepEngines& engines, const DetailCase& first, Size output)
-        : setup_{first.rig, output, {}, std::make_shared<Workers>(2)},
-          stillEngine_(engineOf(engines.still)), detailEngine_(engineOf(engines.detail)),
-          still_(stillEngine_->still()), step_(detailEngine_->detail()),
-          pictures_(still_->run(first.stillView(), SuperResMode::Detail, {})) {}
-
-    Rows<const std::uint32_t> draw(const DetailCase& frame, const FilterBank* filters = nullptr) {
-        const CellWeights weights = weightsOf(frame);
-        const DetailStep::Matched matched{pictures_, weights};
-        return draw(frame, &matched, filters);
-    }
-    Rows<const std::uint32_t> drawBoth(const DetailCase& frame, const DetailCase& second,
-                                       const FilterBank* filters) {
-        if (!secondStill_) secondStill_ = stillEngine_->still();
-        const StillPictures& pictures =
-            secondStill_->run(second.stillView(), SuperResMode::Detail, {});
-        const CellWeights weights = weightsOf(frame), secondWeights = weightsOf(second);
-        const DetailStep::Matched other{pictures, secondWeights},
-            matched{pictures_, weights, &other};
-        return draw(frame, &matched, filters);
-    }
-    [[nodiscard]] TileSummary summary() const { return step_->summary(); }
-    Rows<const std::uint32_t> drawWithoutStill(const DetailCase& frame, const FilterBank* filters) {
-        return draw(frame, nullptr, filters);
-    }
-    [[nodiscard]] twin::Grey luma() const {
-        if (!pictures_.raised.isEmpty()) {
-            const Rows<const std::uint8_t> raised = pictures_.raised.host();
-            return twin::greyOf(raised.size, [&](int x, int y) { return double(raised[y][x]); });
-        }
-        const Rows<const std::uint16_t> pairs = pictures_.pairs.host();
-        return twin::greyOf(pairs.size, [&](int x, int y) { return double(pairs[y][x] & 255); });
-    }
-
-private:
-    Rows<const std::uint32_t> draw(const DetailCase& frame, const DetailStep::Matched* matched,
-                                   const FilterBank* filters) {
-        const ImageView view = frame.videoView();
-        step_->draw({view, frame.video, ++number_}, matched, frame.work,
-                    {.mode = SuperResMode::Detail,
-                     .upscaledTiles = false,
-                     .plainTiles = false,
-                     .filters = filters});
-        return step_->output().host();
-    }
-    static CellWeights weightsOf(const DetailCase& frame) {
-        CellWeights out;
-        out.weighed.writtenOnHost(rowsOf(frame.weighed, frame.cells));
-        out.lookUps.writtenOnHost(rowsOf(frame.lookUps, frame.cells));
-        out.trust.writtenOnHost(rowsOf(frame.trust, frame.cells));
-        return out;
-    }
-    template <class T>
-    static Rows<const T> rowsOf(const std::vector<T>& cells, Size size) {
-        return {cells.data(), size.width, size};
-    }
-    [[nodiscard]] std::unique_ptr<Engine> engineOf(EngineKind kind) const {
-        return kind == EngineKind::Gles ? makeGlesEngine(setup_) : makeSimdEngine(setup_);
-    }
-
-    StepSetup setup_;
-    std::unique_ptr<Engine> stillEngine_, detailEngine_;
-    std::unique_ptr<StillStep> still_, secondStill_;
-    std::unique_ptr<DetailStep> step_;
-    const StillPictures& pictures_;
-    std::uint64_t number_ = 0;
-};
-
-std::vector<std::uint32_t> copyOf(Rows<const std::uint32_t> picture) {
-    std::vector<std::uint32_t> out;
-    for (int y = 0; y < picture.size.height; ++y)
-        out.insert(out.end(), picture[y], picture[y] + picture.size.width);
-    return out;
-}
-
-double channel(Rows<const std::uint32_t> picture, int x, int y, int c) {
-    return static_cast<double>(picture[y][x] >> (8 * c) & 255U);
-}
+INSTANTIATE_TEST_SUITE_P(Engines, DetailEngineTest, DetailEngineTest::everyPair(),
+                         DetailEngineTest::nameOfPair);
 
 TEST_P(DetailEngineTest, WholeFrameMatchesTheOracleAtAnySize) {
     const bool shaders = GetParam().detail == EngineKind::Gles;
@@ -152,6 +44,11 @@ void expectPicture(Rows<const std::uint32_t> drawn, F&& of, double most) {
 // twin::residualAt() clamps the enlarged luma.
 constexpr double kLearnedError = 1.3;
 
+// Shaders read the still with weights of 8 bits, at positions in half precision.
+double learnedErrorWithStill(bool shaders) {
+    return shaders ? (kLearnedError + 1.2) * roundingFactor() : kLearnedError;
+}
+
 TEST_P(DetailEngineTest, FramesEnlargedByFiltersMatchTheOracleWithAndWithoutAStill) {
     const bool shaders = GetParam().detail == EngineKind::Gles;
     const simd::DetailOptions options{SuperResMode::Detail, true, false, false, &simd::evenBank()};
@@ -165,11 +62,10 @@ TEST_P(DetailEngineTest, FramesEnlargedByFiltersMatchTheOracleWithAndWithoutASti
             drawing.drawWithoutStill(frame, options.learned),
             [&](int x, int y, int c) { return alone.enlarged(x, y, c); }, kLearnedError);
         const twin::Grey still = drawing.luma();
-        // Tolerance: shaders read the still with weights of 8 bits, at positions in half precision.
         expectPicture(
             drawing.draw(frame, options.learned),
             [&](int x, int y, int c) { return wanted.withStill(x, y, c, still); },
-            kLearnedError + (shaders ? 1.2 : 0));
+            learnedErrorWithStill(shaders));
     }
 }
 
@@ -187,7 +83,7 @@ TEST_P(DetailEngineTest, FramesWithGuidanceMatchTheOracle) {
         expectPicture(
             drawing.draw(frame, options.learned),
             [&](int x, int y, int c) { return wanted.withStill(x, y, c, still); },
-            kLearnedError + (shaders ? 1.2 : 0));
+            learnedErrorWithStill(shaders));
     }
 }
 
@@ -224,56 +120,6 @@ TEST_P(DetailEngineTest, ChangedOrRemovedFiltersTakeEffectInTheNextFrame) {
         for (int y = 0; y < output.height; ++y)
             ASSERT_TRUE(std::equal(a[y], a[y] + output.width, b[y])) << i << ": row " << y;
     }
-}
-
-// The still's position (look-up) of every cell changes, but only some tiles are drawn. The drawn
-// tiles must equal those of a whole frame, although their detail depends on neighbouring tiles too.
-void expectOnlyChangedTiles(const StepEngines& engines, const simd::Sizes& sizes,
-                            const FilterBank* filters) {
-    const auto& [video, stillSize, output] = sizes;
-    const DetailCase before = withRoom(DetailCase(video, stillSize));
-    DetailCase part = withRoom(DetailCase(video, stillSize, 0.4));
-    for (LookUpCell& cell : part.lookUps) {
-        cell.x += 3.5F;
-        cell.y -= 2.25F;
-    }
-    DetailCase whole = part;
-    whole.work = before.work;
-    Drawing drawing(engines, before, output), other(engines, before, output);
-    drawing.draw(before, filters);
-    const Rows<const std::uint32_t> some = drawing.draw(part, filters),
-                                    all = other.draw(whole, filters);
-    Drawing third(engines, before, output);
-    const Rows<const std::uint32_t> old = third.draw(before, filters);
-    int most = 0;
-    for (int y = 0; y < output.height; ++y)
-        for (int x = 0; x < output.width; ++x) {
-            const bool changed = part.work
-                                     .at(simd::tileAt(x, video.width, output.width),
-                                         simd::tileAt(y, video.height, output.height))
-                                     .changed != 0;
-            ASSERT_EQ(some[y][x], changed ? all[y][x] : old[y][x])
-                << output.width << ": " << x << " " << y;
-            most = std::max(most, std::abs(static_cast<int>(channel(all, x, y, 1)) -
-                                           static_cast<int>(channel(old, x, y, 1))));
-        }
-    EXPECT_TRUE(most > 5 || output == video)
-        << "the test needs a still that changes the picture; change: " << most;
-}
-
-TEST_P(DetailEngineTest, OnlyChangedTilesAreDrawnAndMatchAWholeFrame) {
-    for (const simd::Sizes& sizes : simd::kSizes)
-        expectOnlyChangedTiles(GetParam(), sizes, nullptr);
-}
-
-TEST_P(DetailEngineTest, OnlyChangedTilesAreEnlargedByFilters) {
-    for (const simd::Sizes& sizes : simd::kSizes)
-        expectOnlyChangedTiles(GetParam(), sizes, &FilterBank::prior());
-}
-
-TEST_P(DetailEngineTest, OnlyChangedTilesGetGuidance) {
-    for (const simd::Sizes& sizes : simd::kSizes)
-        expectOnlyChangedTiles(GetParam(), sizes, &simd::guidedBank());
 }
 
 /// Another still for the same video: darker, with other look-ups, and with weight where the first
