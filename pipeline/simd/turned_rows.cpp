@@ -12,7 +12,9 @@ HWY_BEFORE_NAMESPACE();
 namespace mfar::simd::HWY_NAMESPACE {
 
 constexpr float kOutside = -1e6F;
-constexpr float kLeastDepth = 0.05F;  // smallest z of a visible ray (x, y, 1) after the rotation
+// Smallest z of a visible ray (x, y, 1) after the rotation, and an upper limit far beyond any ray
+// of a lens, from which 1 / z would lose precision.
+constexpr float kLeastDepth = 0.05F, kMostDepth = 1e30F;
 
 void TurnedPoints(const TurnedLens& lens, const float* raysX, const float* raysY, std::size_t count,
                   float* x, float* y) {
@@ -30,7 +32,8 @@ void TurnedPoints(const TurnedLens& lens, const float* raysX, const float* raysY
         const auto u = hn::Mul(px, inverse), v = hn::Mul(py, inverse);
         const auto square = hn::MulAdd(u, u, hn::Mul(v, v));
         const auto isShown =
-            hn::And(hn::Gt(pz, set(kLeastDepth)), hn::Lt(square, set(lens.rim * lens.rim)));
+            hn::And(hn::And(hn::Gt(pz, set(kLeastDepth)), hn::Lt(pz, set(kMostDepth))),
+                    hn::Lt(square, set(lens.rim * lens.rim)));
         const auto p = projected(d, unbounded, u, v);
         hn::StoreU(hn::IfThenElse(isShown, p.x, set(kOutside)), d, x + i);
         hn::StoreU(hn::IfThenElse(isShown, p.y, set(kOutside)), d, y + i);

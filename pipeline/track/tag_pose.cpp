@@ -51,8 +51,8 @@ double usableArea(const TagObservation& tag, const CameraModel& camera, double s
 
 std::optional<Candidate> examine(std::size_t index, const TagObservation& tag,
                                  const CameraModel& camera, const TagPoseOptions& options) {
-    if (!(tag.size > 0) || !std::isfinite(tag.size) || !isFinite(tag.T_world_tag))
-        return std::nullopt;
+    const auto T_world_tag = soundMotion(tag.T_world_tag);
+    if (!(tag.size > 0) || !std::isfinite(tag.size) || !T_world_tag) return std::nullopt;
     Candidate out{index, usableArea(tag, camera, options.smallestEdge), {}, {}};
     if (!(out.area > 0)) return std::nullopt;
     std::array<Vector2d, 4> rays;
@@ -66,13 +66,13 @@ std::optional<Candidate> examine(std::size_t index, const TagObservation& tag,
             (T_camera_tag.rotation * Vector3d::UnitZ()).dot(T_camera_tag.translation.normalized());
         if (!(facing > std::cos(options.grazingAngleDeg * kDegree))) return std::nullopt;
         T_camera_tag.translation *= tag.size / 2;
-        out.T_world_camera[i] = tag.T_world_tag * T_camera_tag.inverse();
+        out.T_world_camera[i] = *T_world_tag * T_camera_tag.inverse();
     }
     out.corners.pixels = tag.corners;
     out.corners.outwards = outwardsOf(tag.corners);
     for (int k = 0; k < 4; ++k) {
         const Vector2d corner = kTagCorners[k] * tag.size / 2;
-        out.corners.world[k] = tag.T_world_tag * Vector3d(corner.x(), corner.y(), 0);
+        out.corners.world[k] = *T_world_tag * Vector3d(corner.x(), corner.y(), 0);
     }
     return out;
 }

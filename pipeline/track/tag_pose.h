@@ -17,7 +17,7 @@ namespace mfar {
 /// the surface. `size` is the side of the square between the corners [m].
 struct TagObservation {
     double size = 0;
-    RigidTransform T_world_tag;
+    RigidTransform T_world_tag;  ///< solveTagPose() ignores the tag if soundMotion() refuses this
     std::array<Eigen::Vector2d, 4> corners;  ///< in the distorted picture [px], in the order of
                                              ///< TagDetection::corners
 };

@@ -218,6 +218,11 @@ TEST(TagPose, UnusableTagsGiveNoPose) {
         if (!std::isfinite(value)) tag.T_world_tag.translation.x() = value;
         if (!std::isfinite(value)) refused(tag);
     }
+    for (const double length : {0.0, 1e-20, 0.5, 1.5, 1e20}) {
+        TagObservation tag = good;
+        tag.T_world_tag.rotation.coeffs() *= length;
+        refused(tag);
+    }
     TagObservation bent = good;
     bent.corners[1] = 0.3 * bent.corners[0] + 0.3 * bent.corners[2] + 0.4 * bent.corners[3];
     refused(bent);
