@@ -15,11 +15,21 @@ using gpu::TexelFormat;
 constexpr Size kSmallVideo{53, 37};  // 4x3 tiles, 14x10 cells
 constexpr Size kOutput{191, 133};
 constexpr Size kSmallStill{200, 140};
-// Tolerances [grey levels]. kOnce: for a result that is rounded once. kTwice: for a result from
-// columns that were rounded to 8 bits.
-constexpr double kOnce = 0.51, kTwice = 0.51 * (1 + twin::kCubicGain);
-// Tolerance: kTwice plus a bilinear look-up with weights of 8 bits and positions in half precision.
-constexpr double kLookUp = kTwice + 1.2;
+// Tolerances [grey levels]. onceRounded: for a result that is rounded once. twiceRounded: for a
+// result from columns that were rounded to 8 bits. lookedUp: twiceRounded plus a bilinear look-up
+// with weights of 8 bits and positions in half precision.
+
+double onceRounded() {
+    return 0.51 * roundingFactor();
+}
+
+double twiceRounded() {
+    return onceRounded() * (1 + twin::kCubicGain);
+}
+
+double lookedUp() {
+    return twiceRounded() + 1.2;
+}
 
 double worst(const twin::Grey& a, const twin::Grey& b) {
     EXPECT_EQ(a.size, b.size);
@@ -64,7 +74,7 @@ TEST_F(Draw, SharpeningMatchesTheOracle) {
                                        kSmallVideo);
         EXPECT_LE(worst(channelOf(out, 1), twin::sharpened(twin::luma(p.view()),
                                                            [&](int, int) { return c.strength; })),
-                  kOnce + 0.01);
+                  onceRounded() + 0.01);
     }
 }
 
@@ -100,9 +110,9 @@ TEST_F(Draw, EnlargementMatchesTheOracle) {
                 return double(p.bytes[4UL * (1UL * y * kSmallVideo.width + x) + channel]);
             });
             const twin::Grey kept = channelOf(columns, channel);
-            EXPECT_LE(worst(kept, twin::enlargedColumns(in, kOutput.height)), kOnce);
+            EXPECT_LE(worst(kept, twin::enlargedColumns(in, kOutput.height)), onceRounded());
             EXPECT_LE(worst(channelOf(out, channel), twin::enlargedRows(kept, kOutput.width)),
-                      kOnce);
+                      onceRounded());
         }
     }
 }
@@ -162,7 +172,7 @@ TEST_F(Draw, AlphaOfAVideoPixelIsTheMeanOfTheStillOverThePixel) {
     const gpu::Texture luma = uploaded(still, Filter::Linear);
     for (const LookUp& l : kLookUps) {
         const gpu::Texture out = withStill(video, luma, l);
-        EXPECT_LE(worst(channelOf(out, 3), seen(twin::luma(still.view()), l)), kOnce + 0.4);
+        EXPECT_LE(worst(channelOf(out, 3), seen(twin::luma(still.view()), l)), onceRounded() + 0.4);
         EXPECT_LE(worst(channelOf(out, 0), twin::luma(video.view())), 0.01);
     }
 }
@@ -188,8 +198,10 @@ TEST_F(Draw, DetailIsAddedInProportionToItsWeight) {
             return up.at(x, y) + l.weight * (stillAt(s, x, y, l) - low.at(x, y));
         });
         // Tolerance: the mean is rounded, enlarged along columns and rounded again. The error of
-        // the look-up is 1.2, as in kLookUp.
-        EXPECT_LE(worst(channelOf(out, 0), wanted), kTwice + l.weight * (kTwice + 1.2)) << l.x;
+        // the look-up is 1.2, as in lookedUp().
+        EXPECT_LE(worst(channelOf(out, 0), wanted),
+                  twiceRounded() + l.weight * (twiceRounded() + 1.2))
+            << l.x;
     }
 }
 
@@ -210,7 +222,7 @@ TEST_F(Draw, ModeBlendMixesVideoAndStillByConfidence) {
         const twin::Grey wanted = twin::greyOf(kOutput, [&](int x, int y) {
             return std::lerp(up.at(x, y), stillAt(s, x, y, l), l.confidence);
         });
-        EXPECT_LE(worst(channelOf(out, 0), wanted), l.confidence > 0 ? kLookUp : kTwice);
+        EXPECT_LE(worst(channelOf(out, 0), wanted), l.confidence > 0 ? lookedUp() : twiceRounded());
     }
 }
 

@@ -20,11 +20,17 @@ using test::PaddedPicture;
 using PictureTexture = GlTest;
 
 constexpr Size kEvenSize{54, 38};
+
 // Tolerance: rounding to 8 bits.
-constexpr double kConverted = 0.501;
+double converted() {
+    return 0.501 * roundingFactor();
+}
+
 // Tolerance: a bilinear filter with weights of 8 bits errs by up to one grey level in each chroma
 // channel.
-constexpr double kChroma = kConverted + 2.2;
+double chromaConverted() {
+    return converted() + 2.2;
+}
 
 void expectTwin(const gpu::PictureTexture& picture, const ImageView& view, double tolerance) {
     const auto pixels = sampled(picture.texture());
@@ -53,7 +59,7 @@ TEST_F(PictureTexture, EveryFormatWithPaddedRowsMatchesTheOracle) {
                 gpu::PictureTexture picture;
                 const ImageView view = source.view(matrix, range);
                 picture.upload(view);
-                expectTwin(picture, view, isYuv(format) ? kChroma : 0);
+                expectTwin(picture, view, isYuv(format) ? chromaConverted() : 0);
             }
     }
 }
@@ -63,7 +69,7 @@ TEST_F(PictureTexture, RowsMayHaveAnyNumberOfBytes) {
         const PaddedPicture source(format, kEvenSize, 3, 5);
         gpu::PictureTexture picture;
         picture.upload(source.view());
-        expectTwin(picture, source.view(), isYuv(format) ? kChroma : 0);
+        expectTwin(picture, source.view(), isYuv(format) ? chromaConverted() : 0);
     }
 }
 
@@ -79,7 +85,7 @@ TEST_F(PictureTexture, LumaIsExact) {
                 std::fill(source.plane(i).begin(), source.plane(i).end(), std::uint8_t{140});
         gpu::PictureTexture picture;
         picture.upload(source.view());
-        expectTwin(picture, source.view(), kConverted);
+        expectTwin(picture, source.view(), converted());
     }
 }
 
@@ -90,7 +96,7 @@ TEST_F(PictureTexture, FormatAndSizeMayChangeFromPictureToPicture) {
                                          PixelFormat::Yuyv, PixelFormat::Rgba8}) {
             const PaddedPicture source(format, size, 5);
             picture.upload(source.view());
-            expectTwin(picture, source.view(), isYuv(format) ? kChroma : 0);
+            expectTwin(picture, source.view(), isYuv(format) ? chromaConverted() : 0);
         }
 }
 
@@ -100,7 +106,7 @@ TEST_F(PictureTexture, AnUploadReplacesTheWholePicture) {
     for (unsigned seed = 1; seed < 4; ++seed) {
         const PaddedPicture source(PixelFormat::Yuv420, kEvenSize, seed);
         picture.upload(source.view());
-        expectTwin(picture, source.view(), kChroma);
+        expectTwin(picture, source.view(), chromaConverted());
         EXPECT_TRUE(id == 0 || id == picture.texture().id())
             << "the texture must not be allocated again";
         id = picture.texture().id();
@@ -171,7 +177,7 @@ TEST_F(PictureTexture, SharedMemoryIsReadWithoutACopy) {
             const SharedPicture source(format, importer, 1);
             for (int i = 0; i < 3; ++i) {
                 picture.upload(source.shown);
-                expectTwin(picture, source.view, kChroma);
+                expectTwin(picture, source.view, chromaConverted());
             }
             EXPECT_EQ(importer.imports, planeCount(format)) << "each buffer must be imported once";
             picture.finishReading();
@@ -194,7 +200,7 @@ TEST_F(PictureTexture, MemoryOfRemovedCamerasIsReleased) {
     const int before = importer.imports;
     picture.upload(sources.back()->shown);
     EXPECT_EQ(importer.imports, before);
-    expectTwin(picture, sources.back()->view, kChroma);
+    expectTwin(picture, sources.back()->view, chromaConverted());
     picture.setImporter(nullptr);
     EXPECT_TRUE(importer.alive.empty());
 }
@@ -207,7 +213,7 @@ TEST_F(PictureTexture, MemoryThatTheDriverRefusesIsCopied) {
     const SharedPicture source(PixelFormat::Nv12, importer, 1);
     for (int i = 0; i < 2; ++i) {
         picture.upload(source.shown);
-        expectTwin(picture, source.other.view(), kChroma);
+        expectTwin(picture, source.other.view(), chromaConverted());
     }
     EXPECT_EQ(importer.imports, 1);
     EXPECT_EQ(picture.takeImportFault(), "not this memory");
