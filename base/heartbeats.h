@@ -19,7 +19,7 @@ enum class ThreadRole {
     Helper,  ///< e.g. a writer of files; if it hangs, pictures continue and a fault is reported
 };
 
-/// The heartbeats of all threads (see Heartbeat), which one thread checks. Thread-safe.
+/// The heartbeats of all threads, see Heartbeat. One thread checks them. Thread-safe.
 class Heartbeats {
 public:
     using Clock = std::function<Timestamp()>;
@@ -43,7 +43,8 @@ public:
         std::string what;
         std::chrono::nanoseconds since{0};
     };
-    /// Returns the thread that has waited longest in restFor(), or nothing.
+    /// Returns the thread that has waited longest since restFor(), or nothing. Threads that called
+    /// rest() are not reported.
     [[nodiscard]] std::optional<Waiting> waiting() const;
 
 private:
@@ -87,8 +88,8 @@ public:
     void beat();
     /// Marks the thread as waiting for work until the next beat().
     void rest() { restFor(""); }
-    /// Works like rest(), but waiting() also reports `what`, e.g. "the reader of the pipe". The
-    /// text must outlive this object.
+    /// Works like rest(), but waiting() reports the thread and `what`, e.g. "the reader of the
+    /// pipe". The text must outlive this object.
     void restFor(const char* what);
 
 private:
