@@ -267,7 +267,7 @@ constexpr Option kVirtual[] = {
          "Which part of a path-traced picture is computed in each frame: \"time\", some samples of "
          "all pixels; \"space\", all samples of some tiles."),
     whole("samples", {1, 65536, ""}, "64",
-          "Samples per pixel of a path-traced picture. More are smoother, but take longer."),
+          "Samples per pixel of a path-traced picture. More samples: less noise, more time."),
     number("resolution", {0.05, 1, ""}, "0.28",
            "Width and height of the path-traced picture as a share of the still's. The path-traced "
            "picture is never larger than the output."),
@@ -332,8 +332,7 @@ constexpr OptionSection kConfig[] = {
     {"trigger", kTrigger, "When stills are taken.", true},
     {"pose", kPose, ""},
     {"governor", kGovernor, ""},
-    {"record", kRecord,
-     "Recording while mfard runs (EuRoC layout): pictures, tags and the poses from them."},
+    {"record", kRecord, "Recording while mfard runs (EuRoC layout): pictures, tags and poses."},
     {"limits", kLimits, ""},
     {"status", kStatus, "", true},
     {"virtual", kVirtual, "How virtual objects are drawn."},
