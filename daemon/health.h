@@ -46,7 +46,7 @@ struct Observed {
     std::optional<std::string> fault{};
     std::optional<std::string> gpu{};
     std::optional<std::string> display{};  ///< reason why not all pictures are shown or written
-    std::optional<Timestamp> repeats{};    ///< since then, the video camera repeats one picture
+    std::optional<Timestamp> repeats{};  ///< time since which the video camera repeats one picture
     std::optional<Timestamp> lastPicture{};
     std::optional<Timestamp> lastBanner{};  ///< time when a banner with the fault was last shown
     std::optional<Timestamp> started{};     ///< time from which pictures could be made

@@ -140,7 +140,7 @@ private:
     void show(Timestamp time, bool unchanged);
 
     Stats& stats_;
-    Heartbeat* heart_ = nullptr;  ///< the picture thread's; null: no pictures are made now
+    Heartbeat* heart_ = nullptr;  ///< of the picture thread; null: it makes no pictures now
     Mailbox<Tunables>& changes_;
     CallQueue<Session>& calls_;
     StopTokens stop_;
