@@ -49,8 +49,8 @@ Bytes read(const std::filesystem::path& file, std::size_t most, FileTrust trust)
         if (got == 0) throw std::runtime_error("became shorter while it was read");
         at += static_cast<std::size_t>(got);
     }
-    // Detects bytes beyond the reported size. Files in /proc and /sys report a size of 0 although
-    // they have content.
+    // Detects bytes beyond the reported size. Files in /proc report a size of 0 although they have
+    // content.
     char more = 0;
     const ssize_t got = ::read(fd.get(), &more, 1);
     if (got < 0) fail("cannot be read");

@@ -93,7 +93,7 @@ struct Pose {
     /// frame: the true pose is T_world_video * exp(x). Zero means that the pose is exact, e.g.
     /// recorded.
     Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
-    int tags = 0;                  ///< number of tags used; 0: the pose is predicted or recorded
+    int tags = 0;                  ///< number of tags used; 0: predicted, interpolated or recorded
     double reprojectionError = 0;  ///< RMS error of the tags' corners [px]
 };
 

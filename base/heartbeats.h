@@ -19,7 +19,7 @@ enum class ThreadRole {
     Helper,  ///< e.g. a writer of files; if it hangs, pictures continue and a fault is reported
 };
 
-/// The heartbeats of all threads (see Heartbeat), which one thread checks. Thread-safe.
+/// The heartbeats of all threads, see Heartbeat. One thread checks them. Thread-safe.
 class Heartbeats {
 public:
     using Clock = std::function<Timestamp()>;
@@ -43,7 +43,8 @@ public:
         std::string what;
         std::chrono::nanoseconds since{0};
     };
-    /// Returns the thread that has waited longest in restFor(), or nothing.
+    /// Returns the thread that has waited longest since restFor(), or nothing. Threads that called
+    /// rest() are not reported.
     [[nodiscard]] std::optional<Waiting> waiting() const;
 
 private:
@@ -62,7 +63,7 @@ private:
 };
 
 /// The name, role and time budget of a thread that a class starts and registers. `all` must outlive
-/// the object.
+/// the thread.
 struct WatchedThread {
     Heartbeats* all = nullptr;  ///< null: the thread is not watched
     std::string name{};
@@ -72,8 +73,9 @@ struct WatchedThread {
 
 /// The heartbeat of one thread; only this thread may use it. The thread calls beat() in each
 /// iteration of its loop, before any operation that may hang. It calls rest() before it waits for
-/// work, because waiting is not a fault. The thread counts as working from construction on and is
-/// not watched after destruction. A call costs one clock reading and two stores.
+/// work, because waiting is not a fault. The thread counts as working from the construction of this
+/// object on, and is not watched after its destruction. A call costs one clock reading and two
+/// stores.
 class Heartbeat {
 public:
     /// `budget`: the longest allowed time between two beats. `all` must outlive this object.
@@ -87,8 +89,8 @@ public:
     void beat();
     /// Marks the thread as waiting for work until the next beat().
     void rest() { restFor(""); }
-    /// Works like rest(), but waiting() also reports `what`, e.g. "the reader of the pipe". The
-    /// text must outlive this object.
+    /// Works like rest(), but waiting() reports the thread and `what`, e.g. "the reader of the
+    /// pipe". The text must outlive this object.
     void restFor(const char* what);
 
 private:

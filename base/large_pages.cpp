@@ -21,8 +21,8 @@ void preferLargePages(void* memory, std::size_t bytes) {
 }
 
 LargePages::LargePages(std::size_t bytes) : size_((bytes + kPage - 1) / kPage * kPage) {
-    // The kernel aligns only to small pages, so one large page more is mapped and the rest on both
-    // sides is given back.
+    // The kernel aligns a mapping to small pages only. So the mapping is one large page longer than
+    // needed, and the parts before and after the aligned memory are unmapped.
     const std::size_t mapped = size_ + kPage;
     void* memory =
         mmap(nullptr, mapped, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);

@@ -11,9 +11,9 @@
 
 namespace mfar {
 
-// Mirrored light changes whenever the camera moves. So a traced picture stores how each pixel's
-// surface mirrors, and the distant light that is mirrored. From these, the mirrored light is
-// computed for the view that is shown.
+// Mirrored light changes whenever the camera moves. So a path-traced picture stores two things: how
+// each pixel's surface mirrors light (GlossWords), and the distant light that it mirrors
+// (MirrorLight). From both, the mirrored light is computed for the view that is shown.
 
 /// How a pixel's surface mirrors light. `normal` is the surface normal in world coordinates on the
 /// octahedral map (Cigolle et al. 2014), with 16 bits per axis. `look` has one byte each for the
@@ -54,7 +54,7 @@ struct MirrorLight {
     std::array<float, 3> towardsSun{0, 0, 1}, sunIrradiance{};  ///< irradiance 0: there is no sun
     /// Smallest width of a lobe that mirrors the sun: the sun's angular radius [rad].
     float leastSunAlpha = 0;
-    float least = 0;  ///< small value added to all mirrored light, so that it is never 0
+    float least = 0;  ///< small value added to all mirrored light, so that the light is never 0
 };
 
 }  // namespace mfar

@@ -21,8 +21,8 @@ public:
     Progress& operator=(const Progress&) = delete;
     ~Progress() { clear(); }
 
-    /// Shows the finished share of the whole work (0 to 1) and the next step, `what`. A share of
-    /// NaN is unknown and not shown.
+    /// Shows the finished share of the whole work (0 to 1) and the next step, `what`. If the
+    /// share is NaN, it is unknown and not shown.
     void show(double share, std::string_view what, Clock::time_point now = Clock::now());
     /// Erases the line, so that other output can follow. The next show() draws it again.
     void clear();

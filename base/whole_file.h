@@ -23,8 +23,8 @@ void writeWholeFile(const std::filesystem::path& file, std::span<const std::uint
 void syncFileSystem(const std::filesystem::path& folder);
 
 /// Appends the text to a file, completely or not at all. A missing file is created. A power cut
-/// before the next syncFileSystem() may leave a part of the text. Only one thread at a time may
-/// write a file. Throws like writeWholeFile().
+/// before the next syncFileSystem() may leave a part of the text. Two threads must not write the
+/// same file at a time. Throws like writeWholeFile().
 void appendToFile(const std::filesystem::path& file, std::string_view text);
 
 }  // namespace mfar

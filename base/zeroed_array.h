@@ -22,7 +22,7 @@ public:
 
     ZeroedArray() = default;
     explicit ZeroedArray(std::size_t size) : size_(size) {
-        // aligned_alloc() does not zero its memory, and zeroing it would write to every page.
+        // Not aligned_alloc(): its memory is not zero, and clearing it would write to every page.
         std::size_t bytes = std::max<std::size_t>(size, 1) * sizeof(T) + kAlignment;
         memory_.reset(std::calloc(bytes, 1));
         if (!memory_) throw std::bad_alloc();

@@ -53,13 +53,13 @@ public:
     [[nodiscard]] ExitCode run();
 
 private:
-    /// The GL thread sends this after its set-up.
+    /// The picture thread sends this after its set-up.
     struct Ready {
         RunDescription description;
         std::string startLine;
         Timestamp time;
     };
-    /// The GL thread sends this after it has written all output.
+    /// The picture thread sends this after it has written all output, or after an error.
     struct Over {
         std::string reason;
         std::exception_ptr error;
@@ -100,7 +100,7 @@ private:
     std::filesystem::path startRecording(const std::string& name);
     [[nodiscard]] nlohmann::ordered_json stopRecording();
     void onTick();
-    /// Warns about parts of the models that are not shown.
+    /// Warns about each part of the objects' models that is not shown.
     void logNotes();
     void setTicks();
     [[nodiscard]] Health health(const Counted& counted);
@@ -133,8 +133,8 @@ private:
     std::optional<int> stopSignal_;
     std::optional<Ready> running_;
     std::optional<Over> ended_;
-    /// True after kFirstPictures pictures, whose shaders are then compiled. Until then, all time
-    /// limits are kFirstPatience times as long.
+    /// True after kFirstPictures pictures, because all shaders are compiled by then. Before that,
+    /// all time limits are kFirstPatience times as long.
     bool isProven_ = false;
     bool patienceEnded_ = false;  ///< true: systemd's watchdog has its normal timeout again
     HealthRecord health_;

@@ -100,8 +100,8 @@ void App::removeControl() const {
     if (options_.control) std::filesystem::remove(*options_.control, ignored);
 }
 
-// Reports the failure and ends the process. run() cannot return to main() for this while a thread
-// hangs.
+// Reports the failure and ends the process. main() would do the same, but run() cannot return to
+// main() while a thread hangs.
 void App::leaveFailed(const std::exception_ptr& error) {
     try {
         std::rethrow_exception(error);
@@ -154,8 +154,8 @@ ExitCode App::finish(std::future<std::string>& end) {
         }
         (void)writeResults(fmt::format("error: {}", error.what()), exitCode(error));
         if (!stopSignal_) throw;
-        // Does not throw, because main() would then wait before systemd's restart. After a signal,
-        // systemd does not restart mfard.
+        // The error is not thrown, because main() would then wait for systemd's restart. After a
+        // signal, systemd does not restart mfard.
         log_.error(error.what());
         return exitCode(error);
     }

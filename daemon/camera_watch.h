@@ -30,7 +30,7 @@ struct CameraState {
 
 /// The type of a camera, which decides which checks apply to its frames.
 enum class CameraKind {
-    Stored,  ///< a recording, which drops no frames: no checks
+    Stored,  ///< a lossless source, e.g. a recording: no checks
     Live,    ///< frames may be dropped: missing frames are counted
     Sensor,  ///< like Live, but pictures have noise: rate and repeated pictures are checked, too
 };

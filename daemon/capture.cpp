@@ -73,7 +73,7 @@ void CaptureThread::run() {
     }
     if (stills_) stills_->stop();
     out_.finish();
-    // The capture thread finishes the recording here, in parallel with the GL thread's last
+    // The capture thread finishes the recording here, while the picture thread works on its last
     // picture. So the shutdown takes less time.
     try {
         rig_.finishRecording();
@@ -90,7 +90,7 @@ FramePairer::NextStill CaptureThread::stillSource() {
 
 bool CaptureThread::captureOne(FramePairer& pairer, Heartbeat& heart) {
     std::optional<Frame> video = video_.next(kFrameWait);
-    // Faults are reported by this thread, because the GL thread may work on a picture for a while.
+    // This thread reports faults, because the picture thread may work on a picture for a while.
     stats_.fault(rig_.fault());
     if (stills_) stills_->check();
     if (!video) return !stopped_ && !video_.ended();

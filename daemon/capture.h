@@ -55,8 +55,8 @@ private:
     std::optional<CapturedStill> upcoming_;  ///< a still that is later than the last video frame
 };
 
-/// The thread that fetches video frames, finds their poses and puts them into the mailbox. So tags
-/// are searched in a frame while the GL thread works on the previous one.
+/// The thread that fetches video frames, finds their poses and puts the frames into the mailbox. So
+/// this thread searches a frame for tags while the picture thread works on the previous frame.
 ///
 /// With a live source, the still camera has a thread of its own, so that the video continues if the
 /// still camera hangs. With a lossless source, this thread also reads the stills, so that the order

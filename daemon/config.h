@@ -37,7 +37,7 @@ struct SuperResConfig {
 
 struct StatusConfig {
     double intervalS = 1;
-    bool measure = false;  ///< wait for the GPU after each stage, to measure the stage's time
+    bool measure = false;  ///< true: wait for the GPU after each stage, to measure its time
     bool operator==(const StatusConfig&) const = default;
 };
 

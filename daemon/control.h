@@ -44,8 +44,8 @@ struct ControlActions {
 [[nodiscard]] ControlAnswer answerControl(const ControlActions& actions, std::string_view request,
                                           ControlRole role = ControlRole::Operator);
 
-/// Returns true for at most 100 letters, digits, dots, hyphens and underscores that do not begin
-/// with a dot.
+/// Returns true for 1 to 100 letters, digits, dots, hyphens and underscores that do not begin with
+/// a dot.
 [[nodiscard]] bool isFolderName(std::string_view name);
 
 }  // namespace mfar

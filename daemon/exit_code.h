@@ -15,11 +15,11 @@ enum class ExitCode {
     NoInput = 66,      ///< an input is missing or unreadable
     Unavailable = 69,  ///< a device or the GL renderer is not available
     Internal = 70,
-    OutputFailed = 74,  ///< the display's output or the recording cannot be written
+    OutputFailed = 74,  ///< display, recording, summary or report cannot be written
     BadConfig = 78,
 };
 
-/// An error that ends the program. It has a message of one line and an exit code.
+/// An error that ends the program. It has an exit code and a message, usually of one line.
 class Failure : public std::runtime_error {
 public:
     Failure(ExitCode exitCode, const std::string& message)

@@ -26,17 +26,17 @@ struct FilterLearningOptions {
     /// Names and picture sizes of the sensors; other sensors need other filters.
     std::string sensors;
     /// True: every still is learned from, and finish() waits for that. So the same pictures give
-    /// the same filters. False: learning has low priority. It skips stills that come while it runs,
-    /// and stills that would make it use more than a tenth of a CPU.
+    /// the same filters. False: the learning thread has low priority. It skips stills that come
+    /// while it works, and stills for which it would need more than a tenth of a CPU.
     bool waits = false;
     /// If the rig is set, guidance is learned, too, see enlarge::GuidanceLearner.
     std::optional<StereoRig> rig = std::nullopt;
     WatchedThread watched{};  ///< the learning thread, with the time budget for one still
 };
 
-/// Learns the enlarger's filters from matched stills, in a thread of its own. This thread stores
-/// the learned state every minute and at the end. The picture thread copies one still at a time for
-/// it.
+/// Learns the enlarger's filters from matched stills, in a thread of its own. The picture thread
+/// copies one still at a time for the learning thread. The learning thread stores what it has
+/// learned, at most once a minute; stop() stores the rest.
 class FilterLearning final : public MatchListener {
 public:
     /// Reads the learned state from the file. If that fails, queues a warning and learns from the
@@ -49,8 +49,8 @@ public:
     /// Cancels learning from the current still and stores the state. This may wait for the disk.
     void stop();
 
-    // Only the picture thread may call these functions. Only finish() waits for the learning
-    // thread.
+    // Only the picture thread may call the following functions. Only finish() waits for the
+    // learning thread.
     void matched(const RgbPlanes& video, Rows<const std::uint8_t> still,
                  Rows<const LookUpCell> lookUps,
                  const MatchedPictures::LookedUp& lookedUp) override;

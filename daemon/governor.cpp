@@ -17,7 +17,8 @@ constexpr double kDownRoom = 0.95;
 // kStillEvery frames gets a new still. So at most one frame in twenty is late.
 constexpr std::size_t kMostLate = 1;
 constexpr std::uint64_t kLateWindow = 40;
-constexpr std::uint64_t kSettle = 8;  // counted frames before a change to a better level
+// Smallest number of counted frames between a change of level and a change to a better level.
+constexpr std::uint64_t kSettle = 8;
 // A level that missed the deadline is not used for kFirstWait counted frames. This number doubles
 // with each failure, up to kLongestWait.
 constexpr std::uint64_t kFirstWait = 20, kLongestWait = 960;

@@ -15,10 +15,11 @@ namespace mfar {
 ///
 /// The expected time of a level is its time in the table, multiplied by a factor for this machine
 /// and scene. The factor is the second largest ratio of measured time to table time among the last
-/// 20 counted frames. If two of 40 counted frames are late, the governor chooses the best faster
-/// level that is expected to keep the deadline. If a better level is expected to need at most 85 %
-/// of the deadline, the governor chooses the best such level. A level that missed the deadline is
-/// not used again for some frames. The number of these frames doubles each time.
+/// 20 counted frames; the largest, if there are fewer than ten. If two of 40 counted frames are
+/// late, the governor chooses the best faster level that is expected to keep the deadline. If a
+/// better level is expected to need at most 85 % of the deadline, the governor chooses the best
+/// such level. A level that missed the deadline is not used again for some frames. The number of
+/// these frames doubles each time.
 ///
 /// Three types of frames are not counted: frames in which nothing changed, frames with a new still,
 /// and frames without a still at a level that uses one. When the picture comes to rest, it is drawn

@@ -23,8 +23,9 @@ public:
     explicit GpuWatch(const std::unique_ptr<GlContext>& context) : context_(context) {}
 
     /// Must be called before each picture. If the GPU has three unfinished pictures, or has worked
-    /// on one for half a second, waits at most half a second. Throws GpuLost. Returns false if a
-    /// software renderer is still not finished; then nothing may be drawn.
+    /// on one for half a second, waits at most half a second. Throws GpuLost if the GPU was lost or
+    /// has still not finished the oldest picture. Returns false if a software renderer has not
+    /// finished that picture; then nothing may be drawn.
     [[nodiscard]] bool isReady();
     /// Throws GpuLost if the pictures drawn so far may be wrong.
     void requireSound() const;

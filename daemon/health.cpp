@@ -43,8 +43,8 @@ bool isFresh(std::optional<Timestamp> shown, const Observed& seen) {
     return inSeconds(seen.now - *shown) <= seen.patience * limit;
 }
 
-// Returns the state Stalled if there are no new pictures, although no thread hangs and no device
-// has a fault.
+// Returns the state Stalled if neither a new picture nor a banner about a device's fault was shown
+// recently. Must be called if no vital thread hangs.
 std::optional<Judged> standingStill(const Observed& seen) {
     if (isFresh(seen.lastPicture, seen) || (seen.fault && isFresh(seen.lastBanner, seen)))
         return std::nullopt;

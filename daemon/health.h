@@ -32,8 +32,8 @@ struct Health {
     [[nodiscard]] bool isAlive() const { return state != HealthState::Stalled; }
 };
 
-/// Returns the health as text: "the capture thread hangs (stalled for 5.2 s, last picture 5.3 s
-/// ago)" or "ok".
+/// Returns the health as text: "the video capture thread hangs (stalled for 5.2 s, last picture
+/// 5.3 s ago)" or "ok".
 [[nodiscard]] std::string sentence(const Health& health);
 [[nodiscard]] Subject subjectOf(const Health& health);
 [[nodiscard]] nlohmann::ordered_json healthJson(const Health& health);
@@ -46,7 +46,7 @@ struct Observed {
     std::optional<std::string> fault{};
     std::optional<std::string> gpu{};
     std::optional<std::string> display{};  ///< reason why not all pictures are shown or written
-    std::optional<Timestamp> repeats{};    ///< since then, the video camera repeats one picture
+    std::optional<Timestamp> repeats{};  ///< time since which the video camera repeats one picture
     std::optional<Timestamp> lastPicture{};
     std::optional<Timestamp> lastBanner{};  ///< time when a banner with the fault was last shown
     std::optional<Timestamp> started{};     ///< time from which pictures could be made
@@ -57,9 +57,9 @@ struct Observed {
 /// Judges the health, and measures how long state and cause have been the same. Only one thread may
 /// use it.
 ///
-/// A hanging thread is more important than any other fault, because only a restart helps. A banner
-/// counts as a new picture only while mfard reopens a device and no thread hangs. A device whose
-/// thread hangs in a driver cannot be reopened.
+/// A vital thread that hangs is more important than any other fault, because only a restart helps.
+/// A banner counts as a new picture only while mfard reopens a device and no vital thread hangs. A
+/// device whose thread hangs in a driver cannot be reopened.
 class HealthRecord {
 public:
     [[nodiscard]] Health judge(const Observed& seen);

@@ -10,8 +10,8 @@
 
 namespace mfar {
 
-/// Calls a function after a time limit, on its own thread, unless this object is destroyed before.
-/// It ends a shutdown that hangs. Only one thread may use it.
+/// Calls a function after a time limit, on a thread of its own, unless this object is destroyed
+/// before. Used to end a shutdown that hangs. Only one thread may use it.
 class LastResort {
 public:
     /// Starts the time limit. A second call is ignored.

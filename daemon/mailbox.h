@@ -14,7 +14,7 @@ enum class HandOver {
     /// For live sources: a newer item replaces the stored item, which counts as a drop.
     NewestWins,
     /// The sender waits until the receiver has taken the item and requests the next one. So no
-    /// item is lost, and a run can be repeated exactly (recordings at the pace "consumer").
+    /// item is lost, and a run can be repeated exactly (sources at the pace "consumer").
     Lossless,
 };
 

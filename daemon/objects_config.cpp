@@ -154,9 +154,10 @@ std::vector<std::string> leftOut(const std::vector<PlacedObject>& objects, const
         const PlacedObject& object = objects[i];
         const std::string who = fmt::format("objects[{}] is not shown: ", i);
         if (!worldPlace(object, tags))
-            out.push_back(who +
-                          fmt::format("it stands on tag {} of {}, which is not in the tag map",
-                                      object.tag->id, info(object.tag->family).name));
+            out.push_back(
+                who +
+                fmt::format("it stands on tag {} of family {}, and this tag is not in the tag map",
+                            object.tag->id, info(object.tag->family).name));
         else if (object.model && !shapesAlone.empty())
             out.push_back(who +
                           fmt::format("{} is a model, but {}", object.modelName, shapesAlone));

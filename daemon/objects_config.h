@@ -21,8 +21,9 @@ inline constexpr std::size_t kMostObjects = 64;
 void readObjects(TomlReader& file, const std::filesystem::path& folder, FileMemory& memory,
                  std::vector<PlacedObject>& objects);
 
-/// Returns the frame to which the object's place refers: that of its tag, with z out of the print,
-/// or the world's. Empty if the tag is not in the map.
+/// Returns the pose, in the world, of the frame to which the object's position and orientation
+/// refer: the frame of the object's tag, with z out of the print, or the world frame. Returns
+/// nothing if the tag is not in the map.
 [[nodiscard]] std::optional<RigidTransform> worldAnchor(const PlacedObject& object,
                                                         const TagMap& tags);
 [[nodiscard]] std::optional<RigidTransform> worldPlace(const PlacedObject& object,

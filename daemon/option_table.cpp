@@ -75,7 +75,7 @@ constexpr Option kTop[] = {
         word("pace", "auto realtime consumer", R"("auto")",
              "Speed of the source: \"realtime\", as its time stamps say, and frames are dropped if "
              "mfard is too slow; \"consumer\", as fast as mfard processes frames, and no frame is "
-             "dropped; \"auto\", \"consumer\" for recordings and otherwise \"realtime\".")),
+             "dropped; \"auto\": \"consumer\" for recordings, otherwise \"realtime\".")),
     argument("--seed", whole("seed", {}, "1",
                              "Seed of the synthetic source's random numbers, at least 0: the same "
                              "seed gives the same pictures.")),
@@ -94,8 +94,8 @@ constexpr Option kVideo[] = {
          "Driver of the camera: \"libcamera\", or \"v4l2\" for USB cameras and boards without "
          "libcamera."),
     text("camera", R"("")",
-         "Which camera. With driver \"libcamera\": its id, model or location, which \"cam --list\" "
-         "prints. With \"v4l2\": \"/dev/videoN\" or the card's name. Empty: any camera but the "
+         "Name of the camera. For driver \"libcamera\": id, model or location, as \"cam --list\" "
+         "prints. For \"v4l2\": \"/dev/videoN\" or the card's name. Empty: any camera but the "
          "still camera; if there are several, the one with the smallest pictures. mfard waits for "
          "a camera that is missing."),
     whole("width", kSide, "640", "Width of the camera's pictures."),
@@ -114,7 +114,7 @@ constexpr Option kVideo[] = {
 constexpr Option kStill[] = {
     word("driver", "libcamera v4l2", R"("libcamera")", ""),
     text("camera", R"("")",
-         "Which camera, as in [cameras.video]. Empty: any camera but the video camera; if there "
+         "Name, as in [cameras.video]. Empty: any camera but the video camera; if there "
          "are several, the one with the largest pictures."),
     whole("width", kSide, "2304", ""),
     whole("height", kSide, "1728", ""),
@@ -153,9 +153,9 @@ constexpr Option kEngine[] = {
     argument(
         "--engine",
         word("use", kEngines, kAuto,
-             "What computes the pictures: \"gles\", shaders on the GPU; \"simd\", the CPU's vector "
-             "units, without OpenGL ES; \"auto\", \"simd\" if OpenGL ES 3.1 is missing or is a "
-             "software renderer, otherwise the faster of the two, which mfard measures once.")),
+             "Engine that computes the pictures: \"gles\", shaders on the GPU; \"simd\", vector "
+             "units of the CPU, without OpenGL ES; \"auto\": \"simd\" if OpenGL ES 3.1 is missing "
+             "or a software renderer, otherwise the faster one, which mfard measures once.")),
     word("still", kEngines, kAuto,
          "Engine of the step that prepares a new still; \"auto\": as `use`."),
     word("pyramid", kEngines, kAuto, "Engine of the step that computes image pyramids."),
@@ -267,14 +267,14 @@ constexpr Option kVirtual[] = {
          "Which part of a path-traced picture is computed in each frame: \"time\", some samples of "
          "all pixels; \"space\", all samples of some tiles."),
     whole("samples", {1, 65536, ""}, "64",
-          "Samples per pixel of a path-traced picture. More are smoother, but take longer."),
+          "Samples per pixel of a path-traced picture. More samples: less noise, more time."),
     number("resolution", {0.05, 1, ""}, "0.28",
            "Width and height of the path-traced picture as a share of the still's. The path-traced "
            "picture is never larger than the output."),
     word("holes", "push-pull re-render both none", R"("both")",
-         "What fills holes, which are pixels of virtual objects that come into view between two "
-         "path-traced pictures: \"push-pull\", colours around the hole; \"re-render\", the path "
-         "tracer with few samples; \"both\"; or \"none\"."),
+         "Method that fills holes. (A hole: pixels of a virtual object that come into view between "
+         "two path-traced pictures.) \"push-pull\": colours around the hole; \"re-render\": the "
+         "path tracer with few samples; \"both\"; or \"none\"."),
     whole("threads", kThreads, "1", "Number of threads of the path tracer."),
     flag("filter", "true", "Smooth the noise of pictures with few samples, but not their edges."),
     number(
@@ -332,8 +332,7 @@ constexpr OptionSection kConfig[] = {
     {"trigger", kTrigger, "When stills are taken.", true},
     {"pose", kPose, ""},
     {"governor", kGovernor, ""},
-    {"record", kRecord,
-     "Recording while mfard runs (EuRoC layout): pictures, tags and the poses from them."},
+    {"record", kRecord, "Recording while mfard runs (EuRoC layout): pictures, tags and poses."},
     {"limits", kLimits, ""},
     {"status", kStatus, "", true},
     {"virtual", kVirtual, "How virtual objects are drawn."},
@@ -373,7 +372,7 @@ constexpr Option kLevel[] = {
     whole("flow2d.plane_fits", kSmall, "2",
           "Number of rounds in which planes are fitted to the flow after its median filter."),
     whole("epipolar.window_radius", {0, 8, "px"}, "2",
-          "Radius of the search around the match of the coarser pyramid level."),
+          "The search covers the matches within this radius at the coarser pyramid level."),
     whole("epipolar.step_penalty", {1, 30, ""}, "12",
           "Smoothness penalty where neighbouring cells differ by one candidate."),
     whole("epipolar.jump_penalty", {1, 60, ""}, "60",

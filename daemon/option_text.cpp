@@ -14,9 +14,9 @@ constexpr std::size_t kFileWidth = 96, kHelpWidth = 74;
 constexpr std::string_view kHead =
     "Configuration of mfard. Every key is optional; the values here are the defaults. \"mfard "
     "--check-config --config FILE\" checks a changed file. Options of the command line override "
-    "it. Names of files are relative to this file. Changes take effect after a restart. In "
-    "sections marked (reload), they also take effect after \"systemctl reload mfard\" or SIGHUP. "
-    "Sections that are commented out are absent by default.";
+    "keys of this file. Names of files are relative to this file. Changes take effect after a "
+    "restart. In sections marked (reload), they also take effect after \"systemctl reload mfard\" "
+    "or SIGHUP. Sections that are commented out are absent by default.";
 
 std::vector<std::string> wordsIn(std::string_view text) {
     std::vector<std::string> out;

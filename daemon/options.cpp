@@ -73,17 +73,17 @@ void addOthers(CLI::App& app, Options& options, bool& printConfig) {
         ->type_name("N");
     app.add_option("--seconds", options.seconds, "End after S seconds")->type_name("S");
     app.add_option("--summary", options.summary,
-                   "Write what the run measured to this file at the end (JSON); \"-\" prints it")
+                   "At the end, write all measurements to this file (JSON); \"-\" prints them")
         ->type_name("FILE");
     app.add_option("--report", options.report,
-                   "Write the summary with charts and pictures to this file at the end (HTML)")
+                   "At the end, write a page with charts and pictures to this file (HTML)")
         ->type_name("FILE");
     app.add_option("--control", options.control,
                    "Create this socket, through which mfarctl controls mfard. The members of\n"
                    "mfard's group may use it, too")
         ->type_name("SOCKET");
     app.add_flag("--validate", options.validate,
-                 "Check all values that the engine writes for NaN, infinity and range, and log\n"
+                 "Check that the engine writes no NaN, infinity or value out of range, and log\n"
                  "faults. mfard becomes about ten times slower");
 }
 

@@ -27,8 +27,8 @@ struct StillMeasurement {
     std::optional<double> ms{};
 };
 
-/// Finds the pose of the video camera at the times of frames and stills. Only one thread, not the
-/// GL thread, may call its functions, unless a function's comment allows more.
+/// Finds the pose of the video camera at the times of frames and stills. Only one thread, which
+/// need not be the picture thread, may call its functions, unless a function's comment allows more.
 class PoseFinder {
 public:
     /// `stats` must outlive this object. Throws Failure if the configured source of poses is not

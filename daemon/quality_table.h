@@ -12,7 +12,7 @@ namespace mfar {
 /// A level: one setting between fast and accurate, with its measured time and accuracy.
 struct QualityLevel {
     std::string name;
-    double ms = 0;      ///< time of a frame in which everything moves, on the measured machine
+    double ms = 0;      ///< time of a frame in which everything moves, as measured
     double psnrDb = 0;  ///< PSNR of the pictures against ground truth
     Quality quality;
 };

@@ -14,8 +14,9 @@ namespace mfar {
 
 /// Limits repeated messages, so that a loose plug cannot fill the disk with them. The first message
 /// about an event passes at once. Then one message about the event passes every ten seconds, with
-/// the number of repetitions. The last message about an event always passes. All events beyond 64
-/// at a time count as one event, which limits the memory. Only one thread at a time may use it.
+/// the number of repetitions. The last message about an event always passes. To limit the memory,
+/// only 63 events at a time are told apart; all others count as one event. Only one thread at a
+/// time may use it.
 class RepeatLimit {
 public:
     static constexpr std::chrono::seconds kInterval{10};

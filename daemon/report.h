@@ -8,7 +8,7 @@
 
 namespace mfar {
 
-/// Returns an HTML page about a run: the numbers of summary(), charts of their changes, and
+/// Returns an HTML page about a run: the numbers of summary(), charts of the numbers over time, and
 /// pictures. The page needs no other file and no scripts, and is well-formed XML. Its size is
 /// limited, however long the run was. `written` tells the reader when the page was written.
 [[nodiscard]] std::string reportPage(const nlohmann::ordered_json& summary, RunHistory history,

@@ -33,8 +33,8 @@ std::chrono::nanoseconds nanoseconds(double ms) {
     return std::chrono::nanoseconds(static_cast<std::int64_t>(ms * 1e6));
 }
 
-/// A trigger whose GPIO line may not exist yet. Every pulse tries to open the line. Without pulses,
-/// rest() tries to open it once a second.
+/// A trigger whose GPIO line may not exist yet. Each fire() tries to open a line that is not open.
+/// Between pulses, rest() tries to open it once a second.
 class WaitingTrigger final : public Trigger {
 public:
     explicit WaitingTrigger(const TriggerLineConfig& line)

@@ -52,7 +52,7 @@ struct StopTokens {
     std::stop_token cancel;
 };
 
-/// One run, from the devices to the display. The GL thread creates, runs and destroys it.
+/// One run, from the devices to the display. The picture thread creates, runs and destroys it.
 class Session {
 public:
     /// Opens devices, GL and display. All references must outlive this object. Throws Failure.
@@ -65,8 +65,9 @@ public:
 
     using Over = std::function<void(const std::string& reason, const std::exception_ptr& error)>;
     /// Processes frames until the source ends, a stop is requested or `maxFrames` frames are shown.
-    /// Waits until their pictures are written, then calls `over`. After that, only the devices must
-    /// be closed, which may hang. Returns the reason of the end. Throws Failure.
+    /// Waits until their pictures are written, then calls `over`. After that, only learning must be
+    /// ended and the devices be closed, which may hang. Returns the reason of the end. Throws
+    /// Failure.
     [[nodiscard]] std::string run(std::optional<std::uint64_t> maxFrames, const Over& over);
 
     // Other threads must call the following functions through the CallQueue, which executes them
@@ -139,7 +140,7 @@ private:
     void show(Timestamp time, bool unchanged);
 
     Stats& stats_;
-    Heartbeat* heart_ = nullptr;  ///< the GL thread's heartbeat; null: no pictures are made now
+    Heartbeat* heart_ = nullptr;  ///< of the picture thread; null: it makes no pictures now
     Mailbox<Tunables>& changes_;
     CallQueue<Session>& calls_;
     StopTokens stop_;

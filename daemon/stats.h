@@ -75,12 +75,13 @@ struct Counted {
     std::uint64_t epipolarFrames = 0;
     /// Frames whose search along epipolar lines was limited to positions near the previous matches.
     std::uint64_t predictedFrames = 0;
-    /// Frames matched along epipolar lines whose pose was refined from the pictures.
+    /// Frames that were matched along epipolar lines and whose pose was refined from the pictures.
     std::uint64_t refinedFrames = 0;
-    double meanEpipolarError = 0;  ///< mean over the frames with enough patches [video px]
+    /// Mean of FrameStats::epipolarError over the frames with patches [video px].
+    double meanEpipolarError = 0;
     std::uint64_t depthTiles = 0;  ///< tiles with measured depth, summed over all frames
-    /// Tiles under an object without a depth measurement, because the real surface is known to lie
-    /// behind the object.
+    /// Tiles under a virtual object whose depth was not measured, because the real surface is known
+    /// to lie behind the object.
     std::uint64_t depthTilesSkipped = 0;
     std::uint64_t keyframeSearches = 0;
     /// Tiles that were searched in both dimensions, because they had no reliable match on epipolar
@@ -134,7 +135,7 @@ public:
     [[nodiscard]] double at(Timestamp now) const;
 
 private:
-    // Size of the ring buffer. A screen shows fewer pictures in a second.
+    // Size of the ring buffer. A screen shows fewer pictures than this in a second.
     static constexpr std::size_t kMost = 128;
     std::array<Timestamp, kMost> times_{};
     std::size_t count_ = 0;

@@ -4,7 +4,7 @@ namespace mfar {
 namespace {
 
 /// Smallest share of changed tiles that counts as motion. Noise, flicker or a blinking light change
-/// fewer tiles.
+/// a smaller share.
 constexpr double kMovedShare = 0.05;
 
 std::chrono::nanoseconds toNanoseconds(double s) {

@@ -17,9 +17,9 @@ enum class TriggerMode {
 struct TriggerConfig {
     TriggerMode mode = TriggerMode::Demand;
     double rateHz = 2;
-    /// mode demand: trigger if FrameStats::explained is less
+    /// mode demand: trigger if FrameStats::explained is less than this
     double explainedBelow = 0.6;
-    double maxAgeS = 10;        ///< mode demand: an older still is replaced while the scene moves
+    double maxAgeS = 10;        ///< mode demand: an older still is replaced if the scene has moved
     double minIntervalS = 0.3;  ///< mode demand: shortest time between two triggers
     double timeoutS = 3;        ///< a still that arrives later than this counts as lost
 
@@ -46,8 +46,8 @@ public:
 
     void ask() { asked_ = true; }
 
-    /// Reports that the trigger could not fire, because its last pulse has not ended. The next
-    /// decision fires again.
+    /// Reports that the trigger could not fire, because its last pulse has not ended. The next call
+    /// of decide() fires it again.
     void busy();
 
     /// Reports a still that is the reference from the next frame on. If it was exposed before the

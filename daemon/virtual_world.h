@@ -9,7 +9,7 @@
 
 namespace mfar {
 
-/// Passes the virtual objects and their light to the pipeline. Only the GL thread may use it.
+/// Passes the virtual objects and their light to the pipeline. Only the picture thread may use it.
 class VirtualWorld {
 public:
     VirtualWorld(const VirtualOptions& options, const StereoRig& rig, Pipeline& pipeline);

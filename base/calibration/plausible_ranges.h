@@ -18,7 +18,7 @@ struct Range {
 
 /// 16384 px is the size limit of textures.
 inline constexpr Range kSide{"width and height", "px", 1, 16384};
-/// The limits correspond to horizontal fields of view of 169 degrees and of half a degree.
+/// The limits correspond to horizontal fields of view of 169 degrees and of 0.6 degrees.
 inline constexpr Range kFocal{"focal length", "picture widths", 0.05, 100};
 inline constexpr Range kPrincipal{"principal point", "picture widths and heights", -1, 2};
 inline constexpr Range kCoefficient{"distortion coefficient", "1", -1000, 1000};

@@ -14,7 +14,7 @@ namespace mfar {
 struct SensorYaml {
     CameraModel camera;
     RigidTransform T_body_sensor;  ///< T_BS: sensor coordinates -> body coordinates
-    double rateHz = 0;             ///< 0: the sensor takes pictures on trigger only
+    double rateHz = 0;             ///< 0: pictures on trigger only, or no rate_hz in the file
 };
 
 /// Reads a sensor.yaml. Throws CalibrationError if the model is not a pinhole camera, a number is

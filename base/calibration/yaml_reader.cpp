@@ -28,11 +28,10 @@ YamlReader::YamlReader(const std::filesystem::path& file) : file_(file) {
     try {
         text = boundedText(file, kMaxBytes);
     } catch (const std::runtime_error& error) {
-        fail(fmt::format("{}, so this camera has no calibration", error.what()));
+        fail(fmt::format("{}, so there is no calibration", error.what()));
     }
     root_ = boundedYaml(text);
-    if (!root_.IsMap())
-        calibrationFault(file_, 1, "holds no calibration: the file must be a YAML map");
+    if (!root_.IsMap()) calibrationFault(file_, 1, "is not a YAML map, so there is no calibration");
 }
 
 YAML::Node YamlReader::at(const YAML::Node& map, const char* key) const {

@@ -13,7 +13,7 @@
 namespace mfar {
 
 /// Reads values of one YAML file, including files of OpenCV's FileStorage. Every failure throws a
-/// CalibrationError with the line of the value.
+/// CalibrationError, with the line of the value if the value exists.
 class YamlReader {
 public:
     [[nodiscard]] const YAML::Node& root() const { return root_; }

@@ -19,7 +19,9 @@ struct Binding;
 struct ValidationFault {
     std::string pass;
     std::string output;  ///< variable in the shader; "guard": a write beyond the end of a buffer
-    int x = 0, y = 0;    ///< texel; for a buffer, x is the index of the element
+    /// The texel. For a buffer, x is the index of the element. For "guard", x is the name of the
+    /// GL buffer, and y is the number of the guard byte.
+    int x = 0, y = 0;
     int component = 0;
     double value = 0;
     ValueRange range{};  ///< the allowed range; {0, 0}: any finite value is allowed
@@ -45,8 +47,7 @@ public:
     Validation& operator=(const Validation&) = delete;
     ~Validation();
 
-    /// Returns the faults since the last call. For each output of a pass, only the first fault is
-    /// ever reported.
+    /// Returns the faults since the last call, at most one (the first) for each output of a pass.
     [[nodiscard]] std::vector<ValidationFault> takeFaults();
     void nextFrame() { ++frame_; }
 

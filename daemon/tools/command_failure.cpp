@@ -8,7 +8,7 @@
 namespace mfar {
 namespace {
 
-// The command in whose command line the error is: the innermost one that was used.
+// Returns the innermost command of the command line, to whose arguments the error belongs.
 const CLI::App& innermost(const CLI::App& app) {
     const std::vector<CLI::App*> used = app.get_subcommands();
     return used.empty() ? app : innermost(*used.front());

@@ -9,7 +9,7 @@
 
 namespace mfar {
 
-/// Reports that no mfard listens at the socket.
+/// Reports that mfard cannot be reached at the socket or does not answer.
 class NotReachable : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;

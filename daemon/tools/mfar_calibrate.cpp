@@ -22,7 +22,7 @@ Target targetOf(const CalibrateArguments& a) {
 }
 
 /// Searches for the target in all pictures. On a terminal, redraws the map of the found corners
-/// after every fifth picture. Otherwise prints it once at the end.
+/// after every fifth picture. Without a terminal, prints the map once, at the end.
 SensorViews look(const std::vector<RecordedImage>& pictures, Size size, const Target& target,
                  const char* name) {
     const bool terminal = isatty(STDOUT_FILENO) == 1;

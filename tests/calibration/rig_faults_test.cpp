@@ -151,7 +151,7 @@ TEST(RigFiles, DevicesAndPipesAreRefused) {
     ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
     for (const fs::path& file : {folder / "pipe", fs::path("/dev/zero")})
         EXPECT_EQ(faultOf(file),
-                  file.string() + ": is not a regular file, so this camera has no calibration");
+                  file.string() + ": is not a regular file, so there is no calibration");
 }
 
 TEST(RigFiles, TheDocumentationListsTheAcceptedRanges) {

@@ -175,9 +175,10 @@ TEST(ObjectsConfig, OmittedObjectsAreReported) {
     onTag.tag = TagKey{TagFamily::Tag25h9, 6};
     model.model = std::make_shared<const Model>();
     model.modelName = "jar.glb";
-    EXPECT_THAT(leftOut({shape, onTag, model}, map, ""),
-                testing::ElementsAre("objects[1] is not shown: it stands on tag 6 of tag25h9, "
-                                     "which is not in the tag map"));
+    EXPECT_THAT(
+        leftOut({shape, onTag, model}, map, ""),
+        testing::ElementsAre("objects[1] is not shown: it stands on tag 6 of family tag25h9, "
+                             "and this tag is not in the tag map"));
     EXPECT_THAT(leftOut({model}, map, "there is no tracer"),
                 testing::ElementsAre(
                     "objects[0] is not shown: jar.glb is a model, but there is no tracer"));

@@ -14,7 +14,7 @@ constexpr int kLeastCorners = 6;
 constexpr int kRounds = 4;          // each round fits, then removes bad corners and views
 constexpr double kCornerLimit = 6;  // corners with a longer residual are removed [sigma]
 constexpr double kLeastSigma = 0.01;
-// A view with a larger RMS error does not show the target [px].
+// Largest RMS error of a view [px]. A view with a larger error does not show the target.
 constexpr double kMaxViewError = 20;
 
 struct Points {
@@ -132,8 +132,8 @@ double spreadOf(const Target& target, const std::vector<TargetView>& views, cons
     return std::max(kLeastSigma, 1.4826 * median(std::move(components)));
 }
 
-/// Removes corners with large residuals, which are no corners of the target. Returns true if any
-/// corner was removed.
+/// Removes corners with large residuals, because they are not corners of the target. Returns true
+/// if any corner was removed.
 bool dropCorners(const Target& target, TargetView& view, const CameraFit& fit,
                  const RigidTransform& pose) {
     const auto residuals = residualsOf(target, view, fit.camera, pose);

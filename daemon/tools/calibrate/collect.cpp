@@ -10,7 +10,7 @@
 namespace mfar::calibration {
 namespace {
 
-constexpr std::size_t kEnoughCorners = 12;  // a view with fewer does not give a precise pose
+constexpr std::size_t kEnoughCorners = 12;  // a view with fewer corners gives no precise pose
 
 }  // namespace
 

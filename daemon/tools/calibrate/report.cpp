@@ -84,8 +84,9 @@ std::string resultText(const Calibration& calibration) {
                          "clocks: add {:.3f} ms to still times to get video times, +- {:.3f} ms\n",
                          1000 * calibration.rig.stillTimeOffset,
                          1000 * calibration.offsetDeviation);
-    return out + "clocks: the offset of the still's clock was not measured and is taken as 0: the "
-                 "camera moved too little while stills were taken\n";
+    return out + "clocks: the offset of the still's clock was not measured and is taken as 0, "
+                 "because --max-offset is 0 or the camera moved too little while stills were "
+                 "taken\n";
 }
 
 }  // namespace mfar::calibration

@@ -101,9 +101,9 @@ double RigBundle::cost(const std::array<double, 2>& sigma) const {
     return sum;
 }
 
-/// Returns the derivative of a view's pose, in the pose's own frame, with respect to its
-/// parameters. For a view with its own pose, the parameters are this pose. For an interpolated
-/// pose, they are the extrinsics, the clock offset and four poses.
+/// Returns the derivative of a view's pose, as a motion in the camera's frame, with respect to the
+/// parameters of the pose. For a view with its own pose, the parameters are this pose. For an
+/// interpolated pose, they are the extrinsics, the clock offset and four poses.
 Eigen::MatrixXd RigBundle::poseJacobian(const View& view) const {
     if (!view.tied) return Matrix6::Identity();
     Eigen::MatrixXd out(6, 31);

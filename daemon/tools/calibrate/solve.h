@@ -43,7 +43,7 @@ struct Calibration {
     /// Standard deviations of T_still_video: rotation [rad] and translation [m].
     Eigen::Matrix<double, 6, 1> extrinsicDeviations;
     double offsetDeviation = 0;
-    bool offsetKnown = true;  ///< false: there is too little motion, so the offset is 0
+    bool offsetKnown = true;  ///< false: too little motion or maxOffset is 0, so the offset is 0
     int pairs = 0;
 };
 

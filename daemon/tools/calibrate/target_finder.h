@@ -27,7 +27,7 @@ private:
     [[nodiscard]] std::vector<Corner> findTags(const ImageView& luma);
     [[nodiscard]] std::vector<Corner> findBoard(const ImageView& luma) const;
     [[nodiscard]] std::vector<TagDetection> detect(const cv::Mat& picture);
-    /// Returns the number of tags in one picture that determines the orientation of the print.
+    /// Returns how many tags in one picture suffice to determine the orientation of the print.
     [[nodiscard]] int leastTags() const;
     void learnTurn(const std::vector<TagDetection>& tags);
 
