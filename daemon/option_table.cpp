@@ -103,7 +103,7 @@ constexpr Option kVideo[] = {
     number("rate_hz", kCameraRate, "30.0",
            "Frame rate, at least 0.01; 0: the camera sends a picture for each trigger pulse."),
     text("format", R"("auto")",
-         "Pixel format: \"auto\", or for \"v4l2\" the four characters of one, like \"YUYV\"."),
+         "Pixel format: \"auto\", or for \"v4l2\" the four characters of a format, like \"YUYV\"."),
     flag("allow_crop", "false",
          "Accept a sensor mode that shows a part of the field of view; \"libcamera\" only."),
     {"controls", OptionType::Values, "{}",

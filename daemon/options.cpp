@@ -89,7 +89,7 @@ void addOthers(CLI::App& app, Options& options, bool& printConfig) {
 
 struct Parser {
     CLI::App app{"mfard: lifts a fast video sensor to the resolution of a slow still sensor.\n"
-                 "Signals: TERM and INT end it, HUP reads the configuration file again.\n",
+                 "Signals: TERM and INT end mfard; HUP makes it read its configuration again.\n",
                  "mfard"};
     Options options;
     Words words;

@@ -1,8 +1,8 @@
-// Compares doubtful cells with the still itself instead of its reduction, see kPatchSamples. The
-// flow along its epipolar line replaces a cell's flow if the still fits clearly better there. If
-// the correlation with the still itself exceeds 1 - cost, the cell's ErrorCell gets the sums of
-// this comparison. Its two-way error is then at most the one that kErrorPerCost gives for the cost
-// 1 - correlation.
+// Compares doubtful cells with the still itself instead of its reduction, see kPatchSamples. If the
+// still fits clearly better at the flow along a cell's epipolar line, this flow replaces the cell's
+// flow. If the correlation with the still itself exceeds 1 - cost, the cell's ErrorCell gets the
+// sums of this comparison. The two-way error in the ErrorCell is then at most the error that
+// kErrorPerCost gives for the cost 1 - correlation.
 // In: states of the tiles, video, luma of the still with amplified finest detail; in cells[], the
 // flow along epipolar lines. In, out: cells[], the filtered forward field and its ErrorCells.
 // One workgroup per tile, one invocation per cell. Most loops count from cell.x or cell.y, so that

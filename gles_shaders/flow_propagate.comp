@@ -49,8 +49,8 @@ void main() {
             moved = true;
         }
     }
-    // Is called even without steps, because a branch around the call would need one more register
-    // than a V3D (the GPU of a Raspberry Pi) has.
+    // refine() is called even without steps, because a branch around the call would need one more
+    // register than a V3D (the GPU of a Raspberry Pi) has.
     refine(known, lb, cell, moved ? params.steps : -1, best, found);
     cells[params.target + cell.y * params.columns + cell.x] = vec4(best, found, momentAt(1));
 }

@@ -26,7 +26,7 @@ uvec3 fetchWords(int at) {
 }
 
 // Extracts a row of a cell's patch: eight pixels, in two words. The row begins two pixels to the
-// left of the cell. The three words `w` begin four pixels to the left of it.
+// left of the cell. The three words `w` begin four pixels to the left of the cell.
 uvec2 cellRow(uvec3 w) {
     return uvec2((w.x >> 16) | (w.y << 16), (w.y >> 16) | (w.z << 16));
 }
@@ -41,7 +41,7 @@ struct Window {
 
 uvec3 fetchPixels(LumaLevel l, Window w) {
     uvec3 words = fetchWords(w.first + clamp(w.y, 0, l.height - 1) * l.pitch);
-    // A shift by 32 is undefined, so `up` is one too small, and `<< 1` adds the rest.
+    // A shift by 32 is undefined, so the shift by 32 - w.shift is done in two parts, 1 and `up`.
     uint up = 31u - w.shift;
     return uvec3((words.x >> w.shift) | (words.y << 1 << up), (words.y >> w.shift) | (words.z << 1 << up),
                  words.z >> w.shift);

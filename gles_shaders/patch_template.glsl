@@ -5,8 +5,8 @@
 // The template. Each of the rows -1 to kRows has three words: two with its eight pixels, and one
 // with the pixels to the left and right of these. Nine floats follow: mean, variance (sum of
 // squared deviations), sum of the gradient (x, y), sum of the gradient times the deviation of the
-// pixel from the mean (x, y), inverse Hessian (xx, xy, yy). The last five floats belong to
-// patch_refine.glsl.
+// pixel from the mean (x, y), inverse Hessian (xx, xy, yy). The next five floats belong to
+// patch_refine.glsl. The words after them are not used.
 // No GPU has enough registers for the template and a comparison. Indexing by variables makes the
 // compiler keep the array in memory; Mali's compiler does so only for more than 64 words. Here and
 // in the files that include this file, the compiler does not know the length of loops over the

@@ -18,7 +18,8 @@ struct CameraInfo {
     double rateHz = 0;  ///< frame rate [Hz]; 0: the camera takes pictures only when it is triggered
 };
 
-/// Numbers of a camera's frames since its start. No frame is counted twice.
+/// Numbers of a camera's frames since its start. Only the frames in `untimed` are counted twice,
+/// because `delivered` includes them.
 struct CameraCounters {
     std::uint64_t delivered = 0;
     /// Frames that the driver lost because it had no free buffer. Not set if the driver does not

@@ -24,8 +24,8 @@ enum class ImageAlpha : std::uint8_t {
 };
 
 /// Decodes a PNG or JPEG of any colour type to RGBA. 16-bit values are reduced to their upper 8
-/// bits. Throws std::runtime_error if the file is damaged, or a progressive JPEG of more than 2^24
-/// pixels.
+/// bits. Throws std::runtime_error if the file is damaged, or if it is a progressive JPEG of more
+/// than 2^24 pixels.
 void decodeImage(std::span<const std::uint8_t> file, const TargetOf& targetOf,
                  ImageAlpha alpha = ImageAlpha::Opaque);
 

@@ -30,8 +30,8 @@ public:
     /// next fire() throws.
     virtual void endPulse() {}
     [[nodiscard]] virtual std::string name() const = 0;
-    /// Returns the number of pulses for which the loopback line did not report both edges. Their
-    /// times are not measured. Thread-safe.
+    /// Returns the number of pulses whose times are not measured, because the loopback line (an
+    /// input that is wired to the trigger line) did not report both edges. Thread-safe.
     [[nodiscard]] virtual std::uint64_t missedEdges() const { return 0; }
 };
 

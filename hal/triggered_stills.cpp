@@ -39,7 +39,7 @@ void TriggeredStillCamera::start() {
 
 void TriggeredStillCamera::stop() {
     {
-        // fire() also locks mutex_, so that no pulse is fired after this.
+        // fire() also locks mutex_, so that no pulse is fired once stopped_ is set.
         const std::lock_guard lock(mutex_);
         stopped_ = true;
     }

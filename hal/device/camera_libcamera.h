@@ -49,7 +49,8 @@ struct LibcameraCounters {
 ///
 /// Since libcamera 0.2, the sensor mode can be chosen. LibcameraCamera uses the smallest mode that
 /// shows the whole field of view, is at least as large as the picture and reaches the frame rate.
-/// If pictures show only a part of the field of view, the constructor or next() throws.
+/// If pictures show only a part of the field of view, the constructor or next() throws, unless
+/// LibcameraOptions::allowCrop is set.
 ///
 /// The time of a frame is libcamera's SensorTimestamp (documented as the start of the first row's
 /// exposure) plus half the exposure. Drivers that take the timestamp at another moment cause a

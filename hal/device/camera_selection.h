@@ -23,10 +23,10 @@ struct CameraWish {
 
 [[nodiscard]] std::string describe(const std::vector<ListedCamera>& cameras);
 
-/// Returns the index of the chosen camera. If wish.name is empty, the cameras are ordered by
-/// picture size, then by id. Throws std::runtime_error whose message lists the cameras if none or
-/// several have the name, if `except` is the only camera, or if `largest` is set and there is only
-/// one camera.
+/// Returns the index of the chosen camera. If wish.name is empty, the picture size decides (see
+/// `largest`), and among equal sizes the id. Throws std::runtime_error whose message lists the
+/// cameras if no camera or several cameras have the name, if `except` is the only camera, or if
+/// `largest` is set and there is only one camera.
 [[nodiscard]] std::size_t chooseCamera(const std::vector<ListedCamera>& cameras,
                                        const CameraWish& wish);
 

@@ -63,7 +63,7 @@ private:
     Screen* failed_ = nullptr;
     int shown_ = 0;
     std::optional<Timestamp> lookedAt_;
-    std::string fault_;  // reason why the last screen was lost; empty after kProven new pictures
+    std::string fault_;  // reason why the last screen was lost; empty once a screen works again
 };
 
 /// Opens a screen. `spec` is "auto" (KMS, or a framebuffer device if KMS cannot be used),

@@ -22,9 +22,9 @@ namespace mfar {
 [[nodiscard]] double refreshHz(const drmModeModeInfo& mode);
 
 /// Chooses a connector's mode. Among modes of the wanted size, progressive ones are preferred, then
-/// the nearest rate (at most 0.5 Hz away), or the highest rate if the wish has none. If no mode
-/// fulfils the wish, the preferred mode or else the first is chosen. Modes without a rate or with a
-/// side outside 1 to 16384 pixels are skipped. Returns nothing if no mode is left.
+/// the nearest rate (at most 0.5 Hz away), or the highest rate if the wish has no rate. If no mode
+/// fulfils the wish, the monitor's preferred mode is chosen, or else the first mode. Modes without
+/// a rate or with a side outside 1 to 16384 pixels are skipped. Returns nothing if no mode is left.
 [[nodiscard]] std::optional<drmModeModeInfo> chooseMode(std::span<const drmModeModeInfo> modes,
                                                         const std::optional<ModeWish>& wish);
 [[nodiscard]] bool fulfils(const drmModeModeInfo& mode, const ModeWish& wish);

@@ -27,7 +27,7 @@ private:
 
 /// Draws pictures in the screen's size. The aspect ratio is kept, with black borders (letterbox()).
 /// A picture is reduced by averaging areas and enlarged by linear interpolation. A picture that
-/// fits is copied unchanged. From the first picture on, the GL context must exist until
+/// needs no scaling is copied unchanged. From the first picture on, the GL context must exist until
 /// releaseGl().
 class ScreenScaler {
 public:

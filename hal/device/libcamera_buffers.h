@@ -8,8 +8,8 @@
 
 namespace mfar {
 
-/// A buffer of a camera, mapped into this process's memory. It may outlive the camera. One file may
-/// contain several planes.
+/// A buffer of a camera, mapped into this process's memory. It may outlive the camera. One
+/// file (a dma-buf) may contain several planes.
 class MappedPicture {
 public:
     MappedPicture(const libcamera::FrameBuffer& buffer, const PictureLayout& layout);

@@ -45,8 +45,8 @@ template <typename Id>
     return std::nullopt;
 }
 
-/// Returns true if a control has several values. libcamera reports this since 0.4.0; in older
-/// versions, only FrameDurationLimits has several.
+/// Returns true if a control has several values. libcamera reports this since 0.4.0. For older
+/// versions, returns true only for FrameDurationLimits, which controlsFor() sets.
 template <typename Id>
 [[nodiscard]] bool isArray(const Id& control) {
     if constexpr (requires { control.isArray(); })

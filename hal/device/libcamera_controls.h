@@ -9,7 +9,8 @@
 namespace mfar {
 
 /// Names and values of controls as text: "ExposureTime" and "8000", "AfMode" and "0". Since
-/// libcamera 0.4, the value may be a name. The values of an array are separated by commas.
+/// libcamera 0.4, a value may be given by its name: "AfModeManual" instead of "0". The values of an
+/// array are separated by commas.
 using NamedValues = std::vector<std::pair<std::string, std::string>>;
 using ControlValues = std::vector<std::pair<unsigned, libcamera::ControlValue>>;
 

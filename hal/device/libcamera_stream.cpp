@@ -146,9 +146,9 @@ int LibcameraCamera::Stream::queue(std::size_t slot) {
     return camera_->queueRequest(&request);
 }
 
-// If a camera was unplugged, waits until libcamera knows it. udev reports it to libcamera later
-// than the kernel deletes the device's node. If the camera is stopped in between with queued
-// requests, libcamera ends the process.
+// If a camera was unplugged, waits until libcamera has noticed. libcamera learns of it from udev,
+// only after the kernel has deleted the device's node. If the camera were stopped in between, with
+// queued requests, libcamera would end the process.
 void LibcameraCamera::Stream::prepareStop() {
     const auto end = std::chrono::steady_clock::now() + kUdevTime;
     while (hasLostVideoNode() && std::chrono::steady_clock::now() < end)

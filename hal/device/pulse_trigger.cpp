@@ -11,7 +11,7 @@ namespace {
 using std::chrono::microseconds;
 
 constexpr microseconds kLongest{10'000'000};
-/// Longest pulse that the caller of fire() ends itself. Another thread would end it less
+/// Longest pulse whose end fire() itself waits for. Another thread would end the pulse less
 /// accurately.
 constexpr microseconds kInCaller{1000};
 /// Longest delay with which a sleeping thread wakes up, unless the machine is overloaded.

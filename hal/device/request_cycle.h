@@ -22,7 +22,8 @@ struct RestartLimits {
     /// If the driver cancels all requests within this time after the start, the stream has ended
     /// early.
     std::chrono::milliseconds early{500};
-    /// Pause before the restart after two consecutive early ends. It doubles with each further one.
+    /// Pause before the restart after two consecutive early ends. It doubles with each further
+    /// early end.
     std::chrono::milliseconds firstPause{50};
     int most = 5;
 };

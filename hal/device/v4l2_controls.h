@@ -28,8 +28,9 @@ struct V4l2Control {
     std::vector<Entry> entries;
 };
 
-/// Converts a control's name for the configuration: to lower case, with one underscore for each run
-/// of other characters. "White Balance, Automatic" becomes white_balance_automatic.
+/// Converts a control's name for the configuration: to lower case, with one underscore instead of
+/// each run of characters that are neither letters nor digits. "White Balance, Automatic" becomes
+/// white_balance_automatic.
 [[nodiscard]] std::string foldedName(std::string_view name);
 
 [[nodiscard]] std::string describe(const V4l2Control& control);

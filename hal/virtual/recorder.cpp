@@ -47,7 +47,7 @@ Recorder::Recorder(const fs::path& root, const StereoRig& rig, double videoRateH
       writer_(1, options.writer) {
     if (!(videoRateHz > 0)) throw std::runtime_error("a recording needs a video rate above 0 Hz");
     beginCamera(video_.folder, {rig.video, {}, videoRateHz},
-                "video sensor; its axes are the body's coordinates");
+                "video sensor; its frame is the body frame");
     beginCamera(still_.folder, {rig.still, rig.T_still_video.inverse(), 0}, "still sensor");
     syncFileSystem(root_);
 }

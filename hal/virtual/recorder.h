@@ -25,7 +25,8 @@ struct RecorderOptions {
     std::uint64_t mostBytes = 0;  ///< largest size of a recording [bytes]; 0: no limit
     WatchedThread writer{};
     /// Least interval between synchronisations of the disk, which protect the recording from a
-    /// power cut. A picture or pose starts one if the last one is at least this time ago.
+    /// power cut. A new picture or pose starts a synchronisation if the last synchronisation began
+    /// at least this long ago.
     std::chrono::milliseconds syncEvery{1000};
 };
 

@@ -21,8 +21,8 @@ class CsvRow {
 public:
     CsvRow(const std::filesystem::path& file, int line, std::string_view text, bool isTorn);
 
-    /// Returns true if this is the last row and has no newline or contains zeros. A power cut may
-    /// have truncated such a row.
+    /// Returns true if this is the last row and has no newline. A power cut may have truncated such
+    /// a row.
     [[nodiscard]] bool isTorn() const { return isTorn_; }
     [[nodiscard]] std::size_t size() const { return fields_.size(); }
     [[nodiscard]] std::string_view text(std::size_t i) const { return fields_.at(i); }

@@ -45,7 +45,7 @@ private:
     std::uint64_t hash_;
 };
 
-/// Four independent sums, because mix() has a long latency.
+/// Computes four independent sums, because a multiplication has a long latency.
 std::uint64_t checksum(std::span<const std::uint8_t> bytes, std::uint64_t key) {
     std::array<std::uint64_t, 4> sums{key, key + 1, key + 2, key + 3};
     std::array<std::uint64_t, 4> words{};
@@ -98,7 +98,7 @@ void store(const fs::path& file, std::uint64_t key, const cv::Mat4b& texels) {
         removeOldest(file.parent_path(), TexelStore::kMostFiles - 1);
         // A file that a power cut truncates is found by its size or checksum.
         writeWholeFile(file, bytes, Durability::WithSync);
-    } catch (const std::exception&) {  // The store only saves time.
+    } catch (const std::exception&) {  // Errors are ignored, because the store only saves time.
     }
 }
 

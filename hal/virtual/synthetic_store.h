@@ -20,7 +20,8 @@ public:
     /// An empty path: nothing is kept.
     explicit TexelStore(std::filesystem::path folder);
 
-    /// Returns the square picture that `make` computes. `key` must contain all inputs of `make`.
+    /// Returns the square picture that `make` computes. `key` must be a hash of all inputs of
+    /// `make`.
     [[nodiscard]] cv::Mat4b get(std::uint64_t key, int side,
                                 const std::function<cv::Mat4b()>& make) const;
 
@@ -32,8 +33,9 @@ private:
     std::filesystem::path folder_;
 };
 
-/// Returns a hash of all properties of the world that its light map depends on, and of one texture
-/// layer. Both also contain a hash of the sources and libraries that compute the texels.
+/// lightKey() returns a hash of all properties of the world that its light map depends on;
+/// layerKey() returns a hash of a texture layer and its seed. Both hashes also depend on the
+/// sources and libraries that compute the texels.
 [[nodiscard]] std::uint64_t lightKey(const World& world);
 [[nodiscard]] std::uint64_t layerKey(Layer layer, std::uint64_t seed);
 

@@ -30,7 +30,7 @@ std::string programManPage() {
     out += ".SH SYNOPSIS\n.B mfard\n[OPTIONS]\n.SH OPTIONS\n";
     for (const ArgumentText& argument : argumentTexts())
         out += entry(argument);
-    out += ".SH SIGNALS\nTERM and INT end it, HUP reads the configuration file again.\n"
+    out += ".SH SIGNALS\nTERM and INT end mfard; HUP makes it read its configuration again.\n"
            ".SH \"EXIT STATUS\"\n" +
            entry("0", "success") + entry("64", "wrong command line") +
            entry("65", "wrong data in a file") + entry("66", "a file cannot be read") +

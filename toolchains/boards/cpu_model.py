@@ -187,7 +187,8 @@ def frame_cycles(program, counts, cpus, steps, arm, coverage=0.99):
     step. `cpus` contains the processors, as in model.toml.
 
     llvm-mca gets the hottest blocks, which contain the share `coverage` of the executed instructions. All other
-    blocks, and blocks that llvm-mca does not know, are assumed to take as many cycles per instruction.
+    blocks, and blocks that llvm-mca does not know, are assumed to take as many cycles per instruction as the hottest
+    blocks of their step.
     """
     base = code_address(subprocess.run(['readelf', '-lW', program], capture_output=True, text=True, check=True).stdout)
     texts = disassemble(program)

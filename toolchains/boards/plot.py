@@ -23,7 +23,7 @@ def bars(model, results, width):
 
 
 def nice(most):
-    """Returns a round distance of about six marks on a scale up to `most`."""
+    """Returns a round distance between marks, so that a scale up to `most` has at most seven marks above 0."""
     step = 1
     while most / step > 7:
         for factor in (2, 5, 10):

@@ -119,7 +119,7 @@ def report(args, model, compiled):
     count = len(collect.CASES) * len(model['frame']['outputs'])
     for case in collect.CASES:
         for width in model['frame']['outputs']:
-            PROGRESS.show(len(works), count + 1, f'{case}, {width} columns: passes, instructions')
+            PROGRESS.show(len(works), count + 1, f'{case}, {width} columns: counting passes and instructions')
             works[case, width] = collect.gpu_work(args.frame_work, case, width)
             counts = collect.frame_counts(['qemu-aarch64', '-cpu', 'max', '-L', args.sysroot], plugin,
                                           args.arm_frame_work, case, width)

@@ -45,7 +45,8 @@ sharedOptions() {
 }
 
 # precompileHeaders HEADERS: precompiles the headers of other projects. With them, clang-tidy takes
-# half the time. dpkg's status changes with every package, so possibly with a header.
+# half the time. dpkg's status file changes with every installed package, which may contain a changed
+# header.
 precompileHeaders() {
     local headers=$1 source=toolchains/lint/system_headers.h input options
     for input in "$source" toolchains/lint/tidy.sh /var/lib/dpkg/status; do

@@ -15,8 +15,8 @@ set(CPACK_PACKAGE_DIRECTORY ${CMAKE_BINARY_DIR}/package)
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY ${PROJECT_DESCRIPTION})
 set(CPACK_DEBIAN_PACKAGE_DESCRIPTION
 "mfard lifts the video of one image sensor to the resolution of a second one
-that takes stills on a trigger, finds its pose by AprilTags, and shows virtual
-objects behind real ones. It runs as a service on small Linux boards.")
+that takes stills on a trigger, finds the camera's pose by AprilTags, and shows
+virtual objects behind real ones. It runs as a service on small Linux boards.")
 if(NOT MFAR_PATH_TRACING)
     string(APPEND CPACK_DEBIAN_PACKAGE_DESCRIPTION
            "\n .\n This build has no path tracer: virtual objects are simple shapes.")

@@ -28,7 +28,7 @@ class Camera:
 
     With a rate above 0, it sends pictures at this rate, and their numbers count from the epoch. With rate
     0, it sends one picture for each pulse(), and the numbers count the pulses from 1. Pictures that it
-    cannot send in time are skipped, as by a sensor; their numbers are missing.
+    cannot send in time are skipped, as a real sensor skips them; their numbers are missing.
     """
 
     def __init__(self, name, picture, rate, epoch):
@@ -52,7 +52,7 @@ class Camera:
         self.link = None
         threading.Thread(target=self._stream, daemon=True).start()
 
-    # Functions for scenarios, which act as a person at the board.
+    # Functions for scenarios. They do what a person at the board would do.
 
     def attach(self, connection):
         self.link = usbredir.UsbRedirLink(connection, self)

@@ -167,7 +167,7 @@ class Guest:
             '-accel', 'tcg,thread=multi', '-nodefaults', '-display', 'none', '-no-reboot',
             '-serial', f'file:{self.log}',
             '-kernel', f'{image}/vmlinuz', '-initrd', f'{image}/initrd',
-            # The last option of the kernel avoids a blinking text cursor in the framebuffer.
+            # vt.global_cursor_default=0 avoids a blinking text cursor in the framebuffer.
             '-append', 'console=ttyAMA0 quiet panic=-1 mitigations=off vt.global_cursor_default=0'
             + ('' if display else ' modprobe.blacklist=virtio_gpu'),
             # A PCI disk, because virtio-mmio disks are numbered in reverse order.
