@@ -132,7 +132,8 @@ public:
     /// epipolar search's vector for the pixel replaces the interpolated vector if both differ by at
     /// least half a pixel and no moving object is at the pixel. Empty without a still.
     [[nodiscard]] std::vector<float> readFlow() const;
-    /// Confidence (eq. 2 of the paper) of every video pixel, [0, 1]. Empty without a still.
+    /// Confidence (eq. 2 of the paper in docs/paper.md) of every video pixel, [0, 1]. Empty without
+    /// a still.
     [[nodiscard]] std::vector<float> readConfidence() const;
     [[nodiscard]] std::vector<TileClass> readTileClasses() const;
     [[nodiscard]] std::vector<bool> readSearchedTiles() const;
