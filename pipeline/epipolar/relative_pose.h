@@ -46,7 +46,7 @@ struct PoseRefinement {
 [[nodiscard]] PoseRefinement refineRelativePose(std::span<const RayMatch> matches,
                                                 const PosePrior& prior, double focal);
 
-/// A pose with a smaller error [px] is not refined: the errors of the matches would add as much
+/// A pose with an error below this [px] is not refined: the errors of the matches would add as much
 /// error as the refinement removes.
 inline constexpr double kExactEnough = 0.2;
 
