@@ -37,8 +37,8 @@ struct PipelineOptions {
     /// is measured only where a virtual object may be occluded.
     bool depthEverywhere = false;
     SkipOptions skips{};
-    /// The engine of each step. GLES needs a current GL context. If no step uses GLES, setObjects()
-    /// and setScene() must not be called.
+    /// The engine of each step. GLES needs a current GL context. setObjects() needs it, too, even
+    /// if no step uses GLES.
     EngineChoice engines = EngineChoice::fromEnvironment();
     /// Number of CPU threads that share the work of a step. 0: one per processor, but at most four.
     int threads = 0;
