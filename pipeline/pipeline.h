@@ -37,8 +37,8 @@ struct PipelineOptions {
     /// is measured only where a virtual object may be occluded.
     bool depthEverywhere = false;
     SkipOptions skips{};
-    /// The engine of each step. GLES needs a current GL context. If no step uses GLES, setObjects()
-    /// and setScene() must not be called.
+    /// The engine of each step. GLES needs a current GL context. setObjects() needs it, too, even
+    /// if no step uses GLES.
     EngineChoice engines = EngineChoice::fromEnvironment();
     /// Number of CPU threads that share the work of a step. 0: one per processor, but at most four.
     int threads = 0;
@@ -132,7 +132,8 @@ public:
     /// epipolar search's vector for the pixel replaces the interpolated vector if both differ by at
     /// least half a pixel and no moving object is at the pixel. Empty without a still.
     [[nodiscard]] std::vector<float> readFlow() const;
-    /// Confidence (eq. 2 of the paper) of every video pixel, [0, 1]. Empty without a still.
+    /// Confidence (eq. 2 of the paper in docs/paper.md) of every video pixel, [0, 1]. Empty without
+    /// a still.
     [[nodiscard]] std::vector<float> readConfidence() const;
     [[nodiscard]] std::vector<TileClass> readTileClasses() const;
     [[nodiscard]] std::vector<bool> readSearchedTiles() const;

@@ -32,9 +32,9 @@ struct Pipeline::State {
         EpipolarFlow::Cells vectors;
         std::vector<bool> searched2d;
     };
-    /// Depth measurement of one frame. `where` is the area that needs depth [video px]. `matches`
-    /// is empty if the flow did not follow epipolar lines. If `isDue` is false, the last depth is
-    /// only moved to this frame.
+    /// Depth measurement of one frame. `where` is the area that needs depth [video px]. If
+    /// `measures` is false, the frame needs no depth. If only `isDue` is false, the last depth is
+    /// moved to this frame. `matches` is empty if the flow did not follow epipolar lines.
     struct DepthTask {
         PixelRect where;
         bool measures = false;

@@ -4,9 +4,9 @@
 
 namespace mfar {
 
-/// Use of the still. Off: the video is only enlarged. Blend (the paper's method): the warped still
-/// is blended in by confidence. Detail: the still's fine detail is added where the video confirms
-/// it.
+/// Use of the still. Off: the video is only enlarged. Blend (the method of the paper in
+/// docs/paper.md): the warped still is blended in by confidence. Detail: the still's fine detail is
+/// added where the video confirms it.
 enum class SuperResMode {
     Off,
     Blend,

@@ -14,7 +14,7 @@ namespace mfar {
 /// engine, numbers that the GPU counts are those of the frame before, and 0 in the first frame.
 struct FrameStats {
     std::array<int, kTileClasses> tiles{};
-    double meanConfidence = 0;  ///< mean of the confidence (eq. 2 of the paper), [0, 1]
+    double meanConfidence = 0;  ///< mean of the confidence (eq. 2 in docs/paper.md), [0, 1]
     double explained = 0;       ///< share of tiles that are flat or match a still, [0, 1]
     /// Share of tiles whose video differs from the video of their last drawing.
     double changed = 0;
@@ -34,8 +34,8 @@ struct FrameStats {
     /// show them. showSecond: number of tiles that show some of the second still, including
     /// neighbours of matched tiles.
     int matchedSecond = 0, showSecond = 0;
-    /// Number of tiles in which real depth was measured, because a virtual object may be occluded
-    /// there.
+    /// Number of tiles that need real depth, because a virtual object may be occluded there. With
+    /// Quality::depthEvery above 1, depth is not measured in each of these frames.
     int depthTiles = 0;
     /// Number of tiles under a virtual object without a depth measurement, because the real surface
     /// is known to lie behind the object.

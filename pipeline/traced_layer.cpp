@@ -15,8 +15,8 @@ struct TracedLayer::State {
         : camera(video.scaledTo(options.size)), warp(camera, options.size, warps, options.warp),
           renderer(rendererOptions(options, warp)), fadeFrames(options.warp.fadeFrames) {}
 
-    // With TracedPolicy::soon, a picture is shown after few samples. It is switched off if the warp
-    // shows the picture's colours instead of its light alone: these colours would be noisy.
+    // With TracedPolicy::soon, a picture is shown after few samples. `soon` is switched off if the
+    // warp shows the picture's colours instead of its light alone: these colours would be noisy.
     static TracedRendererOptions rendererOptions(const TracedLayerOptions& options,
                                                  const Warp& warp) {
         TracedRendererOptions out = options.renderer;

@@ -9,8 +9,8 @@
 // params_to_glsl.cmake translates this header to GLSL.
 namespace mfar::params {
 
-/// The three rows of a rotation and a translation. They transform points [m] between coordinate
-/// systems. The rotation may include a scale factor.
+/// The three rows of the 3x4 matrix of a rotation and a translation. They transform points [m]
+/// between coordinate systems. The rotation may include a scale factor.
 struct alignas(16) Transform {
     Row4 rows[3];
 };

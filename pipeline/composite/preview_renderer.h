@@ -26,7 +26,7 @@ public:
     /// `video` may have any resolution. The layer has the size `output`.
     PreviewRenderer(const CameraModel& video, Size output, const PreviewLight& light = {});
 
-    /// Draws the objects as seen by a camera at this pose. Of closed shapes, only the outside is
+    /// Draws the objects as seen by a camera at this pose. Only the outside of closed shapes is
     /// drawn. Objects behind the camera, outside the picture or without a finite pose cost no time.
     const VirtualLayer& render(std::span<const VirtualObject> objects,
                                const RigidTransform& T_world_video);

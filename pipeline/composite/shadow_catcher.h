@@ -11,12 +11,12 @@
 namespace mfar {
 
 /// Shadows are expected up to this distance from the objects' bounding box, in units of half the
-/// box's diagonal. Light of glowing objects is expected glowReach() times as far.
+/// box's diagonal. Light of glowing objects is expected up to glowReach() times this distance.
 inline constexpr double kShadowReach = 1;
 
 /// Returns the part of the tag map's plane (z = 0 in the world) below and around the objects'
-/// bounding box. It extends by `reach` half diagonals of the box. Empty if all objects are below
-/// the plane, or farther than this distance above it.
+/// bounding box. It extends beyond the box by `reach` times half of the box's diagonal. Empty if
+/// all objects are below the plane, or farther above it than this distance.
 [[nodiscard]] ShadowCatcher planeCatcher(const Eigen::AlignedBox3d& objects,
                                          double reach = kShadowReach);
 

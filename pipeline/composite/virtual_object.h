@@ -40,7 +40,8 @@ struct ShapeMesh {
 };
 
 /// Each side has kShapeSegments^2 cells of two triangles. Even if the side fills a picture of 2304
-/// px width and the lens has k1 = -0.3, its edges deviate from the exact curves by at most 0.25 px.
+/// px width and the lens has k1 = -0.3, the cells' edges deviate from the exact curves by at most
+/// 0.25 px.
 inline constexpr int kShapeSegments = 24;
 [[nodiscard]] ShapeMesh shapeMesh(VirtualShape shape);
 

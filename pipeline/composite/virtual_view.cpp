@@ -141,8 +141,8 @@ bool VirtualView::mayHide(const PixelRect& tile, float farthest,
 }
 
 // The real surface under a shadow always has nearly the same depth as the shadow. So its depth is
-// measured only if a real thing may be in front of the shadow, or if the relative error of the
-// known depth is at least kShadowLift.
+// measured only if the known depth shows a real thing in front of the shadow at more than kMostGaps
+// pixels, or if its relative error is at least kShadowLift at more than kMostUnknown pixels.
 bool VirtualView::mayHideShadow(const PixelRect& tile, float nearest,
                                 const InverseDepthField& known) const {
     const float before = 1 / nearest;
@@ -154,8 +154,8 @@ bool VirtualView::mayHideShadow(const PixelRect& tile, float nearest,
     });
 }
 
-// True if at each pixel of the tile the real surface is certainly nearer than `nearest`, the
-// smallest z of the objects in and around the tile.
+// True if at each pixel of the tile, except at most kMostGaps pixels with unknown depth, the real
+// surface is certainly nearer than `nearest`, the smallest z of the objects in and around the tile.
 bool VirtualView::isHidden(const PixelRect& tile, float nearest,
                            const InverseDepthField& known) const {
     const TileBounds most{.findings = 0, .unknown = kMostGaps};

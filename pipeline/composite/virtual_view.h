@@ -38,8 +38,9 @@ public:
     /// Places the objects for a camera at this pose. Without a pose, no object is shown. Returns
     /// the rectangle of the video pixels whose real depth must be measured to find which parts of
     /// the objects are visible. It is empty if no object is in the picture, or if `known` shows
-    /// that the real scene lies behind all objects; even then it is measured once in kMostRelied +
-    /// 1 frames. `known` is the approximate depth of the real scene as the camera sees it.
+    /// that the real scene lies behind all objects; even then, depth is measured in one of
+    /// kMostRelied + 1 frames. `known` is the approximate depth of the real scene as the camera
+    /// sees it.
     PixelRect place(const std::optional<RigidTransform>& T_world_video, Timestamp time,
                     const InverseDepthField& known);
     [[nodiscard]] const PixelRect& region() const { return region_; }

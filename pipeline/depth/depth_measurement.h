@@ -28,8 +28,8 @@ public:
     /// the still or a keyframe, in the video's geometry. Pixels become unknown if their points are
     /// outside the other picture or behind other points there (z-test). `R_other_video` rotates
     /// rays of the video camera into coordinates of the other camera. A length of 1 in the search
-    /// is `unit` metres. `cells` contains a finer s for every cell, used where it agrees with the
-    /// pixel's own s. It may be empty.
+    /// is `unit` metres. `cells` contains a finer s (see EpipolarLens) for every cell, used where
+    /// it agrees with the pixel's own s. It may be empty.
     void run(const EpipolarSearch& search, const Eigen::Matrix3f& R_other_video, double unit,
              std::span<const float> cells, const PixelRect& where, InverseDepthField& out);
 

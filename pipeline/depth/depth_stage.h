@@ -20,9 +20,9 @@ public:
     DepthStage(const CameraModel& video, std::shared_ptr<Workers> workers,
                const DepthOptions& options = {});
 
-    /// Results of the epipolar search that matched this frame with the still. `R_still_video`
-    /// rotates video rays to still coordinates. A length of 1 in the search is `unit` metres;
-    /// `lengthError` is the relative error of `unit`. For `cells`, see DepthMeasurement::run().
+    /// Results of the epipolar search that matched this frame with the still. `R_still_video` is
+    /// EpipolarFlow::rotation(). A length of 1 in the search is `unit` metres; `lengthError` is the
+    /// relative error of `unit`. For `cells`, see DepthMeasurement::run().
     struct StillSearch {
         const EpipolarSearch& search;
         const Eigen::Matrix3f& R_still_video;

@@ -18,7 +18,7 @@ struct Keyframe {
     long number = 0;
 };
 
-/// The last frames from different camera positions. While the camera rests, no frame is added or
+/// The last frames with different camera poses. While the camera rests, no frame is added or
 /// removed.
 class Keyframes {
 public:

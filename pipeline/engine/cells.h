@@ -5,7 +5,7 @@
 namespace mfar {
 
 // Entries of arrays with one entry per cell, as both engines store them. A GPU reads the four
-// floats of an entry as one vec4. `confidence` is eq. 2 of the paper, in [0, 1].
+// floats of an entry as one vec4. `confidence` is eq. 2 of the paper (docs/paper.md), in [0, 1].
 
 struct FlowCell {
     /// The flow: pixel p is seen at p + (x, y) in the other picture [px of the pyramid level].
@@ -28,7 +28,9 @@ struct ErrorCell {
 
 struct WeighedCell {
     float x = 0, y = 0;  ///< flow [video px]
-    float weight = 0;    ///< weight of the still's detail, [0, 2.31]
+    /// Weight of the still's detail, [0, 2.31]: at most params::kLargestGain * params::kLookUpLoss,
+    /// but it can be rounded up.
+    float weight = 0;
     float confidence = 0;
 };
 

@@ -12,7 +12,8 @@ struct CompositeOptions {
     /// [sigmas]. So a table does not hide the bottom of an object that stands on it.
     double bias = 0.5;
     /// A real surface that is nearer by at least bias + softness [sigmas] hides the virtual one
-    /// completely; from `bias` on, it hides it partly. At least 0.01.
+    /// completely. If it is nearer by less than this, but by more than `bias`, it hides the virtual
+    /// one partly. `softness` is at least 0.01.
     double softness = 1;
     /// Standard deviation of the virtual depth, caused by the error of the pose [fraction of the
     /// depth].

@@ -112,10 +112,10 @@ public:
     /// Searches the flow from video to still (forward) and from still to video (backward). If
     /// `usePrior` is true, the last frame's flow vectors are candidates in all cells.
     virtual const FlowCells& run(const LumaPyramid& luma, const TileWork& work, bool usePrior) = 0;
-    /// Refines the flow `along` epipolar lines, whose errors must be below a pixel. Tiles in which
-    /// the vectors do not fit the pictures are searched in two dimensions. Then doubtful cells are
-    /// compared with the still itself, see params::kPatchSamples. `luma` must be that of
-    /// `pictures`.
+    /// Refines `along`, the flow along epipolar lines, whose vectors must have errors below a
+    /// pixel. Tiles in which the vectors do not fit the pictures are searched in two dimensions.
+    /// Then doubtful cells are compared with the still itself, see params::kPatchSamples. `luma`
+    /// must be that of `pictures`.
     virtual const FlowCells& refine(const Pictures& pictures, const LumaPyramid& luma,
                                     const TileWork& work, const AlongLines& along) = 0;
     /// Returns a flag for each tile, row-major: true if the last refine() searched the tile. Waits

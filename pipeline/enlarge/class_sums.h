@@ -49,7 +49,7 @@ struct ClassSums {
     [[nodiscard]] double errorOf(const ClassWeights& weights) const;
 };
 
-/// Normal equations of all classes. Pixels are added in groups, which is faster.
+/// Normal equations of all classes. Pixels are added in groups, which is faster than one by one.
 class SumsOfClasses {
 public:
     SumsOfClasses();

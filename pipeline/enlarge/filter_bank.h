@@ -18,7 +18,7 @@ class FilterBankError : public std::runtime_error {
 };
 
 /// Strength with which a still's finest detail replaces the video's; see params::kGuideReach. Zero
-/// factors mean no guidance. The factors are similar if both sensors have the same exposure.
+/// factors mean no guidance. Both factors are similar if both sensors have the same exposure.
 struct Guidance {
     float still = 0;  ///< added share of the still's detail, [0, 1]
     float video = 0;  ///< removed share of the video's detail, [0, kMost]

@@ -30,8 +30,8 @@ constexpr double kMostPairs = 1e15;  // a double represents counts below this ex
 // Pixels with a video luma outside these limits may be saturated [1/8 grey level].
 constexpr int kDarkest = 2 * kLumaScale, kBrightest = 253 * kLumaScale;
 
-/// Computes the additions of still, video and learned filters to the cubic enlargement of a frame,
-/// at the sub-pixels of one pixel.
+/// Computes what still, video and learned filters add to the cubic enlargement of a frame, at the
+/// sub-pixels of one pixel.
 class DrawnFrame {
 public:
     DrawnFrame(const MatchedPictures& pictures, const FilterBank& filters,

@@ -20,7 +20,7 @@ double levelBefore(double level, const StillTone& tone) {
     const auto& levels = tone.levels;
     const auto first = std::ranges::lower_bound(levels, level),
                last = std::ranges::upper_bound(levels, level);
-    // The tone curve mapped several levels to this one. Returns the middle of these levels.
+    // The tone curve maps one or more levels to `level`. Returns the middle of these levels.
     if (first != last)
         return (double(first - levels.begin()) + double(last - levels.begin()) - 1) / 2;
     if (first == levels.begin()) return 0;

@@ -19,8 +19,8 @@ constexpr float kLeastWay = 0.05F;
 // Two neighbouring cells that match the same cell of the still count as one slanted surface if
 // their flow vectors differ by at most this distance [px].
 constexpr float kSlope = 1.0F;
-// Margin around the searched rectangle [px] for census windows, for the cost aggregation, and for
-// the motion until the next frame.
+// Margin around the rectangle that needs depth [px] for census windows, for the cost aggregation,
+// and for the motion until the next frame.
 constexpr int kRoom = 16;
 
 /// Returns the rectangle to search if depth is needed in `where`. It includes a margin and, except
@@ -115,8 +115,8 @@ void EpipolarFlow::run(const Rows<const std::uint8_t>& video, const Pose& pose,
     unit_ = relative.unit;
     lengthError_ = relative.lengthError;
     search(relative, where);
-    // Rotates rays from the frame's orientation to the still's orientation. The search has
-    // resampled the still in the frame's orientation.
+    // Rotates rays from the frame's orientation to the video camera's orientation at the time of
+    // the still. The search has resampled the still in the frame's orientation.
     rotation_ = (rig_.T_still_video.rotation.conjugate() * search_.pose().rotation)
                     .toRotationMatrix()
                     .cast<float>();

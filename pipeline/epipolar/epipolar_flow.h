@@ -13,6 +13,7 @@
 namespace mfar {
 
 /// Computes the flow between a frame and the still by the epipolar search, one vector per cell.
+/// s is an inverse depth, see EpipolarLens.
 class EpipolarFlow {
 public:
     using Cells = std::vector<simd::CellVector>;
@@ -57,7 +58,7 @@ public:
     [[nodiscard]] const EpipolarSearch& search() const { return search_; }
     [[nodiscard]] double unit() const { return unit_; }
     [[nodiscard]] double lengthError() const { return lengthError_; }
-    /// Rotates rays of the frame into the still camera's orientation.
+    /// Rotates rays of the frame into the video camera's orientation at the time of the still.
     [[nodiscard]] const Eigen::Matrix3f& rotation() const { return rotation_; }
     /// Luma of the frame. Valid as long as the input of run() is valid.
     [[nodiscard]] const Rows<const std::uint8_t>& luma() const { return frame_; }

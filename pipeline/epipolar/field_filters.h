@@ -12,7 +12,7 @@ namespace mfar {
 void median3x3(const std::vector<float>& in, Size size, Workers& workers, std::vector<float>& out,
                float scale = 1);
 
-/// Smallest and largest value in a square of 2 * radius + 1 pixels around each pixel.
+/// Smallest and largest value in the square within `radius` pixels of each pixel.
 struct LocalRange {
     std::vector<float> low, high;
     std::vector<float> lowAlong, highAlong;

@@ -16,13 +16,13 @@ constexpr int kBlock = kPatch / 2;
 // fewer, because a part has at least two by two blocks.
 constexpr int kPlaces = 300;
 constexpr int kPixels = kPatch * kPatch;
-// kLeastScore: lower limit of the correlation of a match. A match is ambiguous if a position
-// farther away than kRivalDistance [px] has almost the same correlation, less than kRival lower.
+// kLeastScore: lower limit of the correlation of a match. A match is ambiguous if the correlation
+// at a position farther away than kRivalDistance [px] is lower by less than kRival.
 constexpr double kLeastScore = 0.75;
 constexpr double kRival = 0.06;
 constexpr double kRivalDistance = 2.5;
-// Largest number of inverse-compositional steps and largest sum of their lengths along each axis
-// [px]. A step shorter than kShortStep [px] ends the refinement.
+// kMatchSteps: largest number of inverse-compositional steps. kLongestWay: upper limit of the
+// distance from their start along each axis [px]. A step shorter than kShortStep [px] is the last.
 constexpr int kMatchSteps = 6;
 constexpr float kLongestWay = 1.5F, kShortStep = 0.01F;
 constexpr double kFar = 1e6;

@@ -36,7 +36,7 @@ struct Estimate {
 /// Residual of a match under an estimated pose, at the inverse depth that fits best.
 struct Residual {
     Eigen::Vector2d error;  // predicted minus matched ray (x/z, y/z)
-    // Derivatives by rotation and translation, with inverse depth eliminated.
+    // Derivatives with respect to rotation and translation, with inverse depth eliminated.
     Matrix26 jacobian;
 };
 

@@ -35,9 +35,9 @@ struct PoseRefinement {
 };
 
 /// Refines the relative pose by robust Gauss-Newton steps over matched rays. The inverse depth of
-/// each match is eliminated. The prior determines what the matches do not, above all the length of
-/// the translation. If the prior's translation is zero, the matches must agree with a pure
-/// rotation. `focal` is the number of video pixels per unit of ray.
+/// each match is eliminated. The prior determines the unknowns that the matches do not determine,
+/// above all the length of the translation. If the prior's translation is zero, the matches must
+/// agree with a pure rotation. `focal` is the number of video pixels per unit of ray.
 ///
 /// The refinement is accepted only if `inliers` is large enough, also in relation to `patches`, and
 /// if the median distance from the epipolar lines decreases clearly: sqrt(normalBefore^2 -
@@ -46,7 +46,7 @@ struct PoseRefinement {
 [[nodiscard]] PoseRefinement refineRelativePose(std::span<const RayMatch> matches,
                                                 const PosePrior& prior, double focal);
 
-/// A pose with a smaller error [px] is not refined: the errors of the matches would add as much
+/// A pose with an error below this [px] is not refined: the errors of the matches would add as much
 /// error as the refinement removes.
 inline constexpr double kExactEnough = 0.2;
 

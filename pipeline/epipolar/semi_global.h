@@ -30,8 +30,9 @@ using simd::Valley;
 float vertexOf(const Valley& valley);
 
 /// Semi-global matching with costs aggregated from left, right, top and bottom. Each pixel has its
-/// own window of labels with its own first label. Aggregated costs stay below 85 and fit into
-/// bytes. Source: Hirschmueller, PAMI 2008; windows per pixel: Rothermel et al., LC3D 2012 (tSGM).
+/// own window of labels with its own first label. Costs aggregated along one path stay below 85
+/// (kCensusBits + Smoothness::jump), so the sum over three directions fits into a byte. Source:
+/// Hirschmueller, PAMI 2008; windows per pixel: Rothermel et al., LC3D 2012 (tSGM).
 class SemiGlobal {
 public:
     static constexpr int kLabels = simd::kLabels;

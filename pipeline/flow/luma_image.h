@@ -52,7 +52,8 @@ void shrinkLuma(const Rows<const std::uint8_t>& luma, Size size, Workers& worker
 /// Copies the rectangle `pixels`, which must be completely inside the picture.
 void cut(const Rows<const std::uint8_t>& picture, const PixelRect& pixels, LumaImage& out);
 
-/// Halves the size, rounded up, by the means of 2x2 pixels. An odd last column or row is repeated.
+/// Halves the size, rounded up: each pixel is the mean of 2x2 pixels. An odd last column or row is
+/// repeated.
 void halve(const LumaImage& fine, LumaImage& coarse);
 
 /// Smooths a picture with a three-tap filter along both axes. `side` is the weight of each of the

@@ -166,7 +166,8 @@ void DetailPainter::draw(const gpu::Texture& video, const Matched* matched, cons
     // counters stay the same, so classify() is not needed.
     restingFrames_ = work.changed == 0 ? restingFrames_ + 1 : 0;
     if (restingFrames_ <= 2) classify(matched, tiles, options);
-    // Returns before any draw call, because even one that draws nothing would compile its shader.
+    // Returns before any draw call, because even a call that draws nothing would compile its
+    // shader.
     if (restingFrames_ > 0) return;
 
     const TileParams p = tileParams();

@@ -9,7 +9,7 @@
 namespace mfar {
 
 /// Raises small weights, and lowers the weights of cells in which the still does not show the
-/// video's finest detail, see params::kFineRoom and kRaisedWeight.
+/// video's finest detail as well as usual, see params::kFineRoom and kRaisedWeight.
 class FineCheck {
 public:
     /// The still camera of `stillRig` must have the resolution of run()'s `still`.

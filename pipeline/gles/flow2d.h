@@ -39,8 +39,8 @@ public:
 
     /// Computes the forward field by refining `forward`: one flow vector per cell with an error of
     /// less than a pixel. The first number of each entry of `errors` is the cell's two-way error
-    /// (eq. 2) [px]. Tiles whose vectors do not fit are searched in two dimensions from coarse to
-    /// fine.
+    /// (eq. 2 of the paper in docs/paper.md) [px]. Tiles whose vectors do not fit are searched in
+    /// two dimensions from coarse to fine.
     using Cells = std::span<const std::array<float, 4>>;
     void refine(const LumaOnGpu& luma, const TileBuffer& tiles, Cells forward, Cells errors);
 

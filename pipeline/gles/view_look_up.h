@@ -15,10 +15,11 @@
 
 namespace mfar {
 
-/// Looks up the colours of a warped picture (paper, eq. 5). ModelSilhouette has drawn the surfaces
-/// that are visible at the current pose. Their colours come from the traced picture or, if that
-/// does not show the surface, from the re-rendered pictures. A draw call processes simple pixels. A
-/// compute shader processes a list of all other pixels, for example at edges.
+/// Looks up the colours of a warped picture (eq. 5 of the paper in docs/paper.md). ModelSilhouette
+/// has drawn the surfaces that are visible at the current pose. Their colours come from the traced
+/// picture or, if that does not show the surface, from the re-rendered pictures. A draw call
+/// processes simple pixels. A compute shader processes a list of all other pixels, for example at
+/// edges.
 class ViewLookUp {
 public:
     explicit ViewLookUp(const LensProjection& layer);

@@ -72,7 +72,7 @@ void checkBuffers(const json& buffers, const ModelLimits& limits) {
     for (std::size_t i = 0; i < buffers.size(); ++i) {
         const std::string place = fmt::format("buffers[{}]", i);
         const std::uint64_t length = bytesAt(buffers[i], "byteLength", 0, place);
-        if (length == 0) wrong(place, "has no byteLength");
+        if (length == 0) wrong(place, "byteLength is missing or 0");
         if (length > left)
             wrong(place,
                   fmt::format("byteLength {}: all buffers together exceed the limit of {} bytes",
@@ -90,7 +90,7 @@ void checkViews(const json& views, const json& buffers) {
         const std::uint64_t holds = bytesAt(buffers[buffer], "byteLength", 0, place);
         const std::uint64_t offset = bytesAt(views[i], "byteOffset", 0, place);
         const std::uint64_t length = bytesAt(views[i], "byteLength", 0, place);
-        if (length == 0) wrong(place, "has no byteLength");
+        if (length == 0) wrong(place, "byteLength is missing or 0");
         if (offset > holds || length > holds - offset)
             wrong(place, fmt::format("{} bytes at offset {} reach beyond the buffer of {} bytes",
                                      length, offset, holds));

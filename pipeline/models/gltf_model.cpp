@@ -50,10 +50,11 @@ Eigen::Affine3d transformOf(const GltfDocument& document, const tinygltf::Node& 
 
 constexpr std::size_t kMostParts = 16;  // also stated in the text of a note in placeOf()
 
-/// Pose of a node relative to the model. `joints` are the node and the nodes above it that move,
-/// the outermost first. `T` maps the node's coordinates to the last joint, or to the model if there
-/// are no joints. A joint's pose has no scale. So after `T`, the coordinates must be multiplied by
-/// `scale`, the product of the scales of all nodes above the last joint. `part`: see Mesh::part.
+/// Pose of a node relative to the model. `joints` are those among the node and its ancestors that
+/// move, the outermost first. `T` maps the node's coordinates to the last joint, or to the model if
+/// there are no joints. A joint's pose has no scale. So after `T`, the coordinates must be
+/// multiplied by `scale`, the product of the scales of all nodes above the last joint. `part`: see
+/// Mesh::part.
 struct NodePlace {
     Eigen::Affine3d T = upright();
     std::vector<RigidPath::Joint> joints;

@@ -14,7 +14,7 @@ struct LightEstimate {
     /// Unit vector in the world towards the most light: the direction of the linear part of the
     /// luminance.
     Eigen::Vector3f mainDirection{0, 0, 1};
-    /// 0 for equally bright directions, 1 if all light comes from one direction.
+    /// 0 if all directions are equally bright, 1 if all light comes from one direction.
     float directionality = 0;
 };
 

@@ -36,10 +36,10 @@ float smoothStep(float from, float to, float x) {
     return t * t * (3 - 2 * t);
 }
 
-/// A lamp behind a diffuser with a frame [m]. It faces the origin, and its top edge is horizontal.
+/// A lamp behind a diffuser with a frame. It faces the origin, and its top edge is horizontal.
 struct Panel {
-    Eigen::Vector3f middle;
-    Eigen::Vector2f half;  ///< half of the width and half of the height [m]
+    Eigen::Vector3f middle;  ///< [m]
+    Eigen::Vector2f half;    ///< half of the width and half of the height [m]
     Eigen::Vector3f radiance;
 };
 

@@ -25,9 +25,9 @@ struct TileMeasure {
     float structure = 0;
     /// Three mean squares of the difference between both lumas, scaled so that white noise makes
     /// them equal. Four values a b above c d have the twist (a - b - c + d) / 2; slopes do not
-    /// change it (after Immerkaer, Fast noise variance estimation, 1996). `pixels` is the mean
-    /// square of the twists of 2x2 pixels. `means` is that of the means of 2x2 pixels, and `bends`
-    /// that of the twists of 2x2 such means.
+    /// change it (after Immerkaer, Fast noise variance estimation, 1996). `pixels`: mean square of
+    /// the twists of 2x2 pixels. `means`: mean square of the means of 2x2 pixels. `bends`: mean
+    /// square of the twists of 2x2 such means.
     float pixels = 0, means = 0, bends = 0;
 };
 

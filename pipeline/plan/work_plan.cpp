@@ -10,7 +10,8 @@ namespace mfar {
 namespace {
 
 constexpr double kInitialNoise = 0.29;
-// Limits the noise estimate, which is too high for a picture without any smooth tile.
+// Upper limit of the noise estimate [grey levels]. For a picture without any smooth tile, the
+// measured noise is too high.
 constexpr double kMaxNoise = 4.0;
 // The whole frame is drawn at once if at least this share of the tiles changed, because drawing
 // tile by tile costs 2.2 times as much per area (measured with llvmpipe).

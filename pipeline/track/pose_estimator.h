@@ -10,8 +10,8 @@ namespace mfar {
 
 struct PlanarChoiceOptions {
     double errorSigma = 0.25;  ///< assumed standard deviation of a corner's coordinates [px]
-    /// Evidence from which the choice changes to the other solution. The evidence is the log
-    /// likelihood ratio of the corners for both solutions, summed over frames.
+    /// The choice changes to the other solution if the evidence exceeds this. The evidence is the
+    /// log likelihood ratio of the corners for both solutions, summed over frames.
     double threshold = 12;
     double memory = 0.95;  ///< factor of the earlier evidence in each new frame, [0, 1)
 };

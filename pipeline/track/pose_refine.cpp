@@ -40,8 +40,9 @@ double totalError(std::span<const CornerSet> sets, const Estimate& at, const Cam
     return sum;
 }
 
-/// Linearises the reprojection errors at the pose `at`, by the small motion x in T_world_camera *
-/// exp(x). The motion x moves a point p in camera coordinates by cross(p, rotation) - translation.
+/// Linearises the reprojection errors at the pose `at`, with respect to the small motion x in
+/// T_world_camera * exp(x). The motion x moves a point p in camera coordinates by
+/// cross(p, rotation) - translation.
 NormalEquations linearise(std::span<const CornerSet> sets, const Estimate& at,
                           const CameraModel& camera, double shiftWeight) {
     const RigidTransform T_camera_world = at.T_world_camera.inverse();

@@ -30,8 +30,9 @@ outwardsOf(const std::array<Eigen::Vector2d, 4>& corners);
 
 struct RefinedPose {
     RigidTransform T_world_camera;
-    /// J^T J, where J is the derivative of the corners' positions [px] by a small motion in camera
-    /// coordinates. The part that an unknown edge shift could explain is subtracted.
+    /// J^T J, where J is the derivative of the corners' positions [px] with respect to a small
+    /// motion in camera coordinates. The part that an unknown edge shift could explain is
+    /// subtracted.
     Matrix6 information;
     double squaredError = 0;
     double edgeShift = 0;

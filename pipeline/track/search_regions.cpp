@@ -17,8 +17,8 @@ bool overlap(const PixelRect& a, const PixelRect& b) {
     return a.x0 < b.x1 && b.x0 < a.x1 && a.y0 < b.y1 && b.y0 < a.y1;
 }
 
-/// Returns three standard deviations [px] of the position in the picture of a point at this
-/// distance.
+/// Returns three standard deviations [px] of a point's position in the picture. `distance` is the
+/// point's distance from the camera.
 double uncertainty(const Matrix6& covariance, double distance, const CameraModel& camera) {
     const double turn = covariance.diagonal().head<3>().maxCoeff();
     const double move = covariance.diagonal().tail<3>().maxCoeff() / (distance * distance);

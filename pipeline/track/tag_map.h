@@ -46,8 +46,9 @@ private:
 };
 
 /// Reads tags.toml. The file has `family` for all tags, and a list `[[tags]]` with `id`, `size`
-/// [m], `position` [x, y, z] [m], `orientation` [w, x, y, z] and, if it differs, `family`. Files
-/// with the ending .yaml or .yml are read by tagMapFromRosYaml(). Throws TagMapError.
+/// [m], `position` [x, y, z] [m], `orientation` [w, x, y, z] and, for a tag of another family,
+/// `family`. Files with the ending .yaml or .yml are read by tagMapFromRosYaml(). Throws
+/// TagMapError.
 [[nodiscard]] TagMap loadTagMap(const std::filesystem::path& file);
 
 /// `file` is the file name for error messages. Throws TagMapError.

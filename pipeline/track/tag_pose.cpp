@@ -15,7 +15,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kDegree = std::numbers::pi / 180;
-constexpr std::size_t kStarts = 8;  // number of largest tags whose solutions are compared as start
+constexpr std::size_t kStarts = 8;  // number of largest tags whose solutions bestStart() compares
 // Scale of a tag's rms error in the robust weights at the start [px]. It is large, because a pose
 // from a single tag is inaccurate for distant tags.
 constexpr double kStartCutoff = 10;
@@ -86,8 +86,8 @@ double cappedError(std::span<const CornerSet> sets, const RigidTransform& T_worl
     return sum;
 }
 
-/// Returns the pose that fits all tags best, among the two solutions of each single tag. If errors
-/// are equal, larger tags are preferred.
+/// Returns the pose that fits all tags best, among the two solutions of each of the kStarts largest
+/// tags. If errors are equal, larger tags are preferred.
 RigidTransform bestStart(std::span<const Candidate> tags, std::span<const CornerSet> sets,
                          const CameraModel& camera) {
     RigidTransform best = tags[0].T_world_camera[0];

@@ -54,7 +54,7 @@ class Tracker {
 public:
     Tracker(const StereoRig& rig, TrackerOptions options);
 
-    /// Processes a video frame, Gray8 or Rgba8. Times must increase; a step back in time restarts
+    /// Processes a video frame of any format. Times must increase; a step back in time restarts
     /// the filter. Returns the filtered pose. If no tag is visible, returns the predicted pose
     /// (tags = 0) as long as the filter predicts, then nothing. Throws std::invalid_argument if the
     /// picture does not have the size of the rig's video.

@@ -11,8 +11,8 @@
 namespace mfar {
 
 /// The last kPictures re-rendered pictures. Each consists of the pixels of one HoleAnswer, which
-/// were traced for its camera pose. The warp looks up colours in them as in the traced picture. A
-/// new picture replaces the oldest.
+/// were traced for the answer's camera pose. The warp looks up colours in them as in the traced
+/// picture. A new picture replaces the oldest.
 class RerenderedPictures {
 public:
     static constexpr int kPictures = 4;

@@ -46,7 +46,7 @@ public:
     [[nodiscard]] const std::vector<Object>& objects() const { return objects_; }
     /// Moves the objects. `T_world_objects` has one pose for each object.
     void setPoses(std::span<const RigidTransform> T_world_objects);
-    /// The shadow catcher as an object to draw. Empty if there is none or it is planar.
+    /// The shadow catcher as an object to draw. Empty if there is no catcher or it is planar.
     [[nodiscard]] const std::optional<Object>& catcher() const { return catcher_; }
     /// Plane (n, w) of a planar shadow catcher: n . point = w in the world frame [m]. Zero if the
     /// catcher is not planar. A planar catcher is not drawn.

@@ -83,8 +83,8 @@ bool takeFromNeighbours(const PictureGrid& grid, std::span<const LightWords> lig
     const int own = grid.id(x, y);
     std::array<int, 4> sum{};
     UnpackedLight sumOfLight;
-    // Taken from one neighbour, because the mean of two octahedral codes is not the code of the
-    // mean direction.
+    // Gloss is taken from one neighbour, because the mean of two octahedral codes is not the code
+    // of the mean direction.
     GlossWords gloss;
     int count = 0;
     for (int j = -1; j <= 1; ++j)

@@ -51,7 +51,7 @@ struct TracedPicture {
     /// z and object number in one word, in the format of warp_surface.glsl.
     std::vector<std::uint32_t> packed;
     /// A square part of the picture that shows a surface. If the view changes, no point of the tile
-    /// moves farther in the picture than the farthest of its corners.
+    /// moves farther in the picture than the corner that moves farthest.
     struct Tile {
         PixelRect pixels;
         std::array<Eigen::Vector2d, 4> rays;  ///< normalised rays of the outer corners

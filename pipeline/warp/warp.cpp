@@ -12,7 +12,7 @@ namespace {
 
 // The camera rests after this number of frames without motion.
 constexpr int kRestFrames = 5;
-// Motions below this limit count as none [px]. Equal poses may differ by rounding errors.
+// Motions below this limit [px] count as no motion. Equal poses may differ by rounding errors.
 constexpr double kSamePose = 1e-3;
 
 WarpOptions validated(const WarpOptions& options) {

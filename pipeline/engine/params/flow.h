@@ -13,8 +13,8 @@ namespace mfar::params {
 /// small, because only moving objects still need the search then.
 inline constexpr int kTrackingRadius = 3;
 /// Search radius at the coarsest pyramid level [px] in tiles without a reliable match along
-/// epipolar lines. 5 px at this level are 80 px of the frame. Twice the radius would find objects
-/// that have moved farther since the still, but would take four times as long.
+/// epipolar lines. 5 px at this level are 80 px of a frame of 640x480. Twice the radius would find
+/// objects that have moved farther since the still, but would take four times as long.
 inline constexpr int kListedRadius = 5;
 /// Number of Gauss-Newton steps from a neighbour's flow vector that costs less than the cell's own.
 inline constexpr int kPropagateSteps = 2;
@@ -60,9 +60,10 @@ inline constexpr int kPatchSamples = 2;
 /// still itself is larger by more than this. Below this margin, the difference may be noise, and in
 /// noise the refined flow is more accurate.
 inline constexpr float kClearlyAlike = 0.05F;
-/// A cell's flow along the epipolar line is the mean of opposite neighbours up to kCleanUpRadius
-/// cells away. On a plane, each pair's mean is the flow at the cell. Pairs whose mean differs from
-/// the median around the cell by this [px] or more are not on the same surface.
+/// The flow along the epipolar line is smoothed before the comparison with the still itself: a cell
+/// gets the mean over pairs of opposite neighbours up to kCleanUpRadius cells away. On a plane, each
+/// pair's mean is the flow at the cell. A pair whose mean differs from the median around the cell by
+/// this [px] or more is on another surface and is left out.
 inline constexpr float kPairReach = 0.5F;
 /// If the distance of two flow vectors is at most this [px], only one of them is compared.
 inline constexpr float kSameFlow = 0.05F;

@@ -33,7 +33,7 @@ inline constexpr int kFootprintTaps = 4;
 /// A video pixel's ray (x, y, 1) is rotated into still camera coordinates. If its z is then smaller
 /// than this limit, it points away from the still's picture.
 inline constexpr float kLeastTurnedDepth = 0.05F;
-/// Position in the still [px] that rays which point away from the still's picture get.
+/// Position in the still [px] of rays that point away from the still's picture.
 inline constexpr float kFarOutside = -1e6F;
 /// Number of fixed-point iterations that invert the lens's distortion. With the lenses in use, each
 /// iteration adds at least one correct digit.

@@ -10,7 +10,8 @@
 // this header to GLSL.
 namespace mfar::params {
 
-/// Two-way error above which the confidence is zero [video px]: alpha in eq. 2 of the paper.
+/// Two-way error above which the confidence is zero [video px]: alpha in eq. 2 of the paper (see
+/// docs/paper.md).
 inline constexpr float kTwoWayAlpha = 2.0F;
 /// Largest absolute value of a look-up offset along each axis [still px]. Larger ones are clamped.
 inline constexpr float kFarthestOffset = 4e3F;
@@ -23,8 +24,8 @@ inline constexpr float kLowContrast = 8.0F;
 inline constexpr float kLargestGain = 2.0F;
 /// Factor of the still's detail that compensates for the loss in bilinear look-ups.
 inline constexpr float kLookUpLoss = 1.15F;
-/// Thresholds of the squared correlation of two patches. They certainly differ up to kUnlikePatches
-/// and certainly match from kAlikePatches on.
+/// Thresholds of the squared correlation of two patches. Up to kUnlikePatches, the patches
+/// certainly differ. From kAlikePatches on, they certainly match.
 inline constexpr float kUnlikePatches = 0.2F;
 inline constexpr float kAlikePatches = 0.6F;
 /// Thresholds of the change of the flow [px per px]. Changes up to kEvenFlow are noise. From
@@ -45,23 +46,24 @@ inline constexpr float kTexturedContrast = 8.0F;
 inline constexpr float kUnexplainedMatch = 0.25F;
 
 /// The finest detail consists of the differences between neighbouring pixels. It shows look-up
-/// errors of a fraction of a pixel. For each cell, the variance of the video's finest detail that
-/// the still does not explain is measured: half of the mean squared difference, which is the
-/// variance of white noise.
-/// Where the flow is even (see kEvenFlow), cells are hardly misplaced, and detail that aliases in
-/// the video also remains unexplained. The limit there is kFineRoom * FineMatch::noise +
+/// errors of a fraction of a pixel. Its variance is half of the mean squared difference, because
+/// white noise then has its usual variance. For each cell, the unexplained variance is measured:
+/// the part of the variance of the video's finest detail that the still does not predict.
+/// Where the flow is even (see kEvenFlow), cells are hardly misplaced, but noise and detail that
+/// aliases in the video remain unexplained. The limit there is kFineRoom * FineMatch::noise +
 /// kFineShareRoom * FineMatch::share * (variance of the video's finest detail). Above the limit,
-/// the weight of the still is multiplied by limit / (measured variance). kFineRoom = 4 allows twice
-/// the usual deviation. kFineShareRoom is smaller, because otherwise edges that only the still
-/// shows would be accepted.
+/// the weight of the still is multiplied by limit / (unexplained variance). kFineRoom = 4 allows
+/// twice the usual deviation. kFineShareRoom is smaller, because otherwise edges that only the
+/// still shows would be accepted.
 inline constexpr float kFineRoom = 4.0F;
 inline constexpr float kFineShareRoom = 3.0F;
 /// Where the flow is bent (see kBentFlow), the still is likely to be misplaced or to show another
 /// surface. A misplacement by a normally distributed distance multiplies the correlation at a
 /// spatial frequency f by exp(-c * f^2). The still's detail lies an octave above the video's finest
-/// detail, so its correlation is the fourth power: the square of the explained share of the
-/// variance. The weight is multiplied by that. kFineNoise * FineMatch::noise of the unexplained
-/// variance are taken to be noise, because FineMatch::noise is a low quantile.
+/// detail, so its correlation is the fourth power of that of the video's finest detail. This is the
+/// square of the explained share of the variance, and the weight is multiplied by it. Of the
+/// unexplained variance, kFineNoise * FineMatch::noise counts as noise and not as unexplained:
+/// FineMatch::noise is a low quantile, so most cells have more noise.
 inline constexpr float kFineNoise = 2.0F;
 /// Variances of the finest detail below this are not significant [grey levels^2].
 inline constexpr float kFineLeast = 0.1F;
