@@ -48,7 +48,7 @@ void cellFlow(const FlowEnds& ends, const CellRow& row, const float* s, CellVect
 void cellLandings(const CellVector* flow, int j, Size cells, std::int32_t* landing);
 
 /// Parameters of cellsHidden(), which tests if a nearer surface hides a cell in the other picture.
-/// The first entry of `out` tells how far the cell lies behind that surface [px of parallax]:
+/// The first entry of a cell's `out` is the cell's distance behind that surface [px of parallax]:
 /// (nearest[landing] - s) * pixelsPerUnit - slope, limited to [0, nowhere]. It is `nowhere` for a
 /// cell with landing -1. `nearest[k]`: largest s of all cells with landing k. `slope`: parallax
 /// [px] that two cells of one slanted surface can have.

@@ -1,7 +1,6 @@
-// Sums products of the pixels of an 8x8 patch and of the pixels in a second picture with which the
-// patch is compared; an integer version of patch.glsl. 128 is subtracted from pixels, so that sums
-// of squares fit into 32 bits. This offset cancels in every result. This header is included once
-// per instruction set.
+// Sums of products for comparing an 8x8 patch of a picture with pixels of a second picture. Integer
+// version of patch.glsl. 128 is subtracted from pixels, so that sums of squares fit into 32 bits.
+// This offset cancels in every result. This header is included once per instruction set.
 #if defined(MFAR_PATCH_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef MFAR_PATCH_INL_H
 #undef MFAR_PATCH_INL_H
