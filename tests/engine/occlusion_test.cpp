@@ -82,7 +82,7 @@ TEST_P(OcclusionTest, UnknownDepthNeverOccludes) {
         EXPECT_EQ(run(plainScene({100, bad}), {}).visibleEverywhere(), 1) << "sigma " << bad;
 }
 
-TEST_P(OcclusionTest, NeighboursOfUnknownDepthNeverReduceVisibility) {
+TEST_P(OcclusionTest, UnknownDepthBesideKnownDepthNeverOccludes) {
     twin::Scene scene = plainScene({1, 0.01});
     for (std::size_t i = 0; i < scene.real.size(); i += 3)
         scene.real[i].inverseDepth = kNan;
