@@ -224,8 +224,8 @@ void addLamps(LampCases& cases) {
 }
 
 void addFloor(Scene& scene, const Material& material) {
-    // Without an environment, because the error of its approximate light depends on the number of
-    // samples, which differs between the compared pictures.
+    // The scene has no environment, because the error of the environment's approximate light
+    // depends on the number of samples, which differs between the compared pictures.
     scene.lighting.environment = nullptr;
     scene.catcher = {};
     scene.objects.push_back(objectOf(modelOf(square(3, 0), material)));

@@ -81,8 +81,9 @@ TEST(NoiseFilter, EstimatesUnknownVariances) {
 
 // A quarter of the pixels has one sample each. Half-shadowed pixels need many samples: in a single
 // sample, objects block all of the light or none. So single pixels look like spots until the filter
-// mixes them. It mixes them more on the shadow catcher than on an object.
-TEST(NoiseFilter, SingleSamplesOfASoftShadowLeaveFewerSpotsOnTheCatcher) {
+// averages them with their neighbours. On the shadow catcher, it averages over larger differences
+// of light than on an object.
+TEST(NoiseFilter, SingleSamplesOfASoftShadowLeaveFewerSpotsOnTheCatcherThanOnObjects) {
     const auto spots = [](std::uint8_t id) {
         std::mt19937 random(1);
         std::bernoulli_distribution isBlocked(0.25);
