@@ -72,8 +72,10 @@ struct CellMotion {
     /// last frame's optical axis. nextZ: the same for the next frame. Both are in the last frame's
     /// unit of length.
     float lastZ, nextZ;
-    float perUnit;    ///< factor that converts s from the last frame's unit to the next frame's
-    float nearPlane;  ///< a moved point is valid if its z times its old s exceeds this
+    float perUnit;  ///< factor that converts s from the last frame's unit to the next frame's
+    /// Lower limit of z times the old s for a valid moved point. It applies to z relative to the
+    /// next frame's camera and to z relative to the still camera.
+    float nearPlane;
 };
 /// Finds the cells of the next frame that show the points of the last frame's cells. `s`: inverse
 /// depths of the points. `cells`: size of the next frame in cells. `landing`: row-major index of
