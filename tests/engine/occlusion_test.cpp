@@ -139,7 +139,8 @@ TEST_P(OcclusionTest, LayerIsBlendedByItsVisibility) {
         }
 }
 
-// The layer's colour is not premultiplied; blending must not overflow.
+// The second colour is invalid, because it is not premultiplied by its alpha of 0. Blending it must
+// not overflow.
 TEST_P(OcclusionTest, OpaqueLayersReplaceThePicture) {
     const twin::Scene scene = plainScene({0.1, 0.01});
     for (const std::array<std::uint8_t, 4>& colour :
