@@ -168,7 +168,7 @@ TEST(NoiseFilter, DoesNotMixDifferentSurfaces) {
               1e-6);
 }
 
-TEST(NoiseFilter, KeepsPixelsWithoutNoise) {
+TEST(NoiseFilter, KeptPixelsAndPixelsWithoutSurfaceStayUnchanged) {
     Pixels pixels = noisyPicture(flat);
     for (std::size_t i = 0; i < pixels.size(); i += 3) {
         pixels[i].id = i % 2 == 0 ? 0 : 1;

@@ -93,7 +93,7 @@ TEST(PathTracer, WhiteSphereLooksLikeTheUniformLightAroundIt) {
         }
 }
 
-TEST(PathTracer, BowlReflectsNoMoreLightThanItReceives) {
+TEST(PathTracer, WhiteBowlReflectsAllLightThatItReceives) {
     // Light is reflected many times inside. All of it must leave, except for paths beyond the
     // length limit.
     Mesh bowl = sphere({0, 0, 0}, 1, 32);
