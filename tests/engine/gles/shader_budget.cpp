@@ -158,8 +158,8 @@ void checkGroup(const LinkedShader& shader, Faults& faults) {
                          " invocations a work group; 128 are guaranteed");
 }
 
-// OpenGL ES does not report the size of shared variables. They are moved into storage blocks, whose
-// size can be queried: so the compiler evaluates the array lengths.
+// OpenGL ES does not report the size of shared variables. So this function moves them into storage
+// blocks, whose size can be queried. The compiler then evaluates the array lengths.
 void checkShared(std::string_view name, std::string_view text, std::string_view defines,
                  Faults& faults) {
     std::string code = withoutComments(text);
