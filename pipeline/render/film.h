@@ -28,7 +28,7 @@ struct FirstHit {
 
 struct SeenSurface {
     FirstHit hit;
-    Eigen::Vector3f normal{0, 0, 0};  ///< world frame, unit length, on the camera's side
+    Eigen::Vector3f normal{0, 0, 0};  ///< world frame, unit length, towards the camera's side
     Paint paint{};
     float roughness = 1;
     /// Light on the surface computed without a ray (from FarLight and sun), above 0. Sampled light

@@ -44,9 +44,9 @@ struct Spread {
         squares += y * y;
         ++count;
     }
-    /// Estimates the variance of a pixel's light from the added values. It includes the pixel's own
-    /// distance from the mean, because the pixel may hold a rare bright sample. With fewer than
-    /// kSurely values, the square of the mean is added.
+    /// Estimates the variance of a pixel's light from the added values. The estimate includes the
+    /// pixel's own distance from the mean, because the pixel may hold a rare bright sample. With
+    /// fewer than kSurely values, the square of the mean is added.
     [[nodiscard]] float varianceOf(const Eigen::Array3f& light) const {
         if (!(count > 0)) return 0;
         const float mean = sum / count, off = luminanceOf<float>(light.matrix()) - mean;

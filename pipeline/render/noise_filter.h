@@ -35,7 +35,7 @@ struct LightPixel {
 /// ignores neighbours across a depth edge or on another surface. Neighbours with another normal
 /// have less weight. Pixels without an id stay unchanged. A pixel without samples gets its
 /// neighbours' light. A few samples may hold a rare bright one, so the light of an object's pixel
-/// with few samples is limited to that of its neighbours, unless it differs by more than noise.
+/// with few samples is limited to that of its neighbours, unless noise cannot explain the excess.
 /// Variances fall with the number of samples, so that the filter finally changes nothing. The
 /// filter runs in stages, one after the other. Several threads may filter rows of the same stage at
 /// the same time.

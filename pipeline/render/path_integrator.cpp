@@ -133,7 +133,7 @@ PathIntegrator::Sent PathIntegrator::knownSun(const Vertex& vertex, Lobes lobes)
     const SurfacePoint& point = vertex.point;
     const Eigen::Vector3f towards = vertex.frame.transpose() * sun_.towards();
     // The lobe is evaluated only at the centre of the sun's disc. A lobe narrower than the disc
-    // would give a wrong value, so the roughness is raised until it is about as wide.
+    // would give a wrong value, so the roughness is raised until the lobe is about as wide.
     SurfaceLook look = point.look;
     look.roughness = std::max(look.roughness, std::sqrt(sun_.angularRadius()));
     const ScatterValue f =

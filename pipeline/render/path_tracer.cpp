@@ -110,7 +110,7 @@ struct PathTracer::Parts {
     TracedScene scene;
     std::shared_ptr<const DistantLight> light;
     PathIntegrator integrator;
-    float reach;  ///< radius of shadows and light on the shadow catcher [object radii]
+    float reach;  ///< half side of the cube in bounds() / half the diagonal of the objects' box
     std::shared_ptr<const MirrorLight> mirrors;
     std::vector<MovedLight::Object> moving;  ///< moving objects; their poses are not set
     mutable std::mutex lensMutex;

@@ -55,9 +55,10 @@ public:
 
     /// Rectangle around the pixels that an object may cover. It may be too large, or empty.
     [[nodiscard]] PixelRect objectBounds(const RenderView& view) const;
-    /// Rectangle around the pixels that may show an object, or the shadow catcher within
-    /// shadowReach times glowReach() of an object. It may be empty.
-    /// Light of objects on the catcher beyond this distance is ignored.
+    /// Rectangle around the pixels that may show an object, or the part of the shadow catcher in a
+    /// cube around the objects. The cube's half side is shadowReach * glowReach() times half the
+    /// diagonal of the objects' common box. The rectangle may be empty. Light of objects on the
+    /// catcher outside the cube is ignored.
     [[nodiscard]] PixelRect bounds(const RenderView& view) const;
 
 private:

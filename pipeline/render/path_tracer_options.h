@@ -23,8 +23,8 @@ struct PathTracerOptions {
     bool independentSamples = false;
     /// If true, light of emissive triangles is found only where a path hits them by chance.
     bool emissionByChance = false;
-    /// Radius around an object within which the shadow catcher is traced [object radii]; at least
-    /// 1.
+    /// Distance from the objects' centre within which the shadow catcher is traced, divided by half
+    /// the diagonal of the objects' common box; at least 1.
     float shadowReach = 3;
     int buildThreads = 1;  ///< threads that build the search structure; [1, 64]
     bool operator==(const PathTracerOptions&) const = default;

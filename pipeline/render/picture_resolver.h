@@ -24,9 +24,8 @@ public:
     /// `layered` has an effect only if `filter` is true; see RenderedPicture.
     /// `memory` must be null or the film. If it is the film and `filter` is true, the noise
     /// filter's result is stored in the film (Film::remember()) for pixels that show a surface but
-    /// have neither samples nor carried light.
-    /// Untraced pixels of the shadow catcher show the mean of their neighbours with even column and
-    /// even row.
+    /// have neither samples nor carried light. Untraced pixels then show the mean of their
+    /// neighbours with even column and even row that show the shadow catcher.
     void begin(const Film& film, const RenderView& view, const PixelRect& traced,
                const Exposure& exposure, bool filter, RenderedPicture& out, Film* memory = nullptr,
                bool layered = false);

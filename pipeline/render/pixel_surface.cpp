@@ -10,8 +10,8 @@
 namespace mfar {
 namespace {
 
-// The mean of normals that cancel each other has no useful direction. It is used only if it is at
-// least this long.
+// The mean of normals that cancel each other has no useful direction. A mean is used only if it is
+// at least this long.
 constexpr float kLeastMean = 0.1F;
 // The pixel's centre and kFirst are three points. If the mirrored light that they send to the eye
 // deviates from its mean by more than kContrast times the brightness of the distant light, the six

@@ -16,7 +16,7 @@ ShareTable::ShareTable(std::span<const double> weights) {
 }
 
 ShareTable::Drawn ShareTable::draw(double u) const {
-    // The last end is 1, since it is the sum divided by itself.
+    // The last end is 1 because it is the sum divided by itself.
     const auto end = std::min(std::ranges::upper_bound(ends_, u), ends_.end() - 1);
     const double low = end == ends_.begin() ? 0 : *(end - 1);
     return {static_cast<std::uint32_t>(end - ends_.begin()),

@@ -72,6 +72,7 @@ public:
     [[nodiscard]] float emissionTexels(std::uint32_t mesh, std::uint32_t triangle) const;
 
     /// True if the normal turns by at most 0.1 rad over a distance of `width` [m] on the triangle.
+    /// False if the material has a normal map.
     [[nodiscard]] bool isEven(const RayHit& hit, float width) const;
     [[nodiscard]] SurfacePoint objectPoint(const RayHit& hit,
                                            const Eigen::Vector3f& direction) const;

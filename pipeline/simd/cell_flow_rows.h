@@ -48,7 +48,7 @@ void cellFlow(const FlowEnds& ends, const CellRow& row, const float* s, CellVect
 void cellLandings(const CellVector* flow, int j, Size cells, std::int32_t* landing);
 
 /// Parameters of cellsHidden(), which tests if a nearer surface hides a cell in the other picture.
-/// The first entry of `out` tells how far the cell lies behind that surface [px of parallax]:
+/// The first entry of a cell's `out` is the cell's distance behind that surface [px of parallax]:
 /// (nearest[landing] - s) * pixelsPerUnit - slope, limited to [0, nowhere]. It is `nowhere` for a
 /// cell with landing -1. `nearest[k]`: largest s of all cells with landing k. `slope`: parallax
 /// [px] that two cells of one slanted surface can have.
@@ -72,8 +72,10 @@ struct CellMotion {
     /// last frame's optical axis. nextZ: the same for the next frame. Both are in the last frame's
     /// unit of length.
     float lastZ, nextZ;
-    float perUnit;    ///< factor that converts s from the last frame's unit to the next frame's
-    float nearPlane;  ///< a moved point is valid if its z times its old s exceeds this
+    float perUnit;  ///< factor that converts s from the last frame's unit to the next frame's
+    /// Lower limit of z times the old s for a valid moved point. It applies to z relative to the
+    /// next frame's camera and to z relative to the still camera.
+    float nearPlane;
 };
 /// Finds the cells of the next frame that show the points of the last frame's cells. `s`: inverse
 /// depths of the points. `cells`: size of the next frame in cells. `landing`: row-major index of

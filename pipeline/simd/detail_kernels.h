@@ -60,12 +60,12 @@ struct WarpedRow {
     std::array<std::int16_t, 4> weights;  ///< weights of the rows in `low` [1/16384]
 };
 
-/// Writes w * (still's detail) + max(1 - w, 0) * learned, where w is LookUpRows::share [1/32 grey
-/// level]. `learned`: residual of the learned filters; null: 0. It predicts the same detail as the
-/// still shows, so the factor max(1 - w, 0) keeps the sum from containing this detail twice. The
+/// Writes w * (still's detail) + max(1 - w, 0) * learned [1/32 grey level]; w is LookUpRows::share.
+/// `learned`: residual of the learned filters; null: 0. It predicts the same detail as the still
+/// shows, so the factor max(1 - w, 0) keeps the sum from containing this detail twice. One
 /// alternative adds `learned` without the factor and subtracts the still's own learned residual
-/// from the still's detail. It is 0.3 to 0.7 dB worse on synthetic scenes, because it sharpens
-/// differences in blur and noise between the sensors.
+/// from the still's detail. This alternative is 0.3 to 0.7 dB worse on synthetic scenes, because it
+/// sharpens differences in blur and noise between the sensors.
 void detailRow(const WarpedRow& warped, const LookUpRows& lookUp, const std::int16_t* learned,
                int begin, int end, std::int16_t* to);
 

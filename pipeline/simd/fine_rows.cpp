@@ -30,8 +30,8 @@ HWY_INLINE Quads QuadsOf(const std::int16_t* row, int cell) {
     return out;
 }
 
-/// Writes to the upper row the sum of each pixel's 2x2 samples [1/32 grey level]. It equals their
-/// mean in 1/128 grey level, which fits into 16 bits.
+/// Writes to the upper row the sum of each pixel's 2x2 samples [1/32 grey level]. The sum equals
+/// the samples' mean in 1/128 grey level, which fits into 16 bits.
 HWY_INLINE void SumSamples(std::int16_t* upper, const std::int16_t* lower, int begin, int end) {
     const I16 d;
     const int lanes = static_cast<int>(hn::Lanes(d));

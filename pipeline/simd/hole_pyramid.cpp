@@ -12,7 +12,7 @@ std::uint32_t rounded(float value) {
     return static_cast<std::uint32_t>(above);
 }
 
-constexpr int kCrackLevels = 2;  // number of pyramid levels that fill cracks without push-pull
+constexpr int kCrackLevels = 2;  // number of pyramid levels that fill cracks if push-pull is off
 constexpr std::uint32_t kAnyObject = 254;
 constexpr int kBlockShift = HolePyramid::kLevels;
 constexpr std::size_t kHolesAtATime = 32;

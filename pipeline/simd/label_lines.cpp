@@ -73,8 +73,9 @@ struct NearestPixels {
         return {x, y, hn::Mul(hn::MulAdd(hn::Sub(y, best.y), way.y, along), perSquare)};
     }
     /// Finds the first pixel after `own`, the best label's pixel, in the direction `side` (-1 or
-    /// 1). Returns the pixel's foot and additional cost. `near`, `far`: additional costs of the
-    /// labels `side` and 2 * `side`. The cost is kUnknown if both labels have the pixel `own` too.
+    /// 1). Returns the pixel's foot, and how much more the pixel costs than `own`. `near`, `far`:
+    /// how much more the labels `side` and 2 * `side` cost than the best label. The result is
+    /// kUnknown if both labels have the pixel `own` too.
     HWY_INLINE Side beside(const Pixel& own, float side, V near, V far) const {
         const Pixel one = at(side), two = at(2 * side);
         const auto isNext = [&](const Pixel& p)

@@ -30,10 +30,9 @@ void blendLayerRows(const std::uint32_t* above, const std::uint32_t* below, floa
 /// Interpolates a row between the layer's columns, and writes it as RGBA8.
 void enlargeColours(const BlendedColours& part, const LayerColumns& columns, int count,
                     std::uint32_t* out);
-/// Writes z of the layer for each output pixel, as virtual_layer.glsl does. It is copied from one
-/// of the four layer pixels around the output pixel: of those with a depth, the one at the smallest
-/// distance in the picture. z is 0 if none of the four has a depth. `share`: weight of the row
-/// `below`.
+/// Writes z of the layer for each output pixel, as virtual_layer.glsl does. The four layer pixels
+/// around the output pixel are candidates if they have a depth. z is copied from the candidate that
+/// is nearest in the picture; it is 0 without a candidate. `share`: weight of the row `below`.
 void enlargeDepths(const float* above, const float* below, float share, const LayerColumns& columns,
                    int count, float* out);
 

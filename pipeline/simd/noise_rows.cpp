@@ -23,8 +23,8 @@ HWY_INLINE V luminance(D d, V r, V g, V b) {
                       hn::MulAdd(hn::Set(d, 0.7152F), g, hn::Mul(hn::Set(d, 0.0722F), b)));
 }
 
-/// The weighted mean of a LightPart over a pixel's neighbours. The weight of a neighbour falls to 0
-/// as its luminance differs by more than noise explains.
+/// The weighted mean of a LightPart over a pixel's neighbours. A neighbour's weight falls with the
+/// difference in luminance. It is 0 if the difference is larger than noise explains.
 template <class D>
 class PartMean {
 public:

@@ -20,8 +20,8 @@ constexpr float kSteepest = params::kSteepestFlow;
 constexpr int kHalf = 4;
 constexpr float kGentle = 1.0F / 10;
 // If the flow changes by less than this per pixel, the change is ignored: all pixels of a patch are
-// compared at the same flow vector. At the patch's corners, this vector is wrong by about a
-// hundredth of a pixel, which is less than the error of the estimated change.
+// compared at the same flow vector. At the patch's corners, this vector is wrong by less than
+// 0.03 px along each axis, which is less than the error of the estimated change.
 constexpr float kFlat = 1.0F / 256;
 // Number of bits of interpolation weights. Weights are stored in 16 bits. The spare bits keep a
 // weight that changes along a row from overflowing.

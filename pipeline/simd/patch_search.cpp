@@ -111,8 +111,8 @@ struct WholeBest {
     float x, y, cost;
 };
 
-/// Compares the patch at the displacements `firstDx` to `endDx` - 1 with the same `dy`. Of
-/// displacements with equal costs, the first one wins.
+/// Compares the patch at the displacements `firstDx` to `endDx` - 1 with the same `dy`. If costs
+/// are equal, the first displacement wins.
 HWY_INLINE void searchWholeRow(const Batch& batch, int cell, const PatchPicture& to, int firstDx,
                                int endDx, int dy, WholeSums& sums, WholeBest& best) {
     const int y = std::clamp(kCellSize * batch.row[cell] - 2 + dy, -7, to.height - 2);

@@ -282,7 +282,7 @@ HWY_INLINE void valleysOf(const Stepper<Blocks>& stepper, VBlocks<Blocks> sums,
     const auto a = hn::BitCast(d16, sums), b = hn::BitCast(d16, hn::Not(path));
     const auto odds = [&](auto v) HWY_ATTR { return hn::And(hn::ShiftRight<8>(v), byte); };
     const auto even = hn::Add(hn::And(a, byte), hn::And(b, byte)), odd = hn::Add(odds(a), odds(b));
-    // The smallest sum wins. Of labels with equal sums, the smallest wins.
+    // The label with the smallest sum wins. If sums are equal, the smallest label wins.
     const auto places =
         hn::BitCast(d16, everywhere<Blocks>({0, 0, 2, 0, 4, 0, 6, 0, 8, 0, 10, 0, 12, 0, 14, 0}));
     const auto evenKey = hn::Or(hn::ShiftLeft<4>(even), places);

@@ -23,8 +23,8 @@ float depthOf(std::uint32_t surface) {
     return std::bit_cast<float>(surface & 0xFFFFFF00U);
 }
 
-/// Returns the number of the object that covers the most quarters, or 0 if no object covers one. Of
-/// objects with equally many quarters, the first one wins; the lower quarters come first.
+/// Returns the number of the object that covers the most quarters, or 0 if no object covers one. If
+/// objects cover equally many quarters, the first object wins; the lower quarters come first.
 std::uint32_t mostOf(const Quarters& s) {
     std::uint32_t out = 0;
     int most = 0;

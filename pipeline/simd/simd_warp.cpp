@@ -48,7 +48,7 @@ public:
     void setTracedPicture(const TracedPicture& traced) override {
         traced_ = &traced;
         lookUp_.setTracedPicture(traced);
-        // Copied into rows with padding, which the steps that read a layer need.
+        // Colours and depths are copied into padded rows. Steps that read a layer need the padding.
         picture_ = copied<std::uint32_t>(traced.camera.size, traced.picture.data());
         depth_ = copied<float>(traced.camera.size, traced.depth.data());
     }

@@ -61,9 +61,8 @@ HWY_INLINE Point Unproject(const LensParams& lens, V x, V y) {
     return ray;
 }
 
-// Returns the position in the still at which an infinitely distant point is seen that the video
-// shows at pixel (x, y). It is far outside the still if the pixel's ray points away from the
-// still's picture.
+// Returns the position in the still of the infinitely distant point that the video shows at pixel
+// (x, y). The position is far outside the still if the point is not in front of the still camera.
 HWY_INLINE Point StillPixel(const LookUpParams& lookUp, V x, V y) {
     const Point ray = Unproject(lookUp.video, x, y);
     const auto turned = [&](int row) HWY_ATTR {

@@ -28,8 +28,8 @@ public:
     StillPreparation(const StereoRig& rig, Size output, std::shared_ptr<Workers> workers);
 
     /// Sets a valid picture of the still camera's size, in any pixel format. `tone` is applied to
-    /// the luma, but not to picture(). `keepsPicture`: true copies the still's colours for
-    /// picture(); false makes picture() return a grey picture.
+    /// the luma, but not to the colours of picture(). `keepsPicture`: true copies the still's
+    /// colours for picture(); false makes picture() return the luma as a grey picture.
     void set(const ImageView& still, const StillTone& tone = {}, bool keepsPicture = true);
 
     /// The rig, but with a still camera of the size of pairs(): it has the same lens, but may have

@@ -16,8 +16,8 @@ constexpr std::size_t kBatch = 1024;
 constexpr int kCornersAtATime = 2048;
 constexpr int kLeastBand = 16;
 constexpr int kBandsPerThread = 4;
-// Largest distance of a corner from the grid [px]. Triangles with farther corners are clipped. For
-// corners within this distance, single precision is exact to a hundredth of a pixel.
+// Upper limit of |x| and |y| of a corner [grid px]. Triangles with corners beyond it are clipped.
+// Below it, single precision is exact to a hundredth of a pixel.
 constexpr float kGuard = 65536;
 
 }  // namespace

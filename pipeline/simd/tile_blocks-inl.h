@@ -117,8 +117,8 @@ void ReadBlocks(const TilePixels& pixels, Blocks& out) {
 template <class D>
 struct Block {
     using V = hn::Vec<D>;
-    // Not defaulted, because a constructor that the compiler generates is not compiled for this
-    // instruction set. NEON's vectors make this an error.
+    // This constructor is not defaulted, because a constructor that the compiler generates is not
+    // compiled for this instruction set. With NEON's vectors, that is an error.
     HWY_INLINE Block() {}  // NOLINT(modernize-use-equals-default)
     HWY_INLINE Block(V s, V t, V a) : sum(s), twist(t), absolute(a) {}
     V sum, twist, absolute;

@@ -45,8 +45,8 @@ public:
         return classes_[static_cast<std::size_t>(row) * tiles_.width + column];
     }
 
-    /// True if the still's detail has a weight of at least one in every cell in and next to the
-    /// tile. It then replaces the video's detail completely, and learned filters would add nothing.
+    /// True if the tile is matched, and the still's detail has a weight of at least one in every
+    /// cell in and next to the tile. Learned filters would then add nothing, see detailRow().
     [[nodiscard]] bool showsStillAlone(int column, int row) const {
         return alone_[static_cast<std::size_t>(row) * tiles_.width + column] != 0;
     }

@@ -36,7 +36,7 @@ HWY_INLINE void Columns(const float* row, V* out) {
     hn::LoadInterleaved4(d, row + 4 * hn::Lanes(d), out[4], out[5], out[6], out[7]);
 #if HWY_TARGET != HWY_SCALAR
     // LoadInterleaved4 gives lanes that belong alternately to the left and the right half of a
-    // tile. This separates the halves.
+    // tile. The loop separates the halves.
     for (int i = 0; i < 4; ++i) {
         const V first = out[i], second = out[i + 4];
         out[i] = hn::ConcatEven(d, second, first);

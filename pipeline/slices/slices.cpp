@@ -169,8 +169,8 @@ void Slices::endRound(Tile& tile, const PixelStates& states) {
     } else if (tile.handed < tile.active) {
         if (adapts && turn_ + 1 == kFirstFull && isUntouched(tile, states)) {
             kept = 0;
-            // dropActive() counts all samples of the tile as not needed. Those already traced are
-            // subtracted here.
+            // dropActive() counts all samples of the tile as not needed. The samples that were
+            // already traced are subtracted here.
             settled_ -= tile.handed * static_cast<std::uint64_t>(step(tile));
         }
     } else {

@@ -30,8 +30,8 @@ constexpr int kRestLooks = 10;
 // after a change of lighting. It is low, so that new samples soon outweigh the old light.
 constexpr float kMostCarried = 64, kMostCarriedElsewhere = 4;
 constexpr int kLookTurn = 1;
-// While an object moves, a new picture begins when it and its shadow have moved by this distance
-// since the shown picture.
+// Limit of an object's motion since the shown picture [px], see motionSince(). The object's shadow
+// moves about as far.
 constexpr double kShadowPixels = 1;
 // Number of turns of a picture before the next one begins while an object moves. By then, a quarter
 // of the pixels has a sample.

@@ -11,7 +11,7 @@
 namespace mfar {
 
 /// Renders traced pictures of a scene in its own low-priority threads. The threads have a budget of
-/// processor time per call of update(). They sleep if it is used up or nothing is left to do.
+/// processor time per call of update(). They sleep if this time is used up or no work is left.
 /// Building a scene's search structure is not part of the budget.
 /// All functions must be called by the thread that handles the frames. No function waits or takes a
 /// lock. No function allocates memory after the first pictures.

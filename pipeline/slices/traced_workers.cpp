@@ -15,7 +15,7 @@ namespace {
 // Upper limit of viewChange() from the present to the predicted view. It is below 1, because the
 // picture must also serve the present view.
 constexpr double kPredictedChange = 0.9;
-// Upper limit of the frame budgets that are granted at once, after a job that lasted many frames.
+// Upper limit of the number of frame budgets granted at once, after a job that lasted many frames.
 constexpr std::uint64_t kMostMissed = 16;
 constexpr double kRateSeconds = 1;
 constexpr std::int64_t kFirstResolved = 2048;

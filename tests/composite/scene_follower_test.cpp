@@ -69,7 +69,7 @@ TEST(SceneFollower, ShadowsFallOntoAPlaneUntilDepthIsKnown) {
     EXPECT_EQ(measured->objects.size(), 1U);
 }
 
-TEST(SceneFollower, ShadowCatcherIsRebuiltLaterWhenTheViewChanges) {
+TEST(SceneFollower, ShadowCatcherIsRebuiltIfTheViewTurnsButNotTooOften) {
     SceneFollower follower({.settling = 1, .leastKnown = 0.5, .turn = 0.3, .leastInterval = 4});
     follower.set(cube());
     const auto follow = [&](double angle, int s) {

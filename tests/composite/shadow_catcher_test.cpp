@@ -98,7 +98,7 @@ TEST(ShadowCatcher, ObjectsOnThePlaneKeepTheirHeightAndAreNotJoinedToIt) {
     EXPECT_GT(high, 50);
 }
 
-TEST(ShadowCatcher, UnknownDistantAndOutsideDepthGivesNoSurface) {
+TEST(ShadowCatcher, UnknownDepthDistantDepthAndAreasOutsideThePictureGiveNoSurface) {
     const auto none = [](const InverseDepthField& field, const PixelRect& where) {
         return depthCatcher(field, kLens, eyeAbove(), where, kGround).triangles.empty();
     };
@@ -149,7 +149,7 @@ TEST(ShadowCatcher, ObjectsOnATagOfAWallShadeTheWall) {
     EXPECT_EQ(planeCatcher(groundPlanes(floor)).positions, planeCatcher(kThing).positions);
 }
 
-TEST(ShadowCatcher, LightOfAGlowingObjectReachesFarther) {
+TEST(ShadowCatcher, LightOfAGlowingObjectReachesFartherThanAShadow) {
     Scene scene;
     scene.objects = {standingOn({})};
     const float dark = planeCatcher(groundPlanes(scene)).positions.back().x();

@@ -66,7 +66,7 @@ TEST(Keyframes, KeyframesOfSimilarExposureArePreferred) {
     EXPECT_NEAR(frames.choose(poseAt(0.1), 30, kAll, 1)->frame->brightness, 30, 1e-9);
 }
 
-TEST(Keyframes, ARestingOrTurningCameraKeepsItsKeyframes) {
+TEST(Keyframes, ARestingCameraKeepsItsKeyframes) {
     Keyframes frames = walked({});
     for (int i = 0; i < 300; ++i)
         frames.add(grey(100), poseAt(0.09), 100, 1);

@@ -27,9 +27,9 @@ Eigen::Vector2d trueFlow(double x, double y) {
     return {2.3 + 0.012 * x - 0.006 * y, -1.6 - 0.004 * x + 0.02 * y};
 }
 
-/// A video of fine print that aliases. The flow along epipolar lines (`lines`) is correct but for
-/// small errors and some outliers; the refined flow (`given`) is off by up to a pixel. Some cells
-/// are not doubtful or not matched.
+/// A video of fine print that aliases. The flow along epipolar lines (`lines`) is correct except
+/// for small errors and some outliers; the refined flow (`given`) is off by up to a pixel. Some
+/// cells are not doubtful or not matched.
 struct Print {
     Print()
         : video(kVideo), rig(bentRig(kVideo, kStill)), work(TileWork::everything(tilesOf(kVideo))) {
@@ -153,7 +153,7 @@ twin::DirectResult wantedOf(const Print& in, const twin::DirectCase& oracle, int
 
 /// Compares the results with the oracle's. The oracle maps every sample through both lenses, the
 /// engines only the patch's centre and slopes. So where both flow vectors fit almost equally well,
-/// they may choose different ones.
+/// the oracle and an engine may choose different vectors.
 void expectTheOraclesMatches(const Print& in, const Matched& got) {
     const twin::DirectCase oracle = in.oracle();
     int moved = 0, compared = 0, untouched = 0;

@@ -82,7 +82,7 @@ TEST_P(OcclusionTest, UnknownDepthNeverOccludes) {
         EXPECT_EQ(run(plainScene({100, bad}), {}).visibleEverywhere(), 1) << "sigma " << bad;
 }
 
-TEST_P(OcclusionTest, NeighboursOfUnknownDepthNeverReduceVisibility) {
+TEST_P(OcclusionTest, UnknownDepthBesideKnownDepthNeverOccludes) {
     twin::Scene scene = plainScene({1, 0.01});
     for (std::size_t i = 0; i < scene.real.size(); i += 3)
         scene.real[i].inverseDepth = kNan;
@@ -139,7 +139,8 @@ TEST_P(OcclusionTest, LayerIsBlendedByItsVisibility) {
         }
 }
 
-// The layer's colour is not premultiplied; blending must not overflow.
+// The second colour is invalid, because it is not premultiplied by its alpha of 0. Blending it must
+// not overflow.
 TEST_P(OcclusionTest, OpaqueLayersReplaceThePicture) {
     const twin::Scene scene = plainScene({0.1, 0.01});
     for (const std::array<std::uint8_t, 4>& colour :

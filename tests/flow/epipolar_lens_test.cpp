@@ -39,8 +39,8 @@ TEST(EpipolarLens, RaysMatchThePixelsOfEveryPyramidLevel) {
             const double scale = 1 << level;
             for (int y = 0; y < size.height; ++y) {
                 for (int x = 0; x < size.width; ++x) {
-                    // A pixel of this level covers scale x scale pixels, whose common centre it
-                    // shows.
+                    // A pixel of this level covers scale x scale pixels. Its ray goes through their
+                    // common centre.
                     const Eigen::Vector2d ray = camera.unproject(
                         {scale * x + 0.5 * (scale - 1), scale * y + 0.5 * (scale - 1)});
                     const std::size_t p = static_cast<std::size_t>(y) * size.width + x;

@@ -48,7 +48,8 @@ EpipolarSearch searched(const View& view, int threads = 2) {
 
 // Upper limits of the median error [px] for oblique epipolar lines, and for lines along an axis of
 // the picture. The nearest still pixel gives the cost of a point on the line. The search corrects
-// only the distance between pixel and point along the line. So oblique lines have larger errors.
+// the offset between that pixel and the point along the line, but not across the line. So oblique
+// lines have larger errors.
 constexpr double kAcross = 0.38, kAlongAxis = 0.22;
 
 void expectErrors(const View& view, double median, double bad) {
@@ -140,7 +141,7 @@ TEST(EpipolarSearch, PureRotationNeedsNoSearch) {
     }
 }
 
-// pixelsPerUnit() is the motion of the fastest pixel if s changes by 1 [px].
+// pixelsPerUnit() is the motion [px] of the fastest pixel if s changes by 1.
 TEST(EpipolarSearch, PixelsPerUnitIsTheLongestMotionOfAPixel) {
     for (const Eigen::Vector3d& t :
          {Eigen::Vector3d(0.2, 0, 0), Eigen::Vector3d(0.1, -0.1, 0.3), Eigen::Vector3d(0, 0, -1)}) {

@@ -128,7 +128,7 @@ TEST(PoseRefinement, KeepsAGoodPose) {
     }
 }
 
-TEST(PoseRefinement, AnUncertainPoseIsSearchedInALargerRange) {
+TEST(PoseRefinement, AnUncertainPoseIsSearchedInALargerRangeThanACertainPose) {
     const View view{pagePlain(), panelScene(), motion({3, -4, 5}, {0, 0, 0})};
     const RigidTransform error = motion({1.5, -1, 0.3}, {0, 0, 0});
     EXPECT_LT(missOf(searched(view, error, covarianceOf(1, 0)).pose(), view), 0.1);

@@ -56,7 +56,8 @@ Eigen::Vector2d source(const CameraModel& camera, const Eigen::Matrix3d& rotatio
     const Eigen::Vector3d p = rotation * ray.homogeneous();
     if (!(p.z() > 0)) return {kNowhere, kNowhere};
     const Eigen::Vector2d at = camera.project(p.hnormalized());
-    // The lens model also projects rays from far outside back into the picture. These are excluded.
+    // The lens model also projects rays from far outside back into the picture. These rays are
+    // excluded.
     const bool real = (camera.unproject(at) - p.hnormalized()).norm() < 1e-3;
     return real ? at : Eigen::Vector2d(kNowhere, kNowhere);
 }

@@ -22,8 +22,8 @@ struct FineCase {
 };
 
 /// Returns variance of the video, covariance of video and still, and variance of the still. They
-/// are computed from the differences between neighbouring pixels of the middle two rows of a cell,
-/// and from the differences to the pixels right of them.
+/// are computed from differences of pixels in the two middle rows of a cell: to the right neighbour
+/// in both rows, and from the upper to the lower row.
 inline Eigen::Vector3d fineSums(const FineCase& in, int cellX, int cellY) {
     const Size size = in.video.size;
     if (!in.isMatched(cellX, cellY) || 4 * cellX + 4 > size.width || 4 * cellY + 4 > size.height)

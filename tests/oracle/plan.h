@@ -145,8 +145,9 @@ inline TileChange tileChange(const TestPicture& now, const TestPicture& drawn, c
     return out;
 }
 
-/// A tile counts as changed if TileChange::mean or TileChange::absolute of a cell exceeds these
-/// bounds.
+/// A tile counts as changed if its TileChange::moments exceeds kMoments, or if one of its cells
+/// changed. A cell changed if TileChange::absolute exceeds `absolute`, or if TileChange::mean
+/// exceeds `mean` and its square exceeds kCell * TileChange::cellNoise.
 struct ChangeBounds {
     double mean, absolute;
     static constexpr double kMoments = 40, kCell = 30;
@@ -171,8 +172,8 @@ struct ChangeBounds {
     }
 };
 
-/// Sums TileChange::energy over the tiles in which no cell exceeds the ChangeBounds. If the sum is
-/// larger than noise explains, all these tiles count as changed.
+/// Sums TileChange::energy over the tiles that do not count as changed by ChangeBounds. If the sum
+/// is larger than noise explains, all these tiles count as changed.
 class Drift {
 public:
     void add(const TileChange& t) {

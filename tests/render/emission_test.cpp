@@ -224,8 +224,8 @@ void addLamps(LampCases& cases) {
 }
 
 void addFloor(Scene& scene, const Material& material) {
-    // Without an environment, because the error of its approximate light depends on the number of
-    // samples, which differs between the compared pictures.
+    // The scene has no environment, because the error of the environment's approximate light
+    // depends on the number of samples, which differs between the compared pictures.
     scene.lighting.environment = nullptr;
     scene.catcher = {};
     scene.objects.push_back(objectOf(modelOf(square(3, 0), material)));
@@ -303,7 +303,7 @@ TEST(Emission, BoundsContainTheGroundThatALampLights) {
 }
 
 TEST(Emission, GroundThatNoLampLightsIsUnchanged) {
-    // The lamp is single-sided and black, and a plate separates it from the ground.
+    // In the scene `above`, the ground is above the lamp and hides it.
     auto scene = lampOverGround(0.2F, 0.8F, {3, 2, 1});
     scene->lighting.sun = Sun{Eigen::Vector3f(0.3F, 0.2F, 1).normalized(), {2, 2, 2}, 0.02F};
     scene->catcher = ground(50, 0.5F);

@@ -43,7 +43,7 @@ TEST(FirstPicture, MemoryIsProvidedOncePerScene) {
     EXPECT_TRUE(pictures.lacksMemory());
 }
 
-TEST(FirstPicture, ObjectsOutOfViewNeedNoMemory) {
+TEST(FirstPicture, ObjectsOutOfViewNeedLittleMemory) {
     const std::shared_ptr<FilmMemory> memory = Film::makeMemory();
     TracedPictures pictures(kThirtyTwo, kProduct, memory);
     pictures.setScene(preparedStillLife(1, 1));

@@ -106,7 +106,7 @@ TEST(MovingObjects, PicturesShowObjectsAtThePosesStoredWithThem) {
     const RenderedPicture& last = run.driver.shown.back();
     ASSERT_EQ(last.poses.size(), run.scene->objects.size());
     const double error = differenceOf(last, truthAt(*run.scene, last.poses, run.view));
-    // In a scene without motion, the error after the same number of pictures is 9.
+    // In a scene without motion, the error after the same number of pictures is 9 grey levels.
     EXPECT_LT(error, 12);
     const auto misplaced = [&](const std::vector<RigidTransform>& poses) {
         const RenderedPicture truth = truthAt(*run.scene, poses, run.view);

@@ -81,8 +81,9 @@ TEST(NoiseFilter, EstimatesUnknownVariances) {
 
 // A quarter of the pixels has one sample each. Half-shadowed pixels need many samples: in a single
 // sample, objects block all of the light or none. So single pixels look like spots until the filter
-// mixes them. It mixes them more on the shadow catcher than on an object.
-TEST(NoiseFilter, SingleSamplesOfASoftShadowLeaveFewerSpotsOnTheCatcher) {
+// averages them with their neighbours. On the shadow catcher, it averages over larger differences
+// of light than on an object.
+TEST(NoiseFilter, SingleSamplesOfASoftShadowLeaveFewerSpotsOnTheCatcherThanOnObjects) {
     const auto spots = [](std::uint8_t id) {
         std::mt19937 random(1);
         std::bernoulli_distribution isBlocked(0.25);
@@ -167,7 +168,7 @@ TEST(NoiseFilter, DoesNotMixDifferentSurfaces) {
               1e-6);
 }
 
-TEST(NoiseFilter, KeepsPixelsWithoutNoise) {
+TEST(NoiseFilter, KeptPixelsAndPixelsWithoutSurfaceStayUnchanged) {
     Pixels pixels = noisyPicture(flat);
     for (std::size_t i = 0; i < pixels.size(); i += 3) {
         pixels[i].id = i % 2 == 0 ? 0 : 1;

@@ -50,9 +50,9 @@ Mesh flatSquare() {
     return mesh;
 }
 
-// A pixel covers two bumps of the normal map. Three bumps would be as far apart as the points at
-// which a pixel is computed, which would then have the same normal.
-TEST(PathTracer, FineNormalMapRaisesTheRoughnessAboutTheMeanNormal) {
+// A pixel covers two bumps of the normal map. If it covered three, the bumps would be as far apart
+// as the points at which a pixel's normals are computed, and all these normals would be equal.
+TEST(PathTracer, FineNormalMapGivesTheMeanNormalAndARaisedRoughness) {
     const auto seen = [](bool bumpy) {
         Material material = materialOf({0.9F, 0.9F, 0.9F}, 1, 0.2F);
         Model model = modelOf(flatSquare(), material);
@@ -62,7 +62,7 @@ TEST(PathTracer, FineNormalMapRaisesTheRoughnessAboutTheMeanNormal) {
         if (bumpy) model.materials.front().normalTexture = 0;
         auto scene = std::make_shared<Scene>();
         scene->objects.push_back(objectOf(std::move(model)));
-        // Uneven, so that the bumps differ in the light that they mirror.
+        // The light is uneven, so that the bumps mirror different light.
         scene->lighting.environment = unevenLight();
         const RenderView view = lookingAt({0, 0, 4}, {0, 0, 0}, {16, 16}, 20);
         // The rays through the pixels' centres suffice: they come before the first sample.
@@ -93,7 +93,7 @@ TEST(PathTracer, WhiteSphereLooksLikeTheUniformLightAroundIt) {
         }
 }
 
-TEST(PathTracer, BowlReflectsNoMoreLightThanItReceives) {
+TEST(PathTracer, WhiteBowlReflectsAllLightThatItReceives) {
     // Light is reflected many times inside. All of it must leave, except for paths beyond the
     // length limit.
     Mesh bowl = sphere({0, 0, 0}, 1, 32);
@@ -205,7 +205,7 @@ TEST(PathTracer, EmissiveSurfacesAreVisibleAndGiveLight) {
     EXPECT_EQ(film.means(5).without.x(), 0);
 }
 
-TEST(PathTracer, TexturesAlphaMasksAndSingleSidesAffectThePicture) {
+TEST(PathTracer, TexturesAlphaMasksAndSingleSidedMaterialsAffectThePicture) {
     auto texture = SurfaceTexture{{2, 1}, false, {{255, 0, 0, 255}, {0, 255, 0, 0}}};
     Material masked = materialOf({1, 1, 1}, 0, 1);
     masked.baseColourTexture = 0;

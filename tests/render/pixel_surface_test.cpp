@@ -50,8 +50,7 @@ std::size_t placeOf(int x, int y, Size size) {
            static_cast<std::size_t>(x);
 }
 
-/// Mean over the points of a pixel of the light that they mirror to the eye, divided by the mean
-/// paint.
+/// Mean of the light that the points of a pixel mirror to the eye, divided by their mean paint.
 Eigen::Vector3f meanMirrored(const Film& finer, int x, int y, std::uint8_t id) {
     Eigen::Vector3f sum{0, 0, 0};
     float weights = 0;

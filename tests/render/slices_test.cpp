@@ -94,7 +94,7 @@ TEST(Slices, EveryPixelWithinTheBoundsGetsTheConfiguredSamples) {
     }
 }
 
-TEST(Slices, SamplePositionsDoNotDependOnSlicingOrThreads) {
+TEST(Slices, NumbersOfSamplesDoNotDependOnSlicingOrThreads) {
     const SliceOptions time{Slicing::Time, 64, 4, 1, 8};
     SliceOptions spatial = time;
     spatial.slicing = Slicing::Spatial;
@@ -135,7 +135,7 @@ TEST(Slices, NoPixelIsInTwoUnfinishedPortions) {
 
 // A turn visits all pixels that it concerns once. The first turn traces a ray through every pixel's
 // centre. The next three take the first samples: in one pixel of 16, in one of 4, and in all.
-TEST(Slices, AllPixelsHaveEqualSamplesAfterEachTurnOfTimeSlices) {
+TEST(Slices, AllPixelsHaveEqualSamplesAfterEachFullTurnOfTimeSlices) {
     Slices slices({Slicing::Time, 8, 3, 0, 2});
     slices.begin({0, 0, 32, 24}, {32, 24});
     NoisyPicture picture([](std::uint32_t) { return 1.0F; });
@@ -184,7 +184,7 @@ TEST(Slices, FirstSamplesAreEvenlySpread) {
     }
 }
 
-TEST(Slices, PixelsWithLittleNoiseAfterTheSparseSamplesGetNoMore) {
+TEST(Slices, PixelsWithLittleNoiseFromTheStartGetNoSamples) {
     Slices slices({Slicing::Time, 16, 4, 1, 8});
     slices.begin({0, 0, 32, 24}, {32, 24});
     NoisyPicture picture([](std::uint32_t) { return 1e6F; });
@@ -276,7 +276,7 @@ TEST(Slices, TilesFollowTheMortonCurve) {
     EXPECT_EQ(places.back(), std::pair(3, 3));
 }
 
-TEST(Slices, OnlyNoisyPixelsGetAllSamples) {
+TEST(Slices, OnlyNoisyPixelsAndTheirNeighboursGetAllSamples) {
     // Only one pixel in the middle of a tile is noisy. It and its neighbours must get more samples.
     const std::uint32_t noisy = 12 * 32 + 12;
     NoisyPicture picture([&](std::uint32_t pixel) { return pixel == noisy ? 1e6F : 0.1F; });

@@ -144,7 +144,7 @@ TEST(TracedPictures, ReturningCameraGetsItsEarlierPictureRefined) {
     driver.look(20.2);
     driver.settle();
     EXPECT_EQ(samples, 16);
-    ASSERT_EQ(driver.shown.size(), 6U) << "the samples of the returning picture are kept";
+    ASSERT_EQ(driver.shown.size(), 6U) << "the earlier picture must keep its samples";
     EXPECT_EQ(driver.shown[5].samples, 32);
     EXPECT_TRUE(driver.shows(20));
 }
@@ -158,7 +158,7 @@ TEST(TracedPictures, MovingCamerasGetPicturesOfPredictedViews) {
     driver.step();
     driver.look(29);
     driver.untilShown(before + 1);
-    EXPECT_TRUE(driver.shows(26)) << "26 degrees is nearer to the camera than the shown 20 degrees";
+    EXPECT_TRUE(driver.shows(26)) << "the camera at 29 degrees is nearer to 26 than to 20 degrees";
     driver.look(33);
     driver.settle();
     EXPECT_TRUE(driver.shows(33));

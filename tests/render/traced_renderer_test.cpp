@@ -274,7 +274,7 @@ TEST(TracedRenderer, AnswersTheNewestHoleRequest) {
     tracer.trace(there, last->pixels, 8, film);
     for (std::size_t i = 0; i < last->pixels.size(); ++i)
         EXPECT_EQ(last->colour[i], film.resolved(last->pixels[i], {}).colour);
-    EXPECT_EQ(frames.renderer.takeHoles(), nullptr) << "once";
+    EXPECT_EQ(frames.renderer.takeHoles(), nullptr) << "an answer must be given only once";
 }
 
 TEST(TracedRenderer, HoleRequestsDoNotPreventAFinishedPicture) {
@@ -308,7 +308,7 @@ TEST(TracedRenderer, InvalidSceneIsReportedAndTheOldSceneStays) {
     ASSERT_TRUE(
         frames.until(view, [&] { return (error = frames.renderer.takeError()).has_value(); }));
     EXPECT_FALSE(error->empty());
-    EXPECT_FALSE(frames.renderer.takeError().has_value()) << "once";
+    EXPECT_FALSE(frames.renderer.takeError().has_value()) << "an error must be given only once";
     EXPECT_TRUE(frames.finish(render_scenes::viewFrom(kRenderSize, 40), 2));
 }
 

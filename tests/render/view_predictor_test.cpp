@@ -54,7 +54,7 @@ TEST(ViewPredictor, PredictionStaysWithinItsLimits) {
         predictor.add(onCircle(i / 30.0, 80), Timestamp::fromSeconds(2 + i / 30.0));
     EXPECT_NEAR(angle(predictor.predict(1, kFar), onCircle(1, 80)), 5 * kDegree, 1e-6);
     const double way = (predictor.predict(1, 0.1).translation - onCircle(1, 80).translation).norm();
-    EXPECT_LE(way, 0.1 * 5 * kDegree + 1e-9) << "half a degree around a near object is a short way";
+    EXPECT_LE(way, 0.1 * 5 * kDegree + 1e-9) << "five degrees around a near object are a short way";
     EXPECT_GT(way, 0.09 * 5 * kDegree);
 }
 

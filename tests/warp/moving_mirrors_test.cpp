@@ -15,7 +15,7 @@ namespace mfar::simd {
 namespace {
 
 constexpr Size kPicture{21, 40};
-constexpr float kTwice = 2;  // factor between the light in the tables of roughness 1 and 0
+constexpr float kTwice = 2;  // light in the table of roughness 1, divided by that of roughness 0
 
 CameraModel camera() {
     return {kPicture, 30, 30, 9.5, 18.5, {-0.1, 0.02, 0, 0, 0}};
@@ -229,7 +229,7 @@ TEST(MovingMirrors, UnknownSurfacesKeepTheirLight) {
     EXPECT_EQ(moving.mirrors.lightFor(kMoved).data(), s.traced.light.data());
 }
 
-TEST(MovingMirrors, AWarpedMirrorBallIsNearerToTheTruth) {
+TEST(MovingMirrors, AWarpedMirrorBallIsNearerToTheTruthIfItsReflectionsMove) {
     using namespace render_scenes;
     Material metal;
     metal.roughness = 0.25F;

@@ -90,7 +90,7 @@ TEST_F(Preview, ShapesAreDrawnThroughTheLensAtTheRightPixels) {
                     twin::rayCast({o}, kPose, lens().scaledTo(kOutput), LensProjection::kNear));
 }
 
-TEST_F(Preview, ANearerObjectHidesAFartherInAnyOrderOfDrawing) {
+TEST_F(Preview, NearerObjectsHideFartherOnesInAnyOrderOfDrawing) {
     PreviewRenderer renderer(lens(), kOutput);
     std::vector<VirtualObject> all = inWorld(objects());
     const auto truth = twin::rayCast(all, kPose, lens().scaledTo(kOutput), LensProjection::kNear);

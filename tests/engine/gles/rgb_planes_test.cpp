@@ -27,7 +27,7 @@ double worstAgainstTwin(const ImageView& view) {
     return worst;
 }
 
-TEST(RgbPlanes, EveryFormatMatchesTheOracleUpToTheRepeatedBorder) {
+TEST(RgbPlanes, EveryFormatMatchesTheOracleIncludingTheRepeatedBorder) {
     for (const PixelFormat format : test::kEveryFormat) {
         const test::PaddedPicture source(format, kCutSize, 3);
         for (const YuvMatrix matrix : {YuvMatrix::Bt601, YuvMatrix::Bt709})

@@ -38,7 +38,7 @@ void checkImages(const std::string& code, Faults& faults) {
         faults.push_back("image " + it->str(1) + " is neither readonly nor writeonly");
         if (found(declaration, R"(\brgba16f\b)"))
             faults.push_back("image " + it->str(1) +
-                             " is rgba16f, which OpenGL ES 3.1 does not read and write");
+                             " is rgba16f, which OpenGL ES 3.1 cannot both read and write");
     }
 }
 
@@ -158,8 +158,8 @@ void checkGroup(const LinkedShader& shader, Faults& faults) {
                          " invocations a work group; 128 are guaranteed");
 }
 
-// OpenGL ES does not report the size of shared variables. They are moved into storage blocks, whose
-// size can be queried: so the compiler evaluates the array lengths.
+// OpenGL ES does not report the size of shared variables. So this function moves them into storage
+// blocks, whose size can be queried. The compiler then evaluates the array lengths.
 void checkShared(std::string_view name, std::string_view text, std::string_view defines,
                  Faults& faults) {
     std::string code = withoutComments(text);
@@ -179,7 +179,7 @@ void checkShared(std::string_view name, std::string_view text, std::string_view 
         if (shader.resource(GL_SHADER_STORAGE_BLOCK, i).starts_with("SharedProbe"))
             bytes += shader.property(GL_SHADER_STORAGE_BLOCK, i, GL_BUFFER_DATA_SIZE);
     if (bytes > ShaderBudget::kSharedBytes)
-        faults.push_back(std::to_string(bytes) + " bytes of shared memory");
+        faults.push_back(std::to_string(bytes) + " bytes of shared memory; 16384 are guaranteed");
 }
 
 }  // namespace
@@ -213,7 +213,7 @@ std::vector<std::string> shaderTextFaults(std::string_view text) {
     if (found(code, R"(\b(double|dvec[234]|dmat[234])\b)")) faults.emplace_back("fp64");
     if (found(code, R"(\bfma\s*\()")) faults.emplace_back("fma()");
     if (found(code, R"(#\s*extension\b)")) faults.emplace_back("#extension");
-    if (found(code, R"(#\s*version\b)")) faults.emplace_back("#version, which is put in front");
+    if (found(code, R"(#\s*version\b)")) faults.emplace_back("#version; the preamble has one");
     if (found(code, R"(#\s*include\b)")) faults.emplace_back("#include that was not resolved");
     checkImages(code, faults);
     checkVariantsAreNamed(text, code, faults);

@@ -99,7 +99,7 @@ TEST(ShaderBudgetChecker, FindsForbiddenWords) {
     expectFault(shaderTextFaults("#include \"a.glsl\"\n"), "#include");
 }
 
-TEST(ShaderBudgetChecker, FindsImagesWithoutAccess) {
+TEST(ShaderBudgetChecker, FindsImagesWithoutAnAccessQualifier) {
     const std::string format = "layout(binding = 0, rgba16f) ";
     EXPECT_TRUE(shaderTextFaults(format + "readonly uniform image2D a;").empty());
     EXPECT_TRUE(shaderTextFaults(format + "uniform writeonly image2D a;").empty());

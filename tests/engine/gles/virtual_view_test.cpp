@@ -75,7 +75,7 @@ TEST_F(ShadowDepthGl, UncertainDepthIsAlwaysMeasured) {
             EXPECT_TRUE(isAll(r));
 }
 
-TEST_F(ShadowDepthGl, NearerObjectsAreAlwaysMeasured) {
+TEST_F(ShadowDepthGl, RealObjectsAboveTheTableAreAlwaysMeasured) {
     InverseDepthField field = tableField(0.01);
     constexpr PixelRect kThing{110, 130, 116, 136};
     for (int y = kThing.y0; y < kThing.y1; ++y)

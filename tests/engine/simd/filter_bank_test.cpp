@@ -97,7 +97,7 @@ TEST(FilterBank, ShippedFiltersCoverMostClasses) {
     EXPECT_GT(learned, GradientClasses::kCount / 2);
 }
 
-TEST(FilterBank, TheCubicFilterKeepsFlatPictures) {
+TEST(FilterBank, TheCubicFilterUsesOnlyNeighboursNearTheSubPixel) {
     // The weight of the pixel itself completes the sum to one. The other weights are those of Keys'
     // cubic.
     const std::int16_t* cubic = FilterBank::prior().cubic();

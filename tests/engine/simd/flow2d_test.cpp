@@ -256,7 +256,7 @@ TEST(Flow2d, RefinementImprovesTheGivenVectors) {
     EXPECT_FALSE(pair.flow.errorsGiven());
 }
 
-TEST(Flow2d, WithoutMatchedTilesThereAreNoTwoWayErrors) {
+TEST(Flow2d, OnlyRefinementGivesTwoWayErrorsEvenWithoutMatchedTiles) {
     Pair pair(wavesMoved(kSmall, {0, 0}), wavesMoved(kSmall, {1, 0}));
     pair.refine(seedsAround({1, 0}, 0.1), std::vector<Cell>(1200));
     pair.work.matched = 0;

@@ -300,9 +300,9 @@ TEST(WeighStep, WithoutChangedTilesNothingIsComputed) {
 }
 
 // The weight of a patch of low contrast uses the photometric gain between the sensors, measured at
-// half resolution. This gain must not change where no changed tile is matched, even if the flow
+// half resolution. This gain must not change if no changed tile is matched, even if the flow
 // changes.
-TEST(WeighStep, TheGainStaysWhereNoChangedTileIsMatched) {
+TEST(WeighStep, TheGainStaysIfNoChangedTileIsMatched) {
     WeighCase kept = plainCase(), renewed = plainCase(), first = plainCase();
     kept.run();
     renewed.run();
