@@ -57,7 +57,7 @@ int highestNice() {
     return highest;
 }
 
-TEST_F(FilterLearningTest, LearningHasALowPriorityUnlessFramesWait) {
+TEST_F(FilterLearningTest, LearningHasALowPriorityUnlessFramesWaitForIt) {
     const int before = highestNice();
     {
         FilterLearning learning(options);
