@@ -30,14 +30,14 @@ std::string programManPage() {
     out += ".SH SYNOPSIS\n.B mfard\n[OPTIONS]\n.SH OPTIONS\n";
     for (const ArgumentText& argument : argumentTexts())
         out += entry(argument);
-    out += ".SH SIGNALS\nTERM and INT end it, HUP reads the configuration file again.\n"
-           ".SH \"EXIT STATUS\"\n" +
-           entry("0", "success") + entry("64", "wrong command line") +
-           entry("65", "wrong data in a file") + entry("66", "a file cannot be read") +
-           entry("69", "a device or OpenGL ES is not available") +
-           entry("70", "any other failure") +
-           entry("74", "a display or recording cannot be written") +
-           entry("78", "wrong configuration") + ".SH \"SEE ALSO\"\n.BR mfard.toml (5)\n";
+    out +=
+        ".SH SIGNALS\nTERM and INT end mfard. On HUP, mfard reads the configuration file again.\n"
+        ".SH \"EXIT STATUS\"\n" +
+        entry("0", "success") + entry("64", "wrong command line") +
+        entry("65", "wrong data in a file") + entry("66", "a file cannot be read") +
+        entry("69", "a device or OpenGL ES is not available") + entry("70", "any other failure") +
+        entry("74", "a display or recording cannot be written") +
+        entry("78", "wrong configuration") + ".SH \"SEE ALSO\"\n.BR mfard.toml (5)\n";
     return out;
 }
 
