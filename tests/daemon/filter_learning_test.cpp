@@ -30,7 +30,7 @@ struct FilterLearningTest : testing::Test {
         }
     }
 
-    // Each test has its own folder, because tests run concurrently in separate processes.
+    // Each test has its own file, because tests run concurrently in separate processes.
     FilterLearningOptions options{std::filesystem::path(testing::TempDir()) /
                                       ("mfar-filters-" + std::to_string(::getpid()) + ".learned"),
                                   "video, still", true};

@@ -245,8 +245,8 @@ TEST(Status, SummaryReportsTheSourcesOfPoses) {
     EXPECT_NEAR(pose["still_track_ms"]["median"].get<double>(), 8, 0.1);
 }
 
-/// Shows a frame without an epipolar error, then two frames that were matched along epipolar lines:
-/// the first with a refined pose, the second with a predicted pose.
+/// Shows three frames that were matched along epipolar lines: the first without an epipolar error,
+/// the second with a refined pose, the third with a predicted pose.
 void showLines(Stats& stats) {
     FrameStats frame;
     frame.usedStill = frame.usedPose = true;
