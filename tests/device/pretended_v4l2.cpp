@@ -14,7 +14,7 @@
 //   silent        no further pictures
 //   repeat        always the same picture
 //   rate HZ       this rate instead of the requested one
-//   buffers N     grants at most N to the next request
+//   buffers N     grants at most N buffers to a request
 //   error N       every N-th picture has the error flag
 //   short N       every N-th picture is truncated
 //   backward N    every N-th picture's time is before the previous one's
