@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Two simulated V4L2 cameras fail in many ways. The video must continue while the video camera
-# works. Picture, status and summary must report the fault.
+# works. Status, counters or log must report each fault.
 . "$(dirname "$0")/lib.sh"
 
 ctl="$(dirname "$sim")/mfarctl"
