@@ -60,7 +60,7 @@ TEST(MfarEvalTraced, ComparesFramesOfEachMethodAndKeepsTheTruth) {
     EXPECT_GT(std::filesystem::file_size(folder / "video/still-life-orbit.y4m"), 22 * kFrameBytes);
 }
 
-TEST(MfarEvalTraced, InvalidRequestsEndWithAMessageAndStatus2) {
+TEST(MfarEvalTraced, InvalidRequestsEndWithStatus2) {
     const TempFolder folder;
     for (const char* arguments :
          {"--scenes absent", "--methods magic", "--paths away", "--budget nan", "--frames 0",
