@@ -185,7 +185,7 @@ const Fault kFaults[] = {
 };
 
 // One test covers all faults, because a process for each would take a minute in all.
-TEST(Recording, EveryFaultIsRefusedWithFileAndLine) {
+TEST(Recording, EveryFaultIsRefusedWithTheFileAndTheLineIfKnown) {
     for (const Fault& fault : kFaults) {
         SCOPED_TRACE(fault.name);
         const TempFolder folder;
