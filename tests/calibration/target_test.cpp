@@ -28,7 +28,7 @@ TEST(Target, KalibrsDescriptionIsRead) {
     EXPECT_TRUE(grid.points[30].isApprox(Eigen::Vector3d(expected, expected, 0), 1e-12));
 }
 
-TEST(Target, ImpossibleDescriptionsAreRefusedWithTheirLine) {
+TEST(Target, ImpossibleDescriptionsAreRefusedWithTheFileAndTheLineIfKnown) {
     struct Fault {
         const char *from, *to, *where, *what;
     };
