@@ -7,7 +7,7 @@
 #   LABELS       labels of CTest
 #   COST         duration of a process [s] (default: 10)
 #   ENVIRONMENT  variables, as NAME=VALUE
-# LABELS and ENVIRONMENT may be empty. Without this policy, CMake 3.31 warns.
+# LABELS and ENVIRONMENT may be empty. Without this policy, CMake 3.31 warns about empty values.
 if(POLICY CMP0174)
     cmake_policy(SET CMP0174 NEW)
 endif()

@@ -35,7 +35,8 @@ void writeAll(const fs::path& root) {
 }
 
 /// A fault: in `file`, the text `from` is replaced by `to`. Loading the folder or file `load` must
-/// then give a message that starts with `where` and contains `what`.
+/// then give a message that starts with `where` and contains `what`. If `what` is "no fault found",
+/// the text is valid also after the replacement, and loading must succeed.
 struct Fault {
     const char *load, *file, *from, *to, *where, *what;
 };
@@ -107,7 +108,7 @@ constexpr Fault kFaults[] = {
     {".", kCv, "M1", "M1", ".: ", "contains neither rig.yaml nor"},
 };
 
-TEST(RigFiles, EveryFaultIsRefusedWithFileAndLine) {
+TEST(RigFiles, EveryFaultIsRefusedWithTheFileAndTheLineIfKnown) {
     const TempFolder sound;
     writeAll(sound.path());
     for (const char* const load : {"own", kChain, kCv})

@@ -28,7 +28,7 @@ TEST(Target, KalibrsDescriptionIsRead) {
     EXPECT_TRUE(grid.points[30].isApprox(Eigen::Vector3d(expected, expected, 0), 1e-12));
 }
 
-TEST(Target, ImpossibleDescriptionsAreRefusedWithTheirLine) {
+TEST(Target, ImpossibleDescriptionsAreRefusedWithTheFileAndTheLineIfKnown) {
     struct Fault {
         const char *from, *to, *where, *what;
     };
@@ -118,8 +118,8 @@ void expectCorners(const Target& target, const Scene& scene, const std::vector<C
     EXPECT_LT(bias.norm(), 0.03);  // an error of half a pixel would fail here
 }
 
-/// A grid as Kalibr prints it. Each tag is rotated by `turn` quarter turns. Its border is 1 or 2
-/// cells.
+/// A grid as Kalibr prints it. Each tag is rotated by `turn` quarter turns and has a border of
+/// `border` cells (1 or 2).
 cv::Mat1b printedGrid(const Target& grid, int cell, int turn, int border) {
     const int tagCells = 6 + 2 * border;
     const int gap = static_cast<int>(std::lround(tagCells * grid.spacing));

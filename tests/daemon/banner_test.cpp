@@ -26,8 +26,8 @@ gpu::Texture plainPicture(std::uint8_t level) {
     return out;
 }
 
-/// Returns the index of the first row with a value other than `level`; the picture's height if
-/// there is none.
+/// Returns the index of the first row in which a colour channel is not `level`; the picture's
+/// height if there is no such row.
 int rowsOf(const std::vector<std::uint8_t>& pixels, std::uint8_t level) {
     const std::size_t row = std::size_t{4} * kPictureSize.width;
     for (std::size_t y = 0; y < pixels.size() / row; ++y)

@@ -111,13 +111,13 @@ TEST(CameraWatch, MissedFramesAreCountedByTheCameraOrElseFromFrameTimes) {
     EXPECT_EQ(stored.watch.state().counters.missed, std::nullopt);
 }
 
-TEST(CameraWatch, ChecksumsDependOnEveryByte) {
+TEST(CameraWatch, ChecksumsDependOnEveryByteOfTheRowsThatTheyCover) {
     std::vector<std::uint8_t> pixels(40 * 64, 7);
     const ImageView view{pixels.data(), {37, 64}, 40, PixelFormat::Gray8};
     const std::uint64_t before = sparseChecksum(view);
     EXPECT_EQ(sparseChecksum(view), before);
     for (std::size_t x = 0; x < 37; ++x) {
-        pixels[2 * 40 + x] ^= 1;  // row 2 is the first that the checksum covers
+        pixels[2 * 40 + x] ^= 1;  // row 2 is the first covered row
         EXPECT_NE(sparseChecksum(view), before) << x;
         pixels[2 * 40 + x] ^= 1;
     }

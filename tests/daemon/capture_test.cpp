@@ -124,7 +124,7 @@ TEST(CaptureThread, StillsReplacedBeforeAFrameUsedThemAreCounted) {
     EXPECT_EQ(frame->stillsSuperseded, StillBox::kCapacity - 1);
 }
 
-TEST(CaptureThread, ADroppedFramePassesItsStillAndItsCountOfReplacedStillsOn) {
+TEST(CaptureThread, ADroppedFrameGivesItsStillAndItsCountOfReplacedStillsToTheNext) {
     CapturedFrame older{{ImageView{}, Timestamp{1}, nullptr},
                         CapturedStill{{ImageView{}, Timestamp{1}, nullptr}},
                         {}};
@@ -141,7 +141,7 @@ TEST(CaptureThread, ADroppedFramePassesItsStillAndItsCountOfReplacedStillsOn) {
     EXPECT_EQ(newest.stillsSuperseded, 4U);
 }
 
-TEST(CaptureThread, AnInvalidStillEndsTheRunOnAnyThread) {
+TEST(CaptureThread, AnInvalidStillEndsTheRunInEveryHandOverMode) {
     for (const HandOver handOver : {HandOver::NewestWins, HandOver::Lossless}) {
         Capture capture(handOver);
         capture.still().send(1, 0, Size{4, 4});
@@ -151,7 +151,7 @@ TEST(CaptureThread, AnInvalidStillEndsTheRunOnAnyThread) {
     }
 }
 
-TEST(CaptureThread, AFailingStillCameraEndsTheRunOnAnyThread) {
+TEST(CaptureThread, AFailingStillCameraEndsTheRunInEveryHandOverMode) {
     for (const HandOver handOver : {HandOver::NewestWins, HandOver::Lossless}) {
         Capture capture(handOver);
         capture.still().fail("the still camera has burnt");

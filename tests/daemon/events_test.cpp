@@ -19,7 +19,7 @@ TEST(Events, AnotherThreadCanWakeTheWaitingThread) {
     EXPECT_EQ(events.wait().kind, Event::Kind::Wake);
 }
 
-TEST(Events, SignalsAreDeliveredWithTheirNumberAndBeforeWakes) {
+TEST(Events, SignalsHaveTheirNumberAndComeBeforeWakeEvents) {
     Events events;
     events.wake();
     kill(getpid(), SIGHUP);

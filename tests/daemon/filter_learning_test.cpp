@@ -30,7 +30,7 @@ struct FilterLearningTest : testing::Test {
         }
     }
 
-    // Each test has its own folder, because tests run concurrently in separate processes.
+    // Each test has its own file, because tests run concurrently in separate processes.
     FilterLearningOptions options{std::filesystem::path(testing::TempDir()) /
                                       ("mfar-filters-" + std::to_string(::getpid()) + ".learned"),
                                   "video, still", true};
@@ -57,7 +57,7 @@ int highestNice() {
     return highest;
 }
 
-TEST_F(FilterLearningTest, LearningHasALowPriorityUnlessFramesWait) {
+TEST_F(FilterLearningTest, LearningHasALowPriorityUnlessFramesWaitForIt) {
     const int before = highestNice();
     {
         FilterLearning learning(options);

@@ -170,7 +170,7 @@ TEST(Governor, StillsThatMakeFramesLateAreAllowedOnceInFortyFrames) {
     governor.add({.ms = 90, .newStill = true});
     governor.add({80});
     EXPECT_TRUE(governor.mayTakeStill())
-        << "a still whose frame was in time does not forbid the next one";
+        << "after a still whose frame was in time, the next still is allowed";
 }
 
 TEST(Governor, TheTimeForAStillDoesNotCountAsTimeOfTheLevel) {
@@ -196,7 +196,7 @@ TEST(Governor, FramesWithoutAStillDoNotCountForLevelsThatUseStills) {
     Governor fast(fourLevels(), 30);
     for (int i = 0; i < 100; ++i)
         fast.add({.ms = 2, .usedStill = false});
-    EXPECT_EQ(fast.level().name, "c") << "level off uses no still, so its frames must rate it";
+    EXPECT_EQ(fast.level().name, "c") << "frames without a still rate the level \"off\"";
 }
 
 TEST(Governor, IgnoresInvalidTimes) {

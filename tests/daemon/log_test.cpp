@@ -154,7 +154,7 @@ TEST(Log, MessagesThatNobodyReadsDoNotBlockAThread) {
     const std::string part(4096, 'x');
     while (write(ends[1], part.data(), part.size()) > 0) {
     }
-    fcntl(ends[1], F_SETFL, 0);  // writes to the socket block from now on
+    fcntl(ends[1], F_SETFL, 0);  // writes to the pipe block from now on
     Log log(ends[1], Log::Style::Plain);
     for (int i = 0; i < 20; ++i)
         log.notice("lost");

@@ -130,8 +130,8 @@ TEST(ObjectsConfig, UnreadableModelsAreReportedWithLineAndColumn) {
                 HasSubstr("must be one of \"tag36h11\""));
 }
 
-// The tag is on a wall that faces the world's -y. Its x axis is the world's x, its y axis is the
-// world's -z.
+// The tag is on a wall that faces the world's -y. The tag's x axis is the world's x, the tag's y
+// axis is the world's -z.
 TEST(ObjectsConfig, ObjectsAreAnchoredToTheirTag) {
     const TagKey key{TagFamily::Tag36h11, 5};
     Eigen::Matrix3d R_world_tag;

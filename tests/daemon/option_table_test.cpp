@@ -116,7 +116,7 @@ void theParserTakesTheDefault(const Key& key) {
     EXPECT_THAT(faults(key, key.option->byDefault), IsEmpty());
 }
 
-TEST(OptionTable, TheParserUsesTheDefaultsOfTheTable) {
+TEST(OptionTable, TheParserAcceptsTheDefaultsOfTheTable) {
     for (const Key& key : allKeys()) {
         SCOPED_TRACE(key.name());
         theParserTakesTheDefault(key);
@@ -256,7 +256,7 @@ TEST(OptionDefaults, TheHelpTextOfSourceNamesEverySceneAndCameraPath) {
     }
 }
 
-TEST(OptionText, ADefaultFileHasEveryKeyOnce) {
+TEST(OptionText, TheDefaultFileHasEveryKeyAndNoLineOfMoreThan100Characters) {
     const std::string text = defaultConfigText();
     for (const OptionSection& section : configOptions()) {
         if (!section.name.empty()) {

@@ -68,7 +68,7 @@ TEST_F(RestartPauseTest, ADamagedStateFileCountsAsMissing) {
     }
 }
 
-TEST_F(RestartPauseTest, WithoutAStateFileEveryPauseIsTheSame) {
+TEST_F(RestartPauseTest, WithoutAWritableStateFileEveryPauseIsTheSame) {
     for (const std::filesystem::path& none : {folder.path() / "gone" / "restarts", {}}) {
         file = none;
         EXPECT_EQ(fail().wait.count(), 5);

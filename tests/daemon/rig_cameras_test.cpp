@@ -40,7 +40,7 @@ protected:
         out.rateHz = rateHz;
         return out;
     }
-    /// Sets the faults that the simulated `device` has from now on.
+    /// Sets how the simulated `device` behaves from now on, see tests/device/pretended_v4l2.cpp.
     void says(const std::string& device, const std::string& words) const {
         const std::filesystem::path next = folder_.path() / "next";
         std::ofstream(next) << words;

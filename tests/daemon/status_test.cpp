@@ -231,8 +231,8 @@ TEST(Status, SummaryReportsTheSourcesOfPoses) {
     EXPECT_EQ(pose["tracked"], 2);
     EXPECT_EQ(pose["measured"], 1);
     EXPECT_NEAR(pose["tracked_share"].get<double>(), 2. / 3, 1e-9);
-    EXPECT_EQ(pose["epipolar_frames"], 2) << "each of 2 frames with lines";
-    EXPECT_EQ(pose["tiles_searched_2d"], 6) << "3 tiles in each of 2 frames with lines";
+    EXPECT_EQ(pose["epipolar_frames"], 2) << "2 frames were matched along lines";
+    EXPECT_EQ(pose["tiles_searched_2d"], 6) << "3 tiles in each of these 2 frames";
     EXPECT_EQ(pose["tags"], 6) << "frames without tags do not count";
     EXPECT_EQ(pose["reprojection_px"], 0.25);
     EXPECT_EQ(pose["full_searches"], 1);
@@ -245,8 +245,8 @@ TEST(Status, SummaryReportsTheSourcesOfPoses) {
     EXPECT_NEAR(pose["still_track_ms"]["median"].get<double>(), 8, 0.1);
 }
 
-/// Shows a frame without an epipolar error, then two frames that were matched along epipolar lines:
-/// the first with a refined pose, the second with a predicted pose.
+/// Shows three frames that were matched along epipolar lines: the first without an epipolar error,
+/// the second with a refined pose, the third with a predicted pose.
 void showLines(Stats& stats) {
     FrameStats frame;
     frame.usedStill = frame.usedPose = true;

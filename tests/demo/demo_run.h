@@ -11,7 +11,8 @@
 
 namespace mfar::demo {
 
-/// Means over the frames that have a true picture. The luma is compared, without a border of 32 px.
+/// Means over the frames that have a still and a true picture. The luma is compared, without a
+/// border of 32 px.
 struct Quality {
     int frames = 0;
     double upscaledPsnrDb = 0;
@@ -43,7 +44,7 @@ struct DemoRun {
 
 /// Runs the pipeline on all frames. Each frame is matched with the newest still taken before it.
 /// `progress` gets the number of processed frames and of all frames. Needs a current GL context.
-/// Throws std::runtime_error if no frame of the recording has a true picture.
+/// Throws std::runtime_error if no frame of the recording has both a still and a true picture.
 [[nodiscard]] DemoRun runDemo(const Recording& recording,
                               const std::function<void(int, int)>& progress);
 

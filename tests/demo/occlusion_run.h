@@ -11,7 +11,7 @@
 
 namespace mfar::demo {
 
-/// Means over the frames that have a true picture, without the first eight frames.
+/// Means over the frames that have a true depth, pose and picture, without the first eight frames.
 struct OcclusionQuality {
     int frames = 0;
     double absrel = 0;        ///< median over the picture of |z - true z| / true z
@@ -21,8 +21,8 @@ struct OcclusionQuality {
 };
 
 struct OcclusionShown {
-    cv::Mat depth, trueDepth;
-    cv::Mat overlaid;  ///< the true picture with the object drawn over everything
+    cv::Mat depth, trueDepth;  ///< inverse depths [1/unit of the poses] at video size; 0: unknown
+    cv::Mat overlaid;          ///< the true picture with the object drawn over everything
     cv::Mat composite, trueComposite;
     cv::Mat visible;  ///< CV_8U at output size; 255 where the virtual object should be visible
     cv::Mat hidden;   ///< CV_8U at output size; 255 where a real object hides the virtual object
@@ -36,7 +36,7 @@ struct OcclusionRun {
 /// Shows objects in a recording of a synthetic scene, with poses found from the scene's tags. Depth
 /// is computed in the whole picture, not only near objects. `progress` gets the number of processed
 /// frames and of all frames. Needs a current GL context. Throws std::runtime_error if the last
-/// frame has no true depth, pose or picture.
+/// frame has no true depth, pose or picture, or is one of the first eight frames.
 [[nodiscard]] OcclusionRun runOcclusion(const Recording& recording, synthetic::Scene scene,
                                         const std::vector<VirtualObject>& objects,
                                         const std::function<void(int, int)>& progress);

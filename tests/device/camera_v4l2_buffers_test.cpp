@@ -115,8 +115,8 @@ TEST(CameraV4l2Buffers, FewBuffersSufficeForManyPictures) {
                 EXPECT_EQ(held[i].view().size, kPicture);
                 EXPECT_EQ(held[i].view().data[100], i);
             }
-            // The user holds as many pictures as the buffers allow. So the next picture is lost and
-            // counted.
+            // The user holds as many pictures as options.buffers allows. So the next picture is
+            // lost and counted.
             ASSERT_TRUE(fake.deliver());
             EXPECT_FALSE(camera.next(0ms).has_value());
             EXPECT_EQ(camera.cameraCounters().missed, 1U);

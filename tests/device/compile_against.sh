@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# Compiles and tests the sources that depend on a device library's version, in a root folder with
-# another Debian release. So both versions that CMake supports are tested. Usage: compile_against.sh
-# CACHE SUITE, where SUITE is bookworm, trixie or sid. Needs root and mmdebstrap. The root folder
-# takes two minutes to create and is kept in CACHE for a week.
+# Compiles and tests the sources that use libgpiod or libcamera with another Debian release's versions
+# of these libraries, in a root folder with that release. Usage: compile_against.sh CACHE SUITE, where
+# SUITE is bookworm, trixie or sid. Needs root and mmdebstrap. The root folder takes two minutes to
+# create and is kept in CACHE for a week.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../.."
 # shellcheck source=toolchains/debian.sh

@@ -87,7 +87,7 @@ TEST_F(AutoDisplay, RunsWithoutAScreenAndReportsIt) {
     EXPECT_THAT(display_->name(), HasSubstr("kms missing; fbdev missing"));
     EXPECT_EQ(display_->fault(), display_->name());
     EXPECT_FALSE(display_->lastShown());
-    EXPECT_LE(kms_.looks, 5);  // the display looks for a lost screen twice a second
+    EXPECT_LE(kms_.looks, 5);  // the display looks for a missing screen twice a second
     EXPECT_NO_THROW(display_->finish());
 }
 

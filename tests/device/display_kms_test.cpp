@@ -144,7 +144,7 @@ TEST_F(KmsScreenTest, ThePictureStaysWhileTheContextIsRecreated) {
     EXPECT_TRUE(driver_.console);
 }
 
-// One descriptor never becomes readable. The other end of the second descriptor is closed.
+// At first the descriptor never becomes readable. Then its other end is closed.
 TEST(WaitForFlip, EndsAtTheTimeLimitOrWhenTheDeviceIsGone) {
     std::array<int, 2> ends{};
     ASSERT_EQ(pipe(ends.data()), 0);

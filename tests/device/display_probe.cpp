@@ -1,5 +1,5 @@
-// Shows a test picture on a real screen and prints when it is shown and where. It is used on boards
-// and in a virtual machine whose host takes a screenshot. Usage:
+// Shows a test picture on a real screen and prints when the picture is shown and where. This
+// program runs on boards, and in a virtual machine whose host takes a screenshot. Usage:
 //   display_probe SCREEN PICTURES PPM SECONDS
 // SCREEN is as in openScreen(). The program waits for a screen, shows PICTURES pictures with a
 // moving bar, writes the last one to the file PPM as lastShown() returns it, and keeps it on the

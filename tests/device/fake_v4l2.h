@@ -81,7 +81,7 @@ public:
     std::uint32_t clock = V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC;
     std::size_t padding = 0;  ///< padding of rows [bytes]
     std::uint32_t mostBuffers = 16;
-    /// If true, requests for more than mostBuffers buffers fail with out of memory. Otherwise fewer
+    /// If true, requests for more than mostBuffers buffers fail with ENOMEM. Otherwise mostBuffers
     /// buffers are granted.
     bool refusesMore = false;
     int sizeFault = 0;

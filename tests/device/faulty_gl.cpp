@@ -1,10 +1,10 @@
 // A libGLESv2.so.2 that is found before the real one, through LD_LIBRARY_PATH. It calls the real
 // functions, which it finds through libEGL. Words in the file MFAR_FAULTY_GL select its faults.
-// They may change at any time:
+// The words may change at any time:
 //   never      no fence is signalled, and waiting for the GPU does not return
 //   hang       drawing does not return
-//   lost WORD  the current context is lost when the words become these: its calls do nothing and
-//              return zero; the next context works
+//   lost WORD  each new WORD loses the current context once: its calls do nothing and return zero;
+//              the next context works
 //   broken     every context is lost as soon as it is created
 // A test in the same process may also make it lose contexts, see faulty_moments.h.
 

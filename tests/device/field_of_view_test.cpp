@@ -8,7 +8,7 @@ namespace {
 TEST(FieldOfView, UncroppedModesShowTheWholeFieldOfView) {
     EXPECT_TRUE(showsWholeField({4056, 3040}, {4056, 3040}, {640, 480}));
     EXPECT_TRUE(showsWholeField({4032, 3024}, {4056, 3040}, {640, 480}))
-        << "a mode that is cropped only for alignment";
+        << "cropping for alignment must not count";
 }
 
 TEST(FieldOfView, CroppingInOneDirectionIsAllowed) {

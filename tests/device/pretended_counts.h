@@ -46,7 +46,7 @@ public:
         counts_[camera].gain = value;
     }
     /// `lastGood`: time of the last valid picture since the camera was opened [us,
-    /// CLOCK_MONOTONIC]. It is updated if this picture is valid.
+    /// CLOCK_MONOTONIC]. It is updated if the picture `taken` is valid.
     void add(const std::string& camera, const v4l2_buffer& taken, std::size_t whole,
              std::optional<std::int64_t>& lastGood) {
         constexpr std::int64_t kAhead = 50'000, kOldest = 10'000'000;

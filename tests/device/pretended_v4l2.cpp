@@ -1,8 +1,8 @@
 // A library that is loaded before a program (LD_PRELOAD). It simulates V4L2 cameras behind the
 // program's calls of open(), ioctl() and mmap(), and a trigger line. The devices are the files in
 // the folder MFAR_PRETENDED_V4L2: each file NAME makes "/dev/NAME" a camera that offers YUYV of any
-// size. The words in the file select faults; they may change at any time, by renaming another file
-// onto it:
+// size. The words in the file select faults; the words change when another file is renamed onto
+// this file, which is allowed at any time:
 //   hang          the calls that move buffers do not return
 //   hang-open     opening does not return
 //   hang-close    closing does not return
@@ -14,7 +14,7 @@
 //   silent        no further pictures
 //   repeat        always the same picture
 //   rate HZ       this rate instead of the requested one
-//   buffers N     grants at most N to the next request
+//   buffers N     grants at most N buffers to a request
 //   error N       every N-th picture has the error flag
 //   short N       every N-th picture is truncated
 //   backward N    every N-th picture's time is before the previous one's

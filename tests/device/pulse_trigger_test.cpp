@@ -24,7 +24,8 @@ struct Level {
     Timestamp time;
 };
 
-/// A wire from the trigger line to the loopback input, which sees the level a little later.
+/// A wire from the trigger line to the loopback input. `history`: all levels that were set.
+/// `edges`: edges that the input has not fetched yet.
 struct Wire {
     std::mutex mutex;
     std::vector<Level> history;

@@ -24,7 +24,8 @@ constexpr std::uint32_t kSeeds = 200;
 constexpr int kSteps = 200;
 constexpr milliseconds kEarly{500};
 /// Pauses before the camera is restarted. Index: number of failed starts in a row. A start has
-/// failed if all requests are cancelled within kEarly. After the last entry the camera is lost.
+/// failed if all requests are cancelled within kEarly. After five failed starts in a row the camera
+/// is lost.
 constexpr std::array<milliseconds, 5> kPauses = {milliseconds(0), milliseconds(0), milliseconds(50),
                                                  milliseconds(100), milliseconds(200)};
 

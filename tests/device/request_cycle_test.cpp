@@ -86,7 +86,7 @@ private:
     bool hangs_ = false;
 };
 
-/// With this limit no request counts as ended early.
+/// With this limit, a cancellation of all requests never counts as early.
 constexpr RestartLimits kPatient{.early = milliseconds(0)};
 
 bool takes(FakeDriver& camera, std::int64_t number) {

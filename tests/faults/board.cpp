@@ -108,7 +108,7 @@ std::string words(const Fault& fault) {
 }  // namespace
 
 Board& Board::get() {
-    static auto* board = new Board;  // never destroyed, as threads outlive main()
+    static auto* board = new Board;  // never destroyed: threads outlive main()
     return *board;
 }
 

@@ -73,7 +73,7 @@ std::string textOf(const ordered_json& said, const char* key) {
 }  // namespace
 
 Judge& Judge::get() {
-    static auto* judge = new Judge;  // never destroyed, as threads outlive main()
+    static auto* judge = new Judge;  // never destroyed: threads outlive main()
     return *judge;
 }
 
@@ -147,9 +147,9 @@ Ns Judge::missing(Ns at) const {
     return device.active > 0 ? std::min(age(at), at - device.since) : 0;
 }
 
-/// Time for which the GPU has finished no picture because of a fault. It is 0 if this is not the
-/// GPU's fault: while the camera fails, during the first pictures (which may take longer), and
-/// after mfard stopped using the GPU.
+/// Time for which the GPU has finished no picture because of a fault. It is 0 while a missing
+/// picture is not the GPU's fault: while the camera fails, during the first pictures (which may
+/// take longer), and after mfard stopped using the GPU.
 Ns Judge::unfinished(Watched gpu, Ns at) const {
     if (calm_[gpu].active == 0 || calm_[Video].active > 0) return 0;
     if (frames_ < kProvenFrames || isGpuGivenUp_) return 0;
@@ -172,7 +172,7 @@ void Judge::judgeState(const ordered_json& said, Ns asked) {
     const std::string fault = textOf(said, "fault");
     const bool isFine = state == "ok" && fault.empty();
     // If the screen's reader stalls, the pipe still takes some pictures. Then the writing thread
-    // waits. Status reports it only after the time budget of this thread.
+    // waits. Status reports this wait only after the thread's time budget.
     const Ns stalled = asked - std::max(calm_[Screen].since, calm_[Video].since);
     // mfard recognises a repeated picture only after several pictures.
     const bool repeats = calm_[Video].active > calm_[VideoDevice].active;
@@ -294,7 +294,7 @@ void Judge::stats(const ordered_json& said) {
         known(device, &broken, &badTimes, &gain, &ungained);
         if (gain != Board::kGain || ungained > 0)
             fail(fmt::format("the {} camera's gain is {}, but {} is configured; {} pictures were "
-                             "taken without it",
+                             "taken before it was set",
                              camera, gain, Board::kGain, ungained));
         const ordered_json& counted = said.at("cameras").at(camera);
         if (counted.at("broken") != broken || counted.at("bad_times") != badTimes)

@@ -38,8 +38,8 @@ public:
     void stats(const nlohmann::ordered_json& said);
     void recording(const std::string& folder);
     /// Checks memory, descriptors and threads while there are no faults. The first call sets the
-    /// reference. Returns false if the process uses more. The caller can retry, because
-    /// running requests can still end.
+    /// reference. Returns false if the process now uses more than that; for memory, `moreBytes`
+    /// more are allowed. The caller can retry, because running requests can still end.
     [[nodiscard]] bool holdsNoMore(std::uint64_t moreBytes = 8U << 20U);
 
     void note(const std::string& text);

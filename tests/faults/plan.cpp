@@ -77,7 +77,7 @@ constexpr Ns kLongestOfGpu = 3300 * kMs;
 /// reading advances this clock by half a microsecond.
 constexpr std::uint64_t kStartTime = 40'000;
 
-/// Draws a kind of fault. Kinds that can stop pictures are three times as likely.
+/// Draws a kind of fault. Kinds that can stop pictures are three times as likely as the others.
 const Kind& drawnKind(std::mt19937_64& random, std::string_view only, bool hasGpu) {
     const auto isMeant = [&](const Kind& kind) { return kind.name.find(only) != only.npos; };
     const auto kinds = std::span(kKinds).first(kKinds.size() - (hasGpu ? 0 : kOfGpu));

@@ -62,7 +62,7 @@ struct Plan {
     std::vector<Episode> episodes;
     Ns endAfter = 0;
     bool hasTrigger = false;
-    bool endsBeforeReady = false;  ///< mfard must end before READY or soon after it
+    bool endsBeforeReady = false;  ///< mfard is ended before READY or soon after it
     bool isKilled = false;         ///< mfard is ended with SIGKILL and started again
 
     /// Chooses random faults of the kinds whose names contain `only`. Throws std::runtime_error if

@@ -37,7 +37,7 @@ public:
     bool waitFor(const void* key, Ns deadline = kNever);
     /// Wakes the first `count` tasks that wait with this key. Returns the number of woken tasks.
     int wake(const void* key, int count = std::numeric_limits<int>::max());
-    /// Like poll(), including -1 with errno.
+    /// Like poll(). Returns -1 with errno if poll() does.
     int waitForFiles(pollfd* fds, nfds_t count, Ns deadline);
     void yield();
     /// Gives other tasks a turn at random, in a fixed share of the calls.

@@ -40,12 +40,12 @@ void requireSound(const Mesh& mesh, const Model& model) {
     for (const Eigen::Vector3f& p : mesh.positions)
         require(p.allFinite(), "a vertex position is not finite");
     for (const Eigen::Vector3f& n : mesh.normals)
-        require(isUnit(n), "a normal has not the length 1");
+        require(isUnit(n), "a normal does not have the length 1");
     for (const Eigen::Vector2f& uv : mesh.uvs)
         require(uv.allFinite(), "texture coordinates are not finite");
     for (const Eigen::Vector4f& t : mesh.tangents)
         require(isUnit(t.head<3>()) && std::abs(t.w()) == 1,
-                "a tangent has not the length 1 or no sign");
+                "a tangent does not have the length 1, or has no sign");
     for (const auto& triangle : mesh.triangles)
         for (const std::uint32_t i : triangle)
             require(i < count, "a triangle refers to a vertex that does not exist");

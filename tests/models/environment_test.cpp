@@ -96,7 +96,7 @@ TEST(EnvironmentMap, LargePicturesAreReducedByAveraging) {
         expectClose(e.radiance[i], Eigen::Vector3f::Constant(1.5F * 100.5F));
 }
 
-TEST(EnvironmentMap, FaultsAreReportedInOneLine) {
+TEST(EnvironmentMap, InvalidFilesAreRefused) {
     const Bytes pixel = {8, 8, 8, 136};
     EXPECT_THAT(environmentFault({}), HasSubstr("sky.hdr: is neither PNG nor JPEG"));
     EXPECT_THAT(environmentFault(hdr("#?RADIANCE\n", {})),

@@ -144,7 +144,7 @@ TEST(GltfFaults, InvalidSparseAccessorsAreRefused) {
     EXPECT_THAT(sparse("/indices/componentType", 5126), HasSubstr("invalid"));
 }
 
-TEST(GltfFaults, InconsistentVertexCountsAreRefused) {
+TEST(GltfFaults, InvalidVerticesAndIndicesAreRefused) {
     GltfMaker maker = oneTriangle();
     maker.mesh(maker.floats({0, 0, NAN, 1, 0, 0, 0, 1, 0}, 3));
     EXPECT_THAT(faultOf(maker), HasSubstr("meshes[1].primitives[0].attributes.POSITION: element 0"

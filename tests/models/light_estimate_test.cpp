@@ -57,8 +57,8 @@ private:
 
 RigidTransform lookingAlong(const Eigen::Vector3d& direction) {
     const Eigen::Vector3d d = direction.normalized();
-    // The smallest rotation from z to d. Not by Eigen's FromTwoVectors(), which takes 12 s to
-    // compile.
+    // The smallest rotation from z to d. Eigen's FromTwoVectors() is not used, because compiling it
+    // takes 12 s.
     return {Eigen::Quaterniond(1 + d.z(), -d.y(), d.x(), 0).normalized(), {1, 2, 3}};
 }
 

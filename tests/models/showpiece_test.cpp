@@ -78,7 +78,7 @@ TEST(Showpiece, NormalsAgreeWithTriangles) {
             for (const std::uint32_t i : {a, b, c})
                 if (!(mesh.normals[i].dot(front) > 0)) ++against;
         }
-        EXPECT_EQ(against, 0U) << "corners have a normal against their triangle; material "
+        EXPECT_EQ(against, 0U) << "normals point away from their triangle's front; material "
                                << mesh.material;
     }
 }

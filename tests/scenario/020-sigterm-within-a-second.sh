@@ -1,6 +1,6 @@
 #!/bin/bash
-# SIGTERM and SIGINT must end mfard within one second, whatever it waits for. The limits are half a
-# second longer, because of the scheduler.
+# SIGTERM and SIGINT must end mfard within one second, whatever it waits for. Except in the last case,
+# the limits are half a second longer, because of the scheduler.
 . "$(dirname "$0")/lib.sh"
 
 limit=1500

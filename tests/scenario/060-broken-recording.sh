@@ -1,5 +1,5 @@
 #!/bin/bash
-# A broken recording must give one error with its file and line, and no picture.
+# A broken recording must give one error that names the file, and the line if the file is a list.
 . "$(dirname "$0")/lib.sh"
 
 record run 3 --source synthetic:flat,rest

@@ -6,7 +6,7 @@
 record take 3 --source synthetic:flat --display none
 run 0 --recording take --size 1152x864 --frames 2 --engine simd --display png:with
 
-# The dynamic linker loads the first file with a library's name. It fails because the file is empty.
+# The dynamic linker loads the first file with a library's name. Here this file is empty, so loading fails.
 mkdir hidden
 for library in libEGL.so.1 libGLESv2.so.2; do
     : >"hidden/$library"

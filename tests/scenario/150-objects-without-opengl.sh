@@ -6,7 +6,7 @@
 "$sim" --scene office --path handheld --seconds 0.5 --stills 6 --no-truth \
     --out run >/dev/null || fail "mfar-sim made no recording"
 
-# The dynamic linker loads the first file with a library's name. It fails because the file is empty.
+# The dynamic linker loads the first file with a library's name. Here this file is empty, so loading fails.
 mkdir hidden
 : >hidden/libEGL.so.1
 : >hidden/libGLESv2.so.2

@@ -34,7 +34,8 @@ pids+=($!)
 exported() { [ -s shown ]; }
 until_true exported
 loop=$(losetup --find --show shown)
-# By default, ext4 writes all data every five seconds, even if mfard does not synchronise.
+# By default, ext4 writes all data every five seconds, even if mfard does not synchronise. With
+# commit=300, this hides no missing synchronisation.
 mount -t ext4 -o commit=300 "$loop" disk
 
 export STATE_DIRECTORY=$PWD/state

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tests files that claim or contain far more data than they show. mfard must need at most
+"""Tests files that claim or contain far more data than their size suggests. mfard must need at most
 [limits] memory_mb, at the start and when it reads its configuration again. It must read each file,
 or refuse it in a line that names it.
 

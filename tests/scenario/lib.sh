@@ -13,7 +13,7 @@ cd "$work"
 pids=()
 
 # ThreadSanitizer does not understand TBB, which runs OpenCV's loops. On a single CPU, TBB uses one
-# thread. ThreadSanitizer finds races of mfard's threads even there, as it checks their locking.
+# thread. ThreadSanitizer finds races of mfard's threads even there, because it checks their locking.
 if [ -n "${MFAR_ONE_CPU:-}" ]; then
     first=$(sed -n 's/^Cpus_allowed_list:[[:space:]]*\([0-9]*\).*/\1/p' /proc/self/status)
     taskset -pc "$first" $$ >/dev/null

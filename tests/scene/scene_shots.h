@@ -12,7 +12,7 @@ struct SceneShots {
     SceneShots(synthetic::Scene scene, synthetic::Path path, int framesLater);
 
     /// For each tile, true if a quarter of its pixels or more move by themselves: their motion
-    /// since the still differs by at least a pixel from that caused by the camera.
+    /// since the still differs by more than a pixel from that caused by the camera.
     [[nodiscard]] std::vector<bool> movingTiles() const;
 
     std::unique_ptr<SyntheticBoard> board;

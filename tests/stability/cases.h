@@ -61,8 +61,8 @@ struct Case {
 }
 #endif
 
-/// Runs a case. An exception counts as a fault. Returns the faults, each with the names of case and
-/// seed.
+/// Runs a case. An exception counts as a fault. Returns the faults, each with the case's name and
+/// the seed.
 [[nodiscard]] std::vector<std::string> run(const Case& one, std::uint64_t seed, Checks& checks,
                                            GlWatch& gl, Scale scale);
 

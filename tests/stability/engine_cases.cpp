@@ -1,5 +1,5 @@
-// Runs both engines on the same hostile input. Each step of either engine reads the output of the
-// previous step of GLES. Otherwise one different decision of a search would make all later steps
+// Runs both engines on the same hostile input. In each step, both engines read what GLES computed
+// in the previous step. Otherwise one different decision of a search would make all later steps
 // differ.
 #include "pipeline/engine/engine.h"
 #include "pipeline/plan/work_plan.h"
@@ -33,7 +33,7 @@ Sensors hostileSensors(Context& c) {
     out.video = c.hostile.picture(out.rig.video.size);
     out.still = c.hostile.picture(out.rig.still.size);
     // Limits the contrast, so that no value leaves a byte's range when sharpening and enlarging
-    // overshoot. Between passes the GPU would clamp it, the CPU would not.
+    // overshoot. Between passes the GPU would clamp such a value, the CPU would not.
     for (TestPicture* picture : {&out.video, &out.still})
         for (std::uint8_t& byte : picture->bytes)
             byte = static_cast<std::uint8_t>(96 + byte / 4);

@@ -172,8 +172,8 @@ void evenPicture(Context& c) {
             c.checks.within(v - level, -1, 1, "change of a constant picture");
 }
 
-/// Random statistics of cells, see twin::weigh(). Variances are from 0 to the maximum of an 8x8
-/// patch of bytes.
+/// Random statistics of cells, see twin::weigh(). Variances are from 0 to the largest that an 8x8
+/// patch of bytes can have.
 twin::Cells statisticsOf(Context& c, Size size) {
     twin::Cells out{size, {}};
     constexpr double kMost = 64 * 255.0 * 255.0 / 4;

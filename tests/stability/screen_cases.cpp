@@ -22,7 +22,8 @@ Size sizeFor(Context& c, Size screen) {
     return {side(screen.width), side(screen.height)};
 }
 
-// Tolerance of the host's scaler: weights are rounded to 16 bits, and their products are truncated.
+// Checks the picture that the host scales. An error of one grey level is allowed, because the host
+// rounds weights to 16 bits and truncates their products.
 void onTheHost(Context& c, const TestPicture& picture, Size screen, const ScreenRect& to) {
     AlignedRows<std::uint32_t> rows(picture.size);
     for (int y = 0; y < picture.size.height; ++y)

@@ -179,7 +179,7 @@ void hostileRefinement(Context& c) {
     c.checks.tried("refineRelativePose", static_cast<long>(matches.size()));
 }
 
-// The refinement must find the rotation that the prior pose lacks, from matches without errors.
+// From matches without errors, the refinement must find the rotation that the prior pose lacks.
 void exactRefinement(Context& c) {
     const Eigen::Vector3d translation = 0.2 * c.hostile.direction();
     const Eigen::Quaterniond turn(

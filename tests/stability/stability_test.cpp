@@ -1,4 +1,5 @@
-// Runs a few seeds of every case, and tests that need no seed.
+// Runs a few seeds of every case except the screen case, which only mfar-stress runs. Also has
+// tests that need no seed.
 #include "pipeline/depth/depth_filter.h"
 #include "tests/stability/cases.h"
 

@@ -17,7 +17,8 @@ namespace {
 
 constexpr Size kCells{5, 3};
 
-/// Runs superres_weigh.comp, which copies its input `displacement` to its output.
+/// Runs superres_weigh.comp, which copies x and y of `displacement` to the output cellField, and
+/// z and w to the output lookupField.
 void weigh(const std::vector<float>& displacement) {
     using gpu::TexelFormat;
     const std::vector<float> zeros(4UL * 15);
@@ -166,8 +167,8 @@ TEST(StatedRanges, RangesAreReadFromTheShadersText) {
     EXPECT_TRUE(gpu::statedRanges("// Range: other 0..1\n", "out").empty());
 }
 
-// Every shader output of 32-bit or 16-bit floats must have a stated range.
-TEST(StatedRanges, EveryFloatImageAndBufferHasARange) {
+// Every image of 32-bit or 16-bit floats that a shader writes must have a stated range.
+TEST(StatedRanges, EveryFloatImageHasARange) {
     for (const shaders::Source& shader : shaders::all()) {
         const std::string text(shader.text);
         for (const std::string kind : {"(rgba32f, ", "(rgba16f, ", "(r32f, "})

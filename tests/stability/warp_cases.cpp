@@ -169,8 +169,9 @@ int contrastAt(const Pixels& pixels, Size size, const PixelRect& where, int x, i
     return std::min(most * EdgeRefiner::kLevels / 255, EdgeRefiner::kLevels - 1);
 }
 
-/// Returns the pixels of the highest contrast level, and those of the next lower levels as long as
-/// their total number is at most `share` times the number of the objects' pixels.
+/// Returns the pixels of the highest contrast level, and those of the next lower levels down to
+/// level 3, as long as their total number is at most `share` times the number of the objects'
+/// pixels.
 std::vector<std::uint32_t> edgesOf(const Pixels& colour, const Pixels& state, Size size,
                                    const PixelRect& where, double share) {
     std::array<std::vector<std::uint32_t>, EdgeRefiner::kLevels> byLevel;

@@ -25,8 +25,8 @@ said=$(systemd-analyze verify --man=no "$work/mfard.service" 2>&1) ||
     fault "systemd-analyze verify of mfard.service ended with exit code $?"
 [[ -z $said ]] || fault "systemd-analyze verify of mfard.service reports: $said"
 
-# systemd must accept the optional drop-in that reboots after repeated failures. mfard waits before
-# each start. So the interval must be long enough for the number of starts that causes a reboot.
+# systemd must accept the optional drop-in that reboots after repeated failures. A failed mfard waits
+# before it ends. So the interval must be long enough for the number of starts that causes a reboot.
 reboot=$(dirname "$unit")/reboot.conf
 install -D -m 644 "$reboot" "$work/mfard.service.d/reboot.conf"
 said=$(systemd-analyze verify --man=no "$work/mfard.service" 2>&1) ||

@@ -102,9 +102,9 @@ std::string calibrateManPage() {
                 {"calibrates both sensors of a board",
                  "daemon/tools/calibrate/arguments.cpp",
                  "Finds an AprilGrid or a checkerboard in a recording of both sensors and writes "
-                 "lenses, their mutual pose and the offset of their clocks. Either --aprilgrid or "
-                 "--checkerboard and --square are needed. Name the written folder as calibration "
-                 "in mfard.toml.",
+                 "lenses, their mutual pose and the offset of their clocks. Needs either "
+                 "--aprilgrid, or both --checkerboard and --square. Name the written folder as "
+                 "calibration in mfard.toml.",
                  {{"0", "success"},
                   {"1", "the recording cannot be read, or it is not sufficient for a calibration"},
                   {"100 and more", kParser}}});

@@ -75,7 +75,7 @@ Followed follow(double tiltDeg, double offsetDeg, double sigma, int frames) {
     return out;
 }
 
-TEST(PoseEstimator, ThePoseDoesNotFlipInAThousandFramesThatNearlyFaceTheTag) {
+TEST(PoseEstimator, ThePoseDoesNotFlipInAThousandFramesOfATagSeenNearlyFromTheFront) {
     for (const double offset : {0., 2., 5.})
         for (const double sigma : {0.05, 0.1, 0.15}) {
             const Followed run = follow(3, offset, sigma, 1000);

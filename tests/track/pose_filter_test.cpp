@@ -193,7 +193,7 @@ TEST(PoseFilter, PredictsForALimitedTime) {
     EXPECT_EQ(filter.update(measured(helix(9), timeOf(0) + 2s), 0.7), Outcome::Started);
 }
 
-TEST(PoseFilter, AStepBackInTimeRestartsTheFilter) {
+TEST(PoseFilter, ATimeThatDoesNotIncreaseRestartsTheFilter) {
     PoseFilter filter;
     filter.update(measured(helix(1), timeOf(30)), 0.7);
     EXPECT_EQ(filter.update(measured(helix(0), timeOf(30)), 0.7), Outcome::Started);

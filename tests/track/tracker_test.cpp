@@ -65,7 +65,7 @@ TEST(Tracker, FollowsTheCameraAndSearchesMostFramesInRegionsOnly) {
     }
     const TrackStats stats = tracker.stats();
     EXPECT_EQ(stats.frames, 11);
-    EXPECT_EQ(stats.fullSearches, 3);  // the first two frames and every fifth
+    EXPECT_EQ(stats.fullSearches, 3);  // the first two frames, then every fifth
     EXPECT_EQ(stats.roiSearches, 8);
     EXPECT_EQ(stats.flips, 0);
     EXPECT_GT(stats.worstMs, 0);

@@ -210,7 +210,7 @@ TEST(FloatFiles, BrokenFloIsRefused) {
 
 TEST(SharedRecordings, MeasuredFlowOfTheSharedRecordingsIsRead) {
     const fs::path file = fs::path(MFAR_SHARED_DATA) / "rubberwhale/flow10.flo";
-    if (!fs::exists(file)) GTEST_SKIP() << "measured flow: no " << file;
+    if (!fs::exists(file)) GTEST_SKIP() << "measured flow is missing: " << file;
     const FlowImage flow = loadFlo(file);
     EXPECT_EQ(flow.size, (Size{584, 388}));
     for (const auto& v : flow.vectors)

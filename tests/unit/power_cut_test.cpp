@@ -251,7 +251,7 @@ void expectWhole(const std::vector<RecordedImage>& images, Size size) {
 class PowerCut : public testing::Test {
 protected:
     /// Reads the recording that is left after the first `count` operations and a power cut. Returns
-    /// nullopt if the row of no picture was synchronised.
+    /// nullopt if no row of a video picture was synchronised.
     std::optional<Recording> leftAfter(std::size_t count) {
         fs::remove_all(cut_.path() / "run");
         for (const char* folder : {"cam0/data", "cam1/data"})

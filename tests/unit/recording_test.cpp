@@ -185,7 +185,7 @@ const Fault kFaults[] = {
 };
 
 // One test covers all faults, because a process for each would take a minute in all.
-TEST(Recording, EveryFaultIsRefusedWithFileAndLine) {
+TEST(Recording, EveryFaultIsRefusedWithTheFileAndTheLineIfKnown) {
     for (const Fault& fault : kFaults) {
         SCOPED_TRACE(fault.name);
         const TempFolder folder;
@@ -325,7 +325,7 @@ TEST(Recording, ADamagedRecordingIsEitherReadOrRefusedWithARecordingError) {
 
 TEST(SharedRecordings, AllSharedRecordingsAndTheirPicturesAreRead) {
     const fs::path data = MFAR_SHARED_DATA;
-    if (!fs::is_directory(data)) GTEST_SKIP() << "recordings of real scenes: no " << data;
+    if (!fs::is_directory(data)) GTEST_SKIP() << "recordings of real scenes are missing: " << data;
     for (const char* name : {"fountain", "motorcycle", "books", "dolls", "teddy"}) {
         SCOPED_TRACE(name);
         const Recording r = loadRecording(data / name);

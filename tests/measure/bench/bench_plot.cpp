@@ -48,8 +48,8 @@ std::string benchSvg(const BenchResult& result) {
          2});
     return eval::barsSvg(
         "mfar-bench: " + result.renderer, panels,
-        "Bars are medians. Small circles are the fastest run, and the time that 99 % "
-        "of the runs do not exceed. Orange bars are OpenCV's.");
+        "Bars are medians. One small circle marks the fastest run, the other the time "
+        "that 99 % of the runs do not exceed. Orange bars are OpenCV's.");
 }
 
 std::string skipSvg(const SkipReport& report) {

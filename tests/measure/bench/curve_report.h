@@ -7,7 +7,8 @@
 
 namespace mfar::bench {
 
-/// Columns: method,knob,value,default,ms,epe_px,bad1. In rows of peers, knob and value are empty.
+/// Columns: method,knob,value,default,ms,epe_px,bad1. In rows of peers, knob, value and default are
+/// empty.
 [[nodiscard]] std::string curvesCsv(const Curves& curves);
 
 /// Chart with logarithmic axes: time on x, bad-1 on y. Each method has a panel and each knob a

@@ -47,7 +47,7 @@ CurvePoint measure(const CurveSample& sample, PipelineOptions options, bool alon
     const cv::Mat frame = eval::toRgba(sample.frame.picture);
     const cv::Mat still = eval::toRgba(sample.still.picture);
     const auto run = [&] {
-        // Setting the still again discards the previous result, so every run starts without one.
+        // Setting the still again discards the previous result, so no run starts from it.
         pipeline.setStill(eval::viewOf(still), sample.still.time,
                           alongLines ? sample.still.pose : std::nullopt);
         pipeline.run(eval::viewOf(frame), sample.frame.time,

@@ -9,10 +9,10 @@ TEST(GovernorReport, SettledAfterCountsFramesUntilAtMostOneInTwentyIsLate) {
     std::vector<double> ms(100, 30);
     EXPECT_EQ(settledAfter(ms, 33), 0);
     ms[0] = ms[1] = ms[2] = 40;
-    EXPECT_EQ(settledAfter(ms, 33), 0) << "three of a hundred";
+    EXPECT_EQ(settledAfter(ms, 33), 0) << "3 of 100 frames are late";
     for (std::size_t i = 0; i < 12; ++i)
         ms[i] = 40;
-    EXPECT_EQ(settledAfter(ms, 33), 8) << "of the last 92, four are late";
+    EXPECT_EQ(settledAfter(ms, 33), 8) << "4 of the last 92 frames are late";
     ms[99] = 40;
     EXPECT_EQ(settledAfter(ms, 33), 9);
 }

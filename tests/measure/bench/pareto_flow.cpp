@@ -64,7 +64,7 @@ public:
     void ours(PipelineOptions options, bool scored, WayTimes& out) {
         options.output = sample_.rig.video.size;
         Pipeline& pipeline = pool_.with(options);
-        // Setting the still again discards the previous result, so every run starts without one.
+        // Setting the still again discards the previous result, so no run starts from it.
         pipeline.setStill(eval::viewOf(still_), sample_.still.time,
                           withPoses_ ? sample_.still.pose : std::nullopt);
         pipeline.setMeasure(true);

@@ -52,8 +52,8 @@ depthSamplesOf(const std::vector<std::filesystem::path>& folders, std::size_t mo
 [[nodiscard]] std::vector<DepthSample> syntheticDepthSamples(Size video, std::size_t most = 2);
 
 /// Run time and bad-1 of the depth of single frames. bad-1 is the share of pixels whose disparity
-/// is wrong by more than 1 px. Peers: OpenCV's stereo matchers, and OpenCV's flow algorithms, whose
-/// flow is triangulated.
+/// is wrong by more than 1 px. Peers: mfar's flow, triangulated by the paper's midpoint method, and
+/// OpenCV's stereo matchers.
 [[nodiscard]] ParetoStage depthStage(const std::vector<DepthSample>& samples, const ParetoRun& run);
 
 struct SequenceSample {

@@ -80,8 +80,8 @@ class PipelinePool {
 public:
     explicit PipelinePool(const StereoRig& rig) : rig_(rig) {}
 
-    /// Returns a pipeline that uses `options` from its next run on. Between calls, only the options
-    /// that are also in Quality may differ, and those that the variable `fits` compares.
+    /// Returns a pipeline that uses `options` from its next run on. Between calls, only two groups
+    /// of options may differ: those in Quality, and those that the variable `fits` compares.
     Pipeline& with(const PipelineOptions& options) {
         for (auto& [made, pipeline] : made_) {
             const bool fits = made.flow2d.levels == options.flow2d.levels &&

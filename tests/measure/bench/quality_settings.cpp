@@ -2,7 +2,7 @@
 
 namespace mfar::bench {
 
-// Single settings come first, then combinations. Both groups go from accurate to fast.
+// The default comes first, as pointsOf() requires. The order of the others has no meaning.
 std::vector<QualitySetting> qualitySettings() {
     const Flow2dOptions quick2d{.candidates = 2, .steps = 2, .planeFits = 1};
     const Flow2dOptions quickest2d{

@@ -20,7 +20,7 @@ TEST(Summary, NinetyNinePercentOfTheTimesDoNotExceedP99) {
     EXPECT_DOUBLE_EQ(summarise({7}).p99, 7);
 }
 
-TEST(Summary, WithoutMeasurementsAllValuesAreZero) {
+TEST(Summary, WithoutMeasurementsTheNumberOfRunsIsZero) {
     EXPECT_EQ(summarise({}).runs, 0U);
 }
 

@@ -145,8 +145,8 @@ std::int64_t bytesSampledFrom(GLint unit) {
     return bytes;
 }
 
-/// Bytes of the program's storage blocks. All count as read, because searches and filters write
-/// little to them.
+/// Bytes of the program's storage blocks. All bytes count as read, because searches and filters
+/// write little to these blocks.
 std::int64_t bytesOfStorage(GLuint program) {
     GLint count = 0;
     std::int64_t bytes = 0;

@@ -22,7 +22,8 @@ struct PassWork {
 
 /// Records all work that this thread's GL context receives while the object exists. The linker's
 /// option --wrap redirects the GL functions that start work. Only one object may exist at a time.
-/// If a list on the GPU determines the amount of work, the recorder waits for the GPU to read it.
+/// If a list on the GPU determines the amount of work, the recorder waits for the GPU and reads the
+/// list's length.
 class PassRecorder {
 public:
     PassRecorder();

@@ -11,7 +11,7 @@ namespace mfar::eval {
 struct Bar {
     std::string label;
     double value = 0;
-    std::vector<double> dots{};  ///< values whose mean is `value`, for example those of frames
+    std::vector<double> dots{};  ///< further values, for example of the frames with mean `value`
     std::size_t colour = 0;
 };
 

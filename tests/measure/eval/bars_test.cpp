@@ -38,7 +38,7 @@ TEST(Bars, EachMeasuredColumnOfAReportGetsAPanel) {
     ASSERT_EQ(panels[1].bars.size(), 2U);
     EXPECT_EQ(panels[1].bars[0].label, "ours");
     EXPECT_EQ(panels[1].bars[0].value, 30);
-    EXPECT_EQ(panels[1].bars[0].dots.size(), 2U) << "one for each frame";
+    EXPECT_EQ(panels[1].bars[0].dots.size(), 2U) << "one dot for each frame";
 }
 
 TEST(Bars, WithSeveralRecordingsEachDotIsTheMeanOfOneRecording) {

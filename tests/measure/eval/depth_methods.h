@@ -17,8 +17,10 @@ public:
     virtual void setStill(const Shot& still) = 0;
     struct Result {
         cv::Mat inverseDepth;  ///< CV_32F [1/m] of every video pixel; 0: unknown
-        double ms = 0;         ///< like FlowMethod::Result::ms; includes triangulation
-        cv::Mat variance{};    ///< CV_32F [1/m^2]; empty if the method has none
+        /// Method `depth`: wall time of the needed stages in a single run. Other methods:
+        /// FlowMethod::Result::ms plus the time of the triangulation.
+        double ms = 0;
+        cv::Mat variance{};  ///< CV_32F [1/m^2]; empty if the method has none
     };
     [[nodiscard]] virtual Result run(const Shot& frame) = 0;
 };

@@ -116,10 +116,11 @@ std::string legend(double top, const PictureMetrics& metrics) {
         out += svg::text(x + 20, y, "start", figure7Methods()[m].title);
     }
     const HdrVdpDisplay& display = metrics.display;
-    out += svg::text(kFigureLeft, top + 46, "start",
-                     "Bars: mean of the frames. Dots: single frames. Black marks at LPC-SI: median "
-                     "and 10 to 90 % of 8x8 tiles. Dashed: ground truth.",
-                     11);
+    out +=
+        svg::text(kFigureLeft, top + 46, "start",
+                  "Bars: mean of the frames. Dots: single frames. Black marks at LPC-SI: median, "
+                  "10th and 90th percentile of 8x8 tiles. Dashed: ground truth.",
+                  11);
     return out + svg::text(kFigureLeft, top + 62, "start",
                            fmt::format("HDR-VDP 2.2.2 of luma at {:g} pixels per degree, display "
                                        "{:g} to {:g} cd/m\u00b2, gamma {:g}. LPC-SI: bandwidth "

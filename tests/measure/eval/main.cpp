@@ -73,10 +73,11 @@ constexpr const char* kFlowHelp =
 
 constexpr const char* kDepthHelp =
     "Takes recordings with truth/inverse_depth and known poses, of a scene at rest. Frames,\n"
-    "their references, occluded pixels and times are those of the subcommand flow. Methods\n"
-    "that find flow triangulate it. flow: mfar's flow along epipolar lines,\n"
-    "triangulated in closed form; midpoint: the same flow, triangulated by the midpoint of the\n"
-    "shortest line between both rays, as in the paper; sgbm, stereobm: see mfar-eval flow.\n"
+    "their references, occluded pixels and times are those of the subcommand flow, but the\n"
+    "time of the method depth is that of a single run. Methods that find flow triangulate it.\n"
+    "flow: mfar's flow along epipolar lines, triangulated in closed form; midpoint: the same\n"
+    "flow, triangulated by the midpoint of the shortest line between both rays, as in the\n"
+    "paper; sgbm, stereobm: see mfar-eval flow.\n"
     "absrel: median of |z - true z| / true z where depth and truth are known; bad1: share of\n"
     "the pixels with known truth that are off by more than 1 px of disparity (focal length\n"
     "times baseline times inverse depth) or have no depth; completeness: share of the pixels\n"

@@ -71,7 +71,7 @@ TEST(MatchClasses, EachClassHasItsShareAndGain) {
     EXPECT_DOUBLE_EQ(values[4].value(), 0.7);
     EXPECT_NEAR(values[5].value(), 20, 1e-9);
     EXPECT_FALSE(matchClassValues(classes, truth, bicubic, truth)[5])
-        << "PSNR is infinite without errors";
+        << "without errors, the gain must be empty";
 }
 
 }  // namespace

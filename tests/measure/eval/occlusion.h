@@ -22,7 +22,7 @@ struct OcclusionRequest {
 };
 
 /// Measures every object alone in every scene, on every path. Rows are named SCENE/PATH/OBJECT;
-/// `method` is the source of the poses. Columns: times of the stages depth and composite [ms]; iou
+/// `method` is the source of the poses. Columns: times of the stages depth and objects [ms]; iou
 /// and boundary_px, see OcclusionScore; on the path `rest`, flicker() of the object's pixels at the
 /// output's resolution. Throws EvalError, and Failure for a faulty configuration.
 [[nodiscard]] Report evaluateOcclusion(const OcclusionRequest& request);

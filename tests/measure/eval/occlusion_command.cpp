@@ -14,8 +14,8 @@ constexpr const char* kOcclusionHelp =
     "mean distance of the object's boundary from the true one [video px]; flicker (only for\n"
     "path `rest`): share of all pixels of the object, occluded ones included, that are shown in\n"
     "only one of two consecutive frames, at the output's resolution; depth_ms, composite_ms:\n"
-    "time until the stage depth or composite is finished. A frame in which nothing changed\n"
-    "needs neither stage.\n"
+    "times of the two stages that find depth and that draw the object. A frame in which\n"
+    "nothing changed needs neither stage.\n"
     "The first 8 frames are not scored; the still is requested in the first of them.";
 
 /// Validator of a factor of the noise. CLI::Range is not used because it accepts NaN.

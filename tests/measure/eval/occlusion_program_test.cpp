@@ -40,7 +40,7 @@ TEST(MfarEvalOcclusion, WritesARowForEachFrameWithMeanAndMedian) {
     for (std::string field; std::getline(row, field, ',');)
         fields.push_back(field);
     ASSERT_EQ(fields.size(), 8U);
-    EXPECT_GT(std::stod(fields[5]), 0.5) << "nothing hides it";
+    EXPECT_GT(std::stod(fields[5]), 0.5) << "no real thing hides the ball";
     EXPECT_LE(std::stod(fields[5]), 1);
     EXPECT_GE(std::stod(fields[7]), 0);
 }

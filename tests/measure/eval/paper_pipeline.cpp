@@ -64,7 +64,7 @@ void PaperPipeline::setStill(const cv::Mat& still) {
 
 const cv::Mat& PaperPipeline::run(const cv::Mat& video) {
     cv::cvtColor(video, grey_, cv::COLOR_BGR2GRAY);
-    // DIS would use an existing flow as its first guess. Every frame must start without one.
+    // DIS would use an existing flow as its first guess. Every frame must start without a guess.
     forward_.release();
     backward_.release();
     dis_->calc(grey_, stillGrey_, forward_);

@@ -6,7 +6,7 @@
 
 namespace mfar::eval {
 
-/// A point of a plot. It is drawn if x and y are finite and x is above 0.
+/// A point of a plot. It is drawn if x and y are finite, x is above 0 and y is not negative.
 struct PlotPoint {
     double x = 0, y = 0;
     std::string tip;

@@ -52,9 +52,9 @@ TEST(PlotSvg, PutsPointsOnLogarithmicAxes) {
     ASSERT_EQ(flat.size(), 2U);
     EXPECT_EQ(flat[0].second, flat[1].second);
     EXPECT_EQ(flat[0].first, steep[0].first);
-    EXPECT_NEAR(steep[1].first, (flat[0].first + flat[1].first) / 2, 0.2) << "10 between 1 and 100";
+    EXPECT_NEAR(steep[1].first, (flat[0].first + flat[1].first) / 2, 0.2) << "x = 10 lies midway";
     EXPECT_NEAR(flat[0].second, (steep[0].second + steep[1].second) / 2, 0.2);
-    EXPECT_LT(steep[0].second, steep[1].second) << "more is further up";
+    EXPECT_LT(steep[0].second, steep[1].second) << "larger y are further up";
 }
 
 TEST(PlotSvg, LeavesOutInvalidPoints) {
@@ -78,7 +78,7 @@ TEST(WriteText, TheErrorNamesTheFileThatCannotBeWritten) {
     EXPECT_EQ(mfar::test::readFile(folder / "plot.svg"), "<svg/>");
     try {
         writeText(folder / "absent" / "plot.svg", "<svg/>");
-        FAIL() << "there is no such folder";
+        FAIL() << "the folder does not exist";
     } catch (const EvalError& e) {
         EXPECT_NE(std::string(e.what()).find("plot.svg"), std::string::npos);
     }

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-/// Runs the programs on tiny pictures. Accuracy and speed are not checked here.
+/// Runs mfar-eval on tiny pictures. Accuracy is checked only roughly, and speed not at all.
 namespace mfar::eval {
 namespace {
 

@@ -54,7 +54,7 @@ TEST(MfarEvalSlicing, MeasuresAndPlotsEachSlicingMethod) {
     EXPECT_GT(error("time 1"), error("time 16"));
     EXPECT_LT(std::stod(rows.at("time 4")[5]), 0.95 * error("time 4")) << "filtered";
     EXPECT_EQ(error("time 1"), error("full 1"));
-    EXPECT_GT(error("spatial 1"), error("time 1")) << "most of it is not there yet";
+    EXPECT_GT(error("spatial 1"), error("time 1")) << "most tiles are still empty";
     for (const char* row :
          {"time frames", "spatial frames", "time budget", "spatial budget", "time-adaptive 1"})
         EXPECT_TRUE(rows.contains(row)) << row << '\n' << csv;

@@ -28,7 +28,8 @@ TEST(SecondStill, IsTheNextNearestThatDoesNotShowTheFramesOwnView) {
     const Recording recording = withStillsAt({100, 200, 400});
     EXPECT_EQ(secondStill(recording, {190}), 0U);
     EXPECT_EQ(secondStill(recording, {150}), 1U);
-    EXPECT_EQ(secondStill(recording, {200}), 2U) << "200 is the frame's own view";
+    EXPECT_EQ(secondStill(recording, {200}), 2U)
+        << "the still at 200 ns shows the frame's own view";
     EXPECT_EQ(secondStill(withStillsAt({100}), {1}), std::nullopt);
     EXPECT_EQ(secondStill(withStillsAt({100, 200}), {200}), std::nullopt);
 }

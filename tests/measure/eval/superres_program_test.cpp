@@ -51,7 +51,7 @@ TEST(MfarEval, SuperResWithoutAStillComparesEnlargers) {
                             MFAR_EVAL, folder.path().string()));
     ASSERT_EQ(outcome.status, 0) << outcome.text;
     const auto rows = readCsv(folder / "out.csv");
-    ASSERT_EQ(rows.size(), 1U + 2 * 2 + 2) << "detail2d needs a still";
+    ASSERT_EQ(rows.size(), 1U + 2 * 2 + 2) << "detail2d is left out, because it needs a still";
     EXPECT_EQ(rows[1][2], "detail");
     EXPECT_EQ(rows[2][2], "bicubic");
 }

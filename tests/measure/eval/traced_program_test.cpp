@@ -50,7 +50,7 @@ TEST(MfarEvalTraced, ComparesFramesOfEachMethodAndKeepsTheTruth) {
         EXPECT_GT(std::stod(row[8]), 20) << line;
         EXPECT_LT(std::stod(row[8]), 100) << line;
     }
-    EXPECT_EQ(compared, 2) << "product and independent";
+    EXPECT_EQ(compared, 2) << "one row for each of two methods";
     // Frames 0, 1, 10, 11, 20 and 21 are compared.
     const auto files = std::filesystem::directory_iterator(folder / "truth");
     EXPECT_EQ(std::distance(begin(files), end(files)), 6);
@@ -60,7 +60,7 @@ TEST(MfarEvalTraced, ComparesFramesOfEachMethodAndKeepsTheTruth) {
     EXPECT_GT(std::filesystem::file_size(folder / "video/still-life-orbit.y4m"), 22 * kFrameBytes);
 }
 
-TEST(MfarEvalTraced, InvalidRequestsEndWithAMessageAndStatus2) {
+TEST(MfarEvalTraced, InvalidRequestsEndWithStatus2) {
     const TempFolder folder;
     for (const char* arguments :
          {"--scenes absent", "--methods magic", "--paths away", "--budget nan", "--frames 0",

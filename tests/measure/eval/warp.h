@@ -24,7 +24,7 @@ struct WarpRequest {
 
 /// Warps a path-traced picture of each scene to views that are turned by `degrees`. Compares each
 /// warped picture with one that was traced for the same view with truthSamples. Rows are
-/// SCENE/DEGREES. Needs a current GL context. Throws EvalError.
+/// SCENE/DEGREES. The GLES engine needs a current context. Throws EvalError.
 ///
 /// Columns: psnr_db inside the objects' silhouette; hole_share: pixels without a rendered sample,
 /// divided by the silhouette's pixels; reray_share: rays for individually rendered pixels, divided

@@ -18,10 +18,11 @@ constexpr const char* kWarpHelp =
     "both: re-render, and push-pull until the traced pixels arrive; inpaint: by Telea's method\n"
     "in OpenCV; full: no warp, the whole picture is traced anew.\n"
     "psnr_db: of red, green and blue where the truth shows an object; hole_share: holes in\n"
-    "objects and shadow, divided by the pixels of the objects; reray_share: rays that fill\n"
-    "holes, divided by the rays of the method `full`; reray_of_objects: the same rays, divided\n"
-    "by those of the objects' pixels only; ms: time of the warp after all traced pixels have\n"
-    "arrived; for `inpaint`, time of the inpainting only; for `full`, time of the tracing.";
+    "objects and shadow, divided by the pixels of the objects; reray_share: rays of pixels\n"
+    "that are traced one by one (holes and blurred edges), divided by the rays of the method\n"
+    "`full`; reray_of_objects: the same rays, divided by those of the objects' pixels only;\n"
+    "ms: time of the warp after all traced pixels have arrived; for `inpaint`, time of the\n"
+    "inpainting only; for `full`, time of the tracing.";
 
 std::string isTurn(const std::string& text) {
     double degrees = -1;

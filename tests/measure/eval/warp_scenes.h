@@ -18,8 +18,8 @@ namespace mfar::eval {
 /// a plane. Throws EvalError.
 [[nodiscard]] std::shared_ptr<const Scene> warpScene(const std::string& name);
 
-/// A camera with a slightly distorting lens that looks at the centre of the objects from 35 degrees
-/// above. It is turned by `degrees` around them and sees all of them.
+/// A camera that looks at the centre of the objects from 35 degrees above, through a slightly
+/// distorting lens. It is turned by `degrees` around the objects and sees all of them.
 [[nodiscard]] RenderView warpView(const Scene& scene, Size size, double degrees);
 
 [[nodiscard]] inline bool showsObject(const RenderedPicture& picture, std::size_t pixel) {

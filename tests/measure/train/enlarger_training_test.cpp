@@ -41,7 +41,7 @@ TEST(EnlargerTraining, TheSamePicturesGiveTheSameFilters) {
     EXPECT_NE(learnedFrom(2, 1).filters, learnedFrom(2, 0).filters);
 }
 
-TEST(EnlargerTraining, SlopesThatTheCubicEnlargesExactlyGiveZeroFilters) {
+TEST(EnlargerTraining, SlopesThatTheCubicEnlargesExactlyGiveFiltersNearZero) {
     EnlargerTraining training;
     const twin::Grey slope =
         twin::greyOf({256, 256}, [](int x, int y) { return 20 + 0.5625 * x + 0.28125 * y; });
@@ -50,7 +50,7 @@ TEST(EnlargerTraining, SlopesThatTheCubicEnlargesExactlyGiveZeroFilters) {
     const auto outcome = training.solve(20);
     for (const FilterBank::Filter& filter : outcome.filters)
         for (const std::int16_t weight : filter)
-            ASSERT_LE(std::abs(weight), 820) << "a tenth";
+            ASSERT_LE(std::abs(weight), 820) << "a weight is larger than a tenth";
 }
 
 TEST(EnlargerTraining, ClassesWithoutHeldOutPixelsGetNoFilter) {

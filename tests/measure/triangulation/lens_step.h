@@ -5,7 +5,7 @@
 
 namespace mfar {
 
-/// Rounds to the grid of the heads of SplitVector.
+/// Rounds to multiples of 2^-12, as SplitVector::head needs.
 inline Eigen::Vector2f onGrid(const Eigen::Vector2f& v) {
     constexpr float kGrid = 4096;
     return ((v * kGrid).array() + 0.5F).floor() / kGrid;

@@ -14,7 +14,7 @@ using Eigen::Vector2f;
 using Eigen::Vector3f;
 
 constexpr double kShortest = 1e-9;     // shorter baselines count as zero [m]
-constexpr double kLongestLine = 1e30;  // limit of baseline and ray distance, for finite floats [m]
+constexpr double kLongestLine = 1e30;  // longer baselines and distances could overflow floats [m]
 constexpr float kLargestRho = 1e6F;    // larger inverse depths count as unknown [1/m]
 constexpr float kNearPlane = 0.05F;    // least z of a ray (x, y, 1) of view b, rotated into view a
 constexpr float kNoAngle = 1e-9F;  // rays at a smaller angle count as parallel [normalised units]

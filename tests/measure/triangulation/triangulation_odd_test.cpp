@@ -63,7 +63,7 @@ TEST(TriangulationOdd, WithoutABaselineAllFlowIsResidual) {
     EXPECT_NEAR(points[64 * 20 + 30].residual, 3, 1e-4);
 }
 
-TEST(TriangulationOdd, InvalidPosesGiveUnknownDepth) {
+TEST(TriangulationOdd, InvalidPositionsGiveUnknownDepthAndInvalidRotationsFiniteResults) {
     const std::vector<float> flow(2UL * 64 * 48, -1.0F);
     for (const TriangulationMethod method : kBothMethods)
         for (const double value : {double(kNan), double(kInf), 1e300}) {
