@@ -48,8 +48,8 @@ struct TrackStats {
 };
 
 /// Tracks the pose of the video camera from AprilTags. track() must be called from one thread,
-/// which need not be the GL thread. trackStill() may be called from one other thread at the same
-/// time. The remaining functions, except detections(), are thread-safe.
+/// which need not be the picture thread. trackStill() may be called from one other thread at the
+/// same time. The remaining functions, except detections(), are thread-safe.
 class Tracker {
 public:
     Tracker(const StereoRig& rig, TrackerOptions options);

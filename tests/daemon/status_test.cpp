@@ -273,7 +273,7 @@ TEST(Status, ReportsTheEpipolarError) {
     EXPECT_NEAR(pose["epipolar_px"].get<double>(), 0.15, 1e-9);
     EXPECT_THAT(statusLine(stats.count(), {}, 1), HasSubstr(", epipolar error 0.20 px |"));
     stats.picture({{.usedStill = true, .usedPose = true}, kStages, {}, {}, 1.5});
-    EXPECT_THAT(statusLine(stats.count(), {}, 1), Not(HasSubstr("lines")));
+    EXPECT_THAT(statusLine(stats.count(), {}, 1), Not(HasSubstr("epipolar")));
 }
 
 TEST(Status, LineReportsTheSourceOfTheLastPose) {

@@ -1,7 +1,7 @@
 #pragma once
 
 // Functions of the library faulty_gl.cpp. Tests in the same process find them with dlsym() and call
-// them on the GL thread.
+// them on the picture thread.
 extern "C" {
 
 /// Forgets the recorded moments. From now on, the context is lost at the first moment of this name;

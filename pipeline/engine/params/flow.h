@@ -61,9 +61,9 @@ inline constexpr int kPatchSamples = 2;
 /// noise the refined flow is more accurate.
 inline constexpr float kClearlyAlike = 0.05F;
 /// The flow along the epipolar line is smoothed before the comparison with the still itself: a cell
-/// gets the mean over pairs of opposite neighbours up to kCleanUpRadius cells away. On a plane, each
-/// pair's mean is the flow at the cell. A pair whose mean differs from the median around the cell by
-/// this [px] or more is on another surface and is left out.
+/// gets the mean over pairs of opposite neighbours up to kCleanUpRadius cells away. On a plane,
+/// each pair's mean is the flow at the cell. A pair whose mean differs from the median around the
+/// cell by this [px] or more is on another surface and is left out.
 inline constexpr float kPairReach = 0.5F;
 /// If the distance of two flow vectors is at most this [px], only one of them is compared.
 inline constexpr float kSameFlow = 0.05F;
