@@ -1,11 +1,13 @@
 #include "pipeline/warp/surface_mesh.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <unordered_map>
+#include <utility>
 
 namespace mfar {
 namespace {
@@ -66,10 +68,45 @@ bool cut(SurfaceMesh& mesh, float longest, std::size_t most) {
     return true;
 }
 
-struct Cell {
-    std::array<float, 3> position{};
-    float count = 0;
+/// A grid cell with vertices, which become one point. Points are relative to the centre of the
+/// mesh's bounding box, so that their differences are exact.
+class Cell {
+public:
+    void add(const Eigen::Vector3f& vertex) {
+        sum_ += vertex;
+        ++count_;
+    }
+    /// Adds the plane normal . point = offset of a triangle that has a corner in the cell.
+    void addPlane(const Eigen::Vector3f& normal, float offset, float area) {
+        normals_ += area * normal * normal.transpose();
+        offsets_ += area * offset * normal;
+    }
+    /// Returns the point with the smallest sum of squared distances from the planes, weighted with
+    /// the areas. In directions in which the planes hardly determine it, the point is the mean of
+    /// the vertices (Lindstrom 2000). Returns the mean if the point is farther than `farthest` from
+    /// it.
+    [[nodiscard]] Eigen::Vector3f point(float farthest) const;
+
+private:
+    Eigen::Vector3f sum_{0, 0, 0}, offsets_{0, 0, 0};
+    Eigen::Matrix3f normals_ = Eigen::Matrix3f::Zero();
+    float count_ = 0;
 };
+
+Eigen::Vector3f Cell::point(float farthest) const {
+    // The planes determine a direction if its eigenvalue is at least this share of the largest.
+    constexpr float kDetermined = 0.1F;
+    const Eigen::Vector3f mean = sum_ / count_;
+    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> axes;
+    axes.computeDirect(normals_);
+    const Eigen::Vector3f& values = axes.eigenvalues();
+    const Eigen::Matrix3f& directions = axes.eigenvectors();
+    const Eigen::Vector3f rest = directions.transpose() * (offsets_ - normals_ * mean);
+    Eigen::Vector3f step = Eigen::Vector3f::Zero();
+    for (int i = 0; i < 3; ++i)
+        if (values[i] > kDetermined * values[2]) step += rest[i] / values[i] * directions.col(i);
+    return step.norm() <= farthest ? Eigen::Vector3f(mean + step) : mean;
+}
 
 /// Puts vertices of a grid cell that are connected by edges into one group. Each group gets its own
 /// texture coordinate, so that the two sides of a texture seam stay separate.
@@ -89,30 +126,53 @@ private:
     std::vector<std::uint32_t> parents_;
 };
 
-struct Cells {
+/// The cells of a cubic grid that have vertices.
+struct Grid {
+    Eigen::Vector3f centre;  ///< centre of the mesh's bounding box
+    float side;              ///< length of a cell's edges
     std::vector<Cell> cells;
-    std::vector<std::uint32_t> of;
+    std::vector<std::uint32_t> cellOf;  ///< index in `cells` for each vertex
+
+    [[nodiscard]] bool keeps(const Triangle& t) const {
+        const std::uint32_t a = cellOf[t[0]], b = cellOf[t[1]], c = cellOf[t[2]];
+        return a != b && b != c && c != a;
+    }
+    [[nodiscard]] std::size_t keptOf(const SurfaceMesh& mesh) const {
+        return static_cast<std::size_t>(
+            std::ranges::count_if(mesh.triangles, [this](const Triangle& t) { return keeps(t); }));
+    }
 };
 
-Cells cellsOf(const SurfaceMesh& mesh, const Eigen::AlignedBox3f& box, int cells) {
-    const float side = box.sizes().maxCoeff() / static_cast<float>(cells);
+Grid gridOf(const SurfaceMesh& mesh, const Eigen::AlignedBox3f& box, int cells) {
+    Grid out{box.center(), box.sizes().maxCoeff() / static_cast<float>(cells), {}, {}};
     std::unordered_map<std::uint64_t, std::uint32_t> numbers;
-    Cells out;
-    out.of.reserve(mesh.vertices.size());
+    out.cellOf.reserve(mesh.vertices.size());
     for (const SurfaceVertex& v : mesh.vertices) {
-        const Eigen::Array3f at = (positionOf(v) - box.min()).array() / side;
+        const Eigen::Array3f at = (positionOf(v) - box.min()).array() / out.side;
         const auto index = at.max(0).min(static_cast<float>(cells)).cast<std::uint64_t>().eval();
         const std::uint64_t key = index.x() << 40 | index.y() << 20 | index.z();
         const auto number = static_cast<std::uint32_t>(out.cells.size());
         const auto [place, isNew] = numbers.try_emplace(key, number);
         if (isNew) out.cells.emplace_back();
-        out.of.push_back(place->second);
-        Cell& cell = out.cells[place->second];
-        for (std::size_t i = 0; i < 3; ++i)
-            cell.position[i] += v.position[i];
-        ++cell.count;
+        out.cellOf.push_back(place->second);
+        out.cells[place->second].add(positionOf(v) - out.centre);
     }
     return out;
+}
+
+void addPlanes(const SurfaceMesh& mesh, Grid& grid) {
+    for (const Triangle& t : mesh.triangles) {
+        const auto corner = [&](std::size_t i) {
+            return Eigen::Vector3f(positionOf(mesh.vertices[t[i]]) - grid.centre);
+        };
+        const Eigen::Vector3f first = corner(0);
+        const Eigen::Vector3f across = (corner(1) - first).cross(corner(2) - first);
+        const float area = across.norm();
+        if (!(area > 0)) continue;
+        const Eigen::Vector3f normal = across / area;
+        for (const std::uint32_t vertex : t)
+            grid.cells[grid.cellOf[vertex]].addPlane(normal, normal.dot(first), area);
+    }
 }
 
 struct UvSum {
@@ -122,8 +182,9 @@ struct UvSum {
     static constexpr std::uint32_t kNoVertex = 0xFFFFFFFF;
 };
 
-SurfaceMesh clustered(const SurfaceMesh& mesh, const Eigen::AlignedBox3f& box, int cells) {
-    const auto [grid, cellOf] = cellsOf(mesh, box, cells);
+SurfaceMesh clustered(const SurfaceMesh& mesh, Grid grid) {
+    addPlanes(mesh, grid);
+    const std::vector<std::uint32_t>& cellOf = grid.cellOf;
     Groups groups(mesh.vertices.size());
     for (const Triangle& t : mesh.triangles)
         for (std::size_t i = 0; i < 3; ++i)
@@ -139,21 +200,17 @@ SurfaceMesh clustered(const SurfaceMesh& mesh, const Eigen::AlignedBox3f& box, i
     const auto drawn = [&](std::uint32_t vertex) {
         UvSum& sum = sums[groups.of(vertex)];
         if (sum.vertex != UvSum::kNoVertex) return sum.vertex;
-        const Cell& cell = grid[cellOf[vertex]];
+        const Eigen::Vector3f at = grid.centre + grid.cells[cellOf[vertex]].point(grid.side);
         SurfaceVertex v{};
-        for (std::size_t i = 0; i < 3; ++i)
-            v.position[i] = cell.position[i] / cell.count;
+        std::copy_n(at.data(), 3, v.position);
         for (std::size_t k = 0; k < 2; ++k)
             v.uv[k] = sum.uv[k] / sum.count;
         sum.vertex = static_cast<std::uint32_t>(out.vertices.size());
         out.vertices.push_back(v);
         return sum.vertex;
     };
-    for (const Triangle& t : mesh.triangles) {
-        const std::uint32_t a = cellOf[t[0]], b = cellOf[t[1]], c = cellOf[t[2]];
-        if (a != b && b != c && c != a)
-            out.triangles.push_back({drawn(t[0]), drawn(t[1]), drawn(t[2])});
-    }
+    for (const Triangle& t : mesh.triangles)
+        if (grid.keeps(t)) out.triangles.push_back({drawn(t[0]), drawn(t[1]), drawn(t[2])});
     return out;
 }
 
@@ -176,10 +233,10 @@ SurfaceMesh simplified(SurfaceMesh mesh, std::size_t mostTriangles) {
     for (SurfaceVertex& v : mesh.vertices)
         if (!box.contains(positionOf(v))) std::copy_n(box.min().data(), 3, v.position);
     for (int cells = 256; cells > 1; cells = cells * 3 / 4) {
-        SurfaceMesh out = clustered(mesh, box, cells);
-        if (out.triangles.size() <= mostTriangles) return out;
+        Grid grid = gridOf(mesh, box, cells);
+        if (grid.keptOf(mesh) <= mostTriangles) return clustered(mesh, std::move(grid));
     }
-    return clustered(mesh, box, 1);
+    return clustered(mesh, gridOf(mesh, box, 1));
 }
 
 SurfaceMesh surfaceMesh(std::span<const Eigen::Vector3f> positions,

@@ -29,8 +29,9 @@ struct SurfaceMesh {
                                       std::span<const std::array<std::uint32_t, 3>> triangles,
                                       float longest, std::size_t mostTriangles = 50000);
 
-/// Reduces a mesh to at most `mostTriangles`. All corners in a grid cell are replaced by their mean
-/// (Rossignac and Borrel 1993). That moves a smooth surface by a small fraction of a cell.
+/// Reduces a mesh to at most `mostTriangles`. All corners in a grid cell are replaced by one point
+/// (Rossignac and Borrel 1993), which is near the planes of their triangles. So curved surfaces do
+/// not shrink, and sharp edges stay sharp.
 [[nodiscard]] SurfaceMesh simplified(SurfaceMesh mesh, std::size_t mostTriangles);
 
 }  // namespace mfar

@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <random>
 #include <utility>
 
 namespace mfar {
@@ -117,6 +118,106 @@ TEST(SurfaceMesh, ASimplifiedMeshKeepsBothTextureCoordinatesAtASeam) {
     }
     for (const SurfaceVertex& v : few.vertices)
         EXPECT_NEAR(std::hypot(v.position[0], v.position[1]), 1, 0.01F);
+}
+
+using Triangles = std::vector<std::array<std::uint32_t, 3>>;
+
+struct Lattice {
+    std::vector<Vector3f> corners;
+    Triangles triangles;
+
+    /// Adds side x side squares, whose corners are `point` of the coordinates [0, 1].
+    template <class Point>
+    void add(std::uint32_t side, const Point& point) {
+        const auto first = static_cast<std::uint32_t>(corners.size());
+        for (std::uint32_t j = 0; j <= side; ++j)
+            for (std::uint32_t i = 0; i <= side; ++i) {
+                corners.push_back(point(static_cast<float>(i) / static_cast<float>(side),
+                                        static_cast<float>(j) / static_cast<float>(side)));
+                if (i == side || j == side) continue;
+                const std::uint32_t a = first + j * (side + 1) + i, below = a + side + 1;
+                triangles.push_back({a, a + 1, below});
+                triangles.push_back({a + 1, below + 1, below});
+            }
+    }
+    [[nodiscard]] SurfaceMesh simplifiedTo(std::size_t mostTriangles) const {
+        return simplified(surfaceMesh(corners, {}, triangles, 0), mostTriangles);
+    }
+};
+
+TEST(SurfaceMesh, ASimplifiedSphereKeepsItsVolume) {
+    constexpr float kRadius = 0.5F, kPi = std::numbers::pi_v<float>;
+    const Vector3f middle(20, -30, 10);
+    Lattice sphere;
+    sphere.add(160, [&](float u, float v) {
+        const float around = 2 * kPi * u, down = kPi * v;
+        return Vector3f(middle + kRadius * Vector3f(std::sin(down) * std::cos(around),
+                                                    std::sin(down) * std::sin(around),
+                                                    std::cos(down)));
+    });
+    const SurfaceMesh few = sphere.simplifiedTo(1500);
+    EXPECT_GT(few.triangles.size(), 500U);
+    double volume = 0;
+    for (const auto& t : few.triangles) {
+        const Vector3f a = at(few, t[0]) - middle, b = at(few, t[1]) - middle;
+        volume += static_cast<double>(a.cross(b).dot(at(few, t[2]) - middle)) / 6;
+    }
+    const double whole = 4.0 / 3 * std::numbers::pi * std::pow(kRadius, 3.0);
+    EXPECT_NEAR(std::abs(volume) / whole, 1, 0.008);
+}
+
+TEST(SurfaceMesh, EdgesOfASimplifiedBoxStaySharp) {
+    const Vector3f size(1, 0.7F, 0.45F);
+    Lattice box;
+    for (int axis = 0; axis < 3; ++axis)
+        for (const float end : {0.0F, 1.0F})
+            box.add(60, [&](float u, float v) {
+                Vector3f p;
+                p[axis] = end;
+                p[(axis + 1) % 3] = u;
+                p[(axis + 2) % 3] = v;
+                return Vector3f(p.cwiseProduct(size));
+            });
+    const SurfaceMesh few = box.simplifiedTo(4000);
+    EXPECT_GT(few.triangles.size(), 1000U);
+    Vector3f least = size, most = Vector3f::Zero();
+    for (std::uint32_t i = 0; i < few.vertices.size(); ++i) {
+        const Vector3f p = at(few, i);
+        EXPECT_NEAR(p.cwiseMin(size - p).minCoeff(), 0, 1e-4F);
+        least = least.cwiseMin(p);
+        most = most.cwiseMax(p);
+    }
+    EXPECT_LT(least.cwiseAbs().maxCoeff(), 1e-4F);
+    EXPECT_LT((most - size).cwiseAbs().maxCoeff(), 1e-4F);
+    EXPECT_NEAR(areaOf(few), 2 * (0.7F + 0.45F + 0.7F * 0.45F), 1e-3F);
+}
+
+// The mesh is two sheets like a roof without its ridge. The gap between them is up to two grid
+// cells wide, so there are cells with both sheets, whose planes meet far above.
+TEST(SurfaceMesh, AnOpenEdgeOfASimplifiedMeshGetsNoSpikes) {
+    constexpr float kCell = 1.0F / 256, kHeight = 25 * kCell, kSlope = 0.34F;
+    Lattice roof;
+    for (const float side : {-1.0F, 1.0F})
+        roof.add(300, [&](float u, float v) {
+            return Vector3f(side * (kCell * u + kSlope * kHeight * v), u, -kHeight * v);
+        });
+    const SurfaceMesh few = roof.simplifiedTo(50000);
+    EXPECT_GT(few.triangles.size(), 10000U);
+    for (const SurfaceVertex& v : few.vertices)
+        EXPECT_LT(v.position[2], kCell);
+}
+
+TEST(SurfaceMesh, ASimplifiedRoughSurfaceIsNotFolded) {
+    std::minstd_rand random(1);
+    std::uniform_real_distribution<float> height(0, 5e-4F);
+    Lattice rough;
+    rough.add(200, [&](float u, float v) { return Vector3f(u, v, height(random)); });
+    const SurfaceMesh few = rough.simplifiedTo(5000);
+    EXPECT_GT(few.triangles.size(), 1000U);
+    for (const auto& t : few.triangles) {
+        const Vector3f a = at(few, t[0]), across = (at(few, t[1]) - a).cross(at(few, t[2]) - a);
+        EXPECT_GT(across.z(), 0);
+    }
 }
 
 }  // namespace
