@@ -93,8 +93,8 @@ hostFaults() {
     inHost pipeline/plan/tile_choice.cpp 'if (tile.changed) return;' '' 'changed tiles counted as noise' plan
     inHost pipeline/track/pose_filter.cpp 'if (!usable) {' 'if (false) {' \
         'missing check for invalid poses' pose-filter
-    inHost pipeline/track/tag_pose.cpp 'tag.T_world_tag * T_camera_tag.inverse();' \
-        'tag.T_world_tag * T_camera_tag;' 'missing inverse of a pose' tag-exact
+    inHost pipeline/track/tag_pose.cpp '*T_world_tag * T_camera_tag.inverse();' \
+        '*T_world_tag * T_camera_tag;' 'missing inverse of a pose' tag-exact
     inHost pipeline/composite/silhouette.cpp 'tile.farthest = std::max(tile.farthest, farthest);' \
         'tile.farthest = farthest;' 'a depth range of the last pixel only' silhouette
     local triangulation=tests/measure/triangulation/triangulation.cpp
