@@ -34,8 +34,8 @@ struct FrameStats {
     /// show them. showSecond: number of tiles that show some of the second still, including
     /// neighbours of matched tiles.
     int matchedSecond = 0, showSecond = 0;
-    /// Number of tiles that need real depth, because a virtual object may be occluded there. With
-    /// Quality::depthEvery above 1, depth is not measured in each of these frames.
+    /// Number of tiles that need real depth, because a virtual object may be occluded there. Tiles
+    /// that get the depth of an earlier frame (Quality::depthEvery above 1) are counted, too.
     int depthTiles = 0;
     /// Number of tiles under a virtual object without a depth measurement, because the real surface
     /// is known to lie behind the object.

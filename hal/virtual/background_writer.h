@@ -15,9 +15,9 @@
 namespace mfar {
 
 /// Threads that write files for a caller that must not wait for the disk. Jobs start in the order
-/// in which they were posted. The length of the queue is limited only by the number of buffers that
-/// jobs hold. After a job has thrown, further jobs are discarded, so that a full disk causes one
-/// error and not thousands.
+/// in which they were posted. The queue itself has no limit. Callers limit it: each picture that
+/// waits for its job holds one of a fixed number of buffers. After a job has thrown, further jobs
+/// are discarded, so that a full disk causes one error and not thousands.
 class BackgroundWriter {
 public:
     /// Each thread is registered with `watched.all`. `watched.budget` is the longest allowed time

@@ -17,7 +17,8 @@ struct StillTone {
 
     [[nodiscard]] bool isIdentity() const { return *this == StillTone{}; }
     bool operator==(const StillTone&) const = default;
-    /// True if the curves differ by so little that filters learned with one suit the other, too.
+    /// True if the curves differ by so little that filters learned with one curve also suit the
+    /// other.
     [[nodiscard]] bool isNear(const StillTone& other) const {
         constexpr int kNear = 4;  // mean difference [grey levels]
         int sum = 0;

@@ -34,8 +34,8 @@ struct Paint {
             albedo};
 }
 
-/// Weights of a point's light in means over a pixel. They follow the paint by which the light is
-/// multiplied, and are above 0.
+/// Weights of one point where the light of a pixel's points is averaged: the luminances of the
+/// point's paint plus a small constant, so that they are above 0.
 struct PaintWeights {
     float diffuse, specular;
 };

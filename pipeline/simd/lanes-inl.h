@@ -17,9 +17,10 @@ HWY_BEFORE_NAMESPACE();
 namespace mfar::simd::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Calls body(tag, i) for vectors that together contain the values 0 to `count` - 1; `i` is a
-/// vector's first value. The last vector can overlap the previous one, so the body must not change
-/// its input. If a vector has more than `count` lanes, the values are processed one by one.
+/// Splits the elements 0 to `count` - 1 of arrays into vectors, and calls body(tag, i) for each
+/// vector; `i` is the index of its first element. The last vector can overlap the previous one, so
+/// the body must not change its input. If a vector has more than `count` lanes, the body is called
+/// for each single element.
 template <class D, class Body>
 HWY_INLINE void forLanes(D d, std::size_t count, const Body& body) {
     const std::size_t lanes = hn::Lanes(d);

@@ -33,9 +33,10 @@ struct TracedPicture {
     /// z with which the layer is drawn [m]; 0: no surface. On the shadow catcher it is smaller than
     /// the true z (see kShadowLift).
     std::vector<float> depth;
-    /// Colours for look-ups, each of a single surface. Unless the rendered picture is layered, edge
-    /// pixels get the mean colour of adjacent pixels inside the surface. Colours of objects are
-    /// opaque; colours of the shadow catcher are premultiplied.
+    /// Colours for look-ups. In `picture`, the colour of an edge pixel is a mixture of surfaces,
+    /// unless the picture is layered (see RenderedPicture::layered). Here, such a pixel has the
+    /// mean colour of adjacent unmixed pixels of its own surface, if there are any. Colours of
+    /// objects are opaque; colours of the shadow catcher are premultiplied.
     std::vector<std::array<std::uint8_t, 4>> colour;
     /// Light on each pixel's object, for look-ups. Empty if only colours are known.
     std::vector<LightWords> light;
