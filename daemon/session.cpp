@@ -343,8 +343,8 @@ void Session::fireIfNeeded(Timestamp frame, const FrameStats& stats) {
         } catch (const TriggerBusy&) {
             policy_.busy();
         } catch (const std::runtime_error& error) {
-            // If the rig waits for the trigger line, a banner reports that, and the session goes
-            // on.
+            // If the rig already reports a fault, for example that the trigger line is missing, a
+            // banner shows it, and the session goes on.
             if (!rig_.fault())
                 throw Failure(ExitCode::Unavailable, trigger->name() + ": " + error.what());
         }

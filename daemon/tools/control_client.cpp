@@ -52,7 +52,7 @@ public:
                 read_.erase(0, end + 1);
                 return out;
             }
-            if (read_.size() > kLongestLine) fail("the answer is not one line");
+            if (read_.size() > kLongestLine) fail("a line of the answer is too long");
             more();
         }
     }

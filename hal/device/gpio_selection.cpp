@@ -109,7 +109,8 @@ GpioAddress byName(const std::vector<const GpioChip*>& chips, std::string_view w
             fmt::format("no GPIO line is named '{}'; {}", wanted, listNames(chips)));
     if (found.size() > 1)
         throw std::runtime_error(fmt::format(
-            "more than one GPIO line is named '{}': {} and {}; set `chip`, and `line` to a number",
+            "more than one GPIO line is named '{}': {} and {}; set `chip` to the chip of the "
+            "wanted line, and `line` to its number",
             wanted, found[0].text, found[1].text));
     return found[0];
 }

@@ -41,8 +41,8 @@ private:
 /// exposure of the sensors may change.
 class ToneLearner {
 public:
-    /// Learns from `seen`, the pairs of grey levels of a still to which the tone curve `tone` was
-    /// applied.
+    /// Learns from `seen`, pairs of a grey level of a still and the video's grey level at the same
+    /// place. The tone curve `tone` was already applied to this still.
     void add(const ToneSums& seen, const StillTone& tone);
     [[nodiscard]] const StillTone& tone() const { return tone_; }
 

@@ -109,7 +109,8 @@ Film::Pixel& Film::begun(std::size_t pixel) {
     return p;
 }
 
-// Several threads may use the first pixels of a block at the same time.
+// Several threads may find at the same time that a block has no memory for this picture yet. Only
+// the first of them adds it.
 void Film::addBlock(Block& block) {
     const std::scoped_lock lock(*mutex_);
     if (block.picture.load(std::memory_order_relaxed) == picture_) return;

@@ -164,8 +164,8 @@ bool PathIntegrator::survives(Carried& carried, int depth, const PixelSampler& s
 
 void PathIntegrator::addDirect(const Vertex& vertex, Lights& lights, Walk& walk) const {
     Parts& out = walk.out;
-    // The walk with Lobes::Broad already adds the first surface's own emission. Emission of the
-    // second surface counts as direct light (depth 1).
+    // The walk with Lobes::Broad already adds the first surface's own emission. Emission gets the
+    // depth of the surface before it, because it is direct light of that surface.
     if (!walk.isFirst() || walk.lobes != Lobes::Mirrored)
         out.rest += sent(walk.carried, vertex.point.emission, walk.depth - 1);
     const Arrived arrived = direct(vertex, walk.lobesHere(), lights, walk.world);

@@ -46,8 +46,8 @@ struct RenderCounters {
     std::uint64_t holePixels = 0;
     double progress = 1;                  ///< finished share of the picture in progress, [0, 1]
     std::optional<Timestamp> shownSince;  ///< time at which the shown picture's view was chosen
-    bool idle = true;                     ///< true if no work is left while the camera rests
-    bool lowPriority = true;              ///< true if all threads could lower their priority
+    bool idle = true;         ///< true if there is no work until the view or the scene changes
+    bool lowPriority = true;  ///< true if all threads could lower their priority
 };
 
 }  // namespace mfar

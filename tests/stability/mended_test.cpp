@@ -50,7 +50,7 @@ TEST(Mended, InvalidMeasurementsAreIgnored) {
     }
 }
 
-TEST(Mended, AfterAnInvalidPoseDepthIsForgotten) {
+TEST(Mended, DepthIsForgottenAfterAnInvalidPose) {
     for (const double bad : {double(kNan), double(kInf), 0.0}) {
         DepthFilter filter(smallCamera(), oneWorker());
         filter.predict({}, 0.03);
