@@ -133,7 +133,7 @@ void Validation::beforePass(const Program& program, std::initializer_list<Bindin
     for (const PassOutput& output : outputs(program))
         for (const Binding& bound : bindings)
             if (bound.index == output.index && bound.kind == Binding::Kind::Storage &&
-                output.kind == PassOutput::Kind::Storage) {
+                output.kind == PassOutput::Kind::Storage && !before_.contains(bound.id)) {
                 const MappedBuffer mapped(bound.id);
                 before_[bound.id].assign(mapped.bytes().begin(), mapped.bytes().end());
             }

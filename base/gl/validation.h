@@ -30,8 +30,8 @@ struct ValidationFault {
 [[nodiscard]] std::string describe(const ValidationFault& fault);
 
 /// While a Validation object exists, all outputs of its thread's passes are read back and checked.
-/// Of a storage buffer, only the values that a pass changed are checked, because passes with other
-/// ranges may have written the rest.
+/// In a storage buffer, a pass's values are checked only where the pass changed them: other passes,
+/// whose values have other ranges, may have written the rest of the buffer.
 /// Every Buffer that is created in that time is followed by guard bytes (NaN as floats), which must
 /// not change. Validation makes a pass ten times as slow. Without a Validation object, a pass only
 /// tests one pointer. The passes' GL context must be current; its state is restored. A thread has

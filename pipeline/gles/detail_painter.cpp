@@ -2,6 +2,7 @@
 
 #include "base/gl/scoped_state.h"
 #include "pipeline/flow/cell_field.h"
+#include "pipeline/plan/tile_edges.h"
 
 #include <algorithm>
 
@@ -150,13 +151,10 @@ void DetailPainter::drawDetail(Composites passes, const TileParams& params, gpu:
 // Returns the output pixels whose centres are in these tiles, as tile_rect.vert draws them.
 PixelRect DetailPainter::outputOf(const PixelRect& tiles) const {
     const auto [width, height] = output_.size();
-    const auto firstBehind = [](int tile, int video, int out) {
-        const long edge = 2L * std::min(tile * kTileSize, video) * out;
-        return static_cast<int>((edge + video - 1) / (2L * video));
-    };
-    return {
-        firstBehind(tiles.x0, video_.width, width), firstBehind(tiles.y0, video_.height, height),
-        firstBehind(tiles.x1, video_.width, width), firstBehind(tiles.y1, video_.height, height)};
+    return {outputPixelsBefore(tiles.x0, video_.width, width),
+            outputPixelsBefore(tiles.y0, video_.height, height),
+            outputPixelsBefore(tiles.x1, video_.width, width),
+            outputPixelsBefore(tiles.y1, video_.height, height)};
 }
 
 void DetailPainter::draw(const gpu::Texture& video, const Matched* matched, const TileBuffer& tiles,

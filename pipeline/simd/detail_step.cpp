@@ -1,5 +1,7 @@
 #include "pipeline/simd/detail_step.h"
 
+#include "pipeline/plan/tile_edges.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -17,12 +19,8 @@ constexpr int kStripStep = 64;
 /// One more entry contains the output's size.
 std::vector<int> tileStarts(int tiles, int video, int output) {
     std::vector<int> out;
-    for (int i = 0; i < tiles; ++i) {
-        const long doubled = 2L * kTileSize * i * output - video;
-        out.push_back(doubled > 0 ? static_cast<int>((doubled + 2L * video - 1) / (2L * video))
-                                  : 0);
-    }
-    out.push_back(output);
+    for (int i = 0; i <= tiles; ++i)
+        out.push_back(outputPixelsBefore(i, video, output));
     return out;
 }
 

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "pipeline/plan/tiles.h"
+
+#include <algorithm>
+
+namespace mfar {
+
+/// Returns the number of output pixels before a tile along one axis. A pixel belongs to the tile
+/// that contains its centre. `video`, `output`: sizes along this axis [px]. For the number of
+/// tiles, returns `output`.
+[[nodiscard]] constexpr int outputPixelsBefore(int tile, int video, int output) {
+    const long edge = 2L * std::min(tile * kTileSize, video) * output;
+    return static_cast<int>((edge + video - 1) / (2L * video));
+}
+
+}  // namespace mfar
