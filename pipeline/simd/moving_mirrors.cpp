@@ -1,7 +1,8 @@
 #include "pipeline/simd/moving_mirrors.h"
 
+#include "pipeline/warp/mirror_looks.h"
+
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace mfar::simd {
@@ -9,13 +10,6 @@ namespace {
 
 constexpr int kMirrorRows = 8;
 constexpr std::size_t kSpare = 8;  // padding of a picture's arrays, which vectors read [entries]
-constexpr int kRoughnesses = 256;
-constexpr float kLeastAlpha = 1e-3F;
-
-bool sameRays(const CameraModel& a, const CameraModel& b) {
-    return a.size == b.size && a.fx == b.fx && a.fy == b.fy && a.cx == b.cx && a.cy == b.cy &&
-           a.distortion == b.distortion;
-}
 
 template <class T>
 void copyPadded(const std::vector<T>& from, std::vector<T>& to) {
@@ -65,23 +59,13 @@ void MovingMirrors::prepareTables() {
         tables_.push_back(static_cast<std::int32_t>(table.first));
         tables_.push_back(table.edge);
     }
-    tableOf_.assign(kRoughnesses, 0);
-    shareOf_.assign(kRoughnesses, 0);
-    alphaOf_.assign(kRoughnesses, 0);
-    for (std::size_t i = 0; i < kRoughnesses; ++i) {
-        const float roughness = static_cast<float>(i) / (kRoughnesses - 1);
-        alphaOf_[i] = std::max({roughness * roughness, mirrors_->leastSunAlpha, kLeastAlpha});
-        std::size_t low = 0;
-        while (low + 2 < tables.size() && tables[low + 1].roughness < roughness)
-            ++low;
-        tableOf_[i] = static_cast<std::int32_t>(low);
-        if (tables.size() < 2) continue;
-        // Between the first two tables, the second one's weight grows with the squared roughness,
-        // which is the width of the reflection lobe. FarLight::mirrored() does the same.
-        const float from = tables[low].roughness, to = tables[low + 1].roughness;
-        const float share =
-            low == 0 ? roughness * roughness / (to * to) : (roughness - from) / (to - from);
-        shareOf_[i] = std::clamp(share, 0.0F, 1.0F);
+    tableOf_.clear();
+    shareOf_.clear();
+    alphaOf_.clear();
+    for (const MirrorLook& look : mirrorLooks(*mirrors_)) {
+        tableOf_.push_back(static_cast<std::int32_t>(look.table));
+        shareOf_.push_back(look.share);
+        alphaOf_.push_back(look.alpha);
     }
 }
 

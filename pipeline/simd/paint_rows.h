@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pipeline/simd/paint_words.h"
+#include "base/paint_words.h"
 #include "pipeline/simd/surface_rows.h"
 
 #include <cstdint>
@@ -10,8 +10,7 @@ namespace mfar::simd {
 // Paint is the colour of a pixel's surface without light: the surface's texture, averaged in linear
 // light over the pixel's footprint.
 
-/// One level of a texture's pyramid. The bytes of texels are 255 times the square root of linear
-/// values, so that sums of squared bytes are sums of linear values.
+/// Place of one level of a pyramid (see PaintPicture).
 struct PaintLevel {
     std::uint32_t first;  ///< index of the level's first texel in PaintInput::texels
     std::uint32_t size;   ///< width [texels] in the low 16 bits, height in the high 16 bits

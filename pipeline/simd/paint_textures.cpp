@@ -1,11 +1,6 @@
 #include "pipeline/simd/paint_textures.h"
 
-#include "base/srgb.h"
-#include "pipeline/render/paint.h"
-
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstddef>
 #include <utility>
 
@@ -13,176 +8,20 @@ namespace mfar::simd {
 namespace {
 
 constexpr int kLargestSide = 0x8000;  // [texels]; PaintLevel stores a side in 16 bits
-constexpr float kMost = 255;
 
-using Values = std::array<float, 4>;
-
-Values linearOf(const SurfaceTexture& texture, std::size_t texel) {
-    Values out{};
-    for (std::size_t c = 0; c < 4; ++c) {
-        const std::uint8_t byte = texture.texels[texel][c];
-        out[c] =
-            texture.srgb && c < 3 ? linearOfSrgbByte()[byte] : static_cast<float>(byte) / kMost;
-    }
-    return out;
-}
-
-Values lookedUp(const SurfaceTexture& texture, float u, float v) {
-    const auto pair = [](float share, int side, int& first, int& second) {
-        const float at = share * static_cast<float>(side) - 0.5F, low = std::floor(at);
-        first = (static_cast<int>(low) + side) % side;
-        second = (first + 1) % side;
-        return at - low;
-    };
-    int x0 = 0, x1 = 0, y0 = 0, y1 = 0;
-    const float right = pair(u, texture.size.width, x0, x1);
-    const float below = pair(v, texture.size.height, y0, y1);
-    Values out{};
-    const auto add = [&](int x, int y, float weight) {
-        const Values texel =
-            linearOf(texture, static_cast<std::size_t>(y) * texture.size.width + x);
-        for (std::size_t c = 0; c < 4; ++c)
-            out[c] += weight * texel[c];
-    };
-    add(x0, y0, (1 - right) * (1 - below));
-    add(x1, y0, right * (1 - below));
-    add(x0, y1, (1 - right) * below);
-    add(x1, y1, right * below);
-    return out;
-}
-
-std::uint32_t nearestByte(float level) {
-    return static_cast<std::uint32_t>(std::lround(level));
-}
-std::uint32_t rootByte(float linear) {
-    return nearestByte(kMost * std::sqrt(linear));
-}
-
-std::uint32_t rootsOf(const std::array<float, 3>& linear) {
-    return rootByte(linear[0]) | rootByte(linear[1]) << 8 | rootByte(linear[2]) << 16;
-}
-
-/// Converts base colour and metallic (the fourth value) to paint. The colour is clamped to [0, 1]
-/// as in TracedScene, so that a surface never reflects more light than it receives.
-PaintWords wordsOf(const Values& base) {
-    std::array<float, 3> diffuse{}, facing{};
-    for (std::size_t c = 0; c < 3; ++c) {
-        const float colour = std::clamp(base[c], 0.0F, 1.0F);
-        diffuse[c] = (1 - base[3]) * colour;
-        facing[c] = (1 - base[3]) * kDielectricReflectance + base[3] * colour;
-    }
-    return {rootsOf(diffuse), rootsOf(facing)};
-}
-
-void addSquares(std::uint32_t roots, float weight, std::array<float, 3>& sum) {
-    for (std::size_t c = 0; c < 3; ++c) {
-        const float root = static_cast<float>(roots >> 8 * c & 0xFFU) / kMost;
-        sum[c] += weight * root * root;
-    }
-}
-
-/// Computes the next smaller pyramid level: means of 2x2 texels, or of up to three texels along a
-/// side of odd length.
-void halve(const PaintWords* from, Size size, PaintWords* out, Size half) {
-    struct Taps {
-        int first, count;
-        std::array<float, 3> weights;
-    };
-    const auto taps = [](int i, int side, int halfSide) {
-        const float step = static_cast<float>(side) / static_cast<float>(halfSide);
-        const float begin = static_cast<float>(i) * step, end = begin + step;
-        Taps t{static_cast<int>(begin), 0, {}};
-        for (int k = t.first; k < side && t.count < 3; ++k) {
-            const float share =
-                std::min(end, static_cast<float>(k) + 1) - std::max(begin, static_cast<float>(k));
-            if (!(share > 1e-4F)) break;
-            t.weights[static_cast<std::size_t>(t.count++)] = share / step;
-        }
-        return t;
-    };
-    std::vector<Taps> columns;
-    for (int x = 0; x < half.width; ++x)
-        columns.push_back(taps(x, size.width, half.width));
-    for (int y = 0; y < half.height; ++y) {
-        const Taps rows = taps(y, size.height, half.height);
-        for (int x = 0; x < half.width; ++x) {
-            const Taps& c = columns[static_cast<std::size_t>(x)];
-            std::array<float, 3> diffuse{}, facing{};
-            for (int j = 0; j < rows.count; ++j)
-                for (int i = 0; i < c.count; ++i) {
-                    const PaintWords& t =
-                        from[static_cast<std::ptrdiff_t>(rows.first + j) * size.width + c.first +
-                             i];
-                    const float weight = rows.weights[static_cast<std::size_t>(j)] *
-                                         c.weights[static_cast<std::size_t>(i)];
-                    addSquares(t.diffuse, weight, diffuse);
-                    addSquares(t.facing, weight, facing);
-                }
-            out[static_cast<std::ptrdiff_t>(y) * half.width + x] = {rootsOf(diffuse),
-                                                                    rootsOf(facing)};
-        }
-    }
-}
-
-Size halfOf(Size size) {
-    return {std::max(size.width / 2, 1), std::max(size.height / 2, 1)};
-}
-std::size_t texelsOf(Size size) {
-    return static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
-}
-Size sizeOf(const PaintLevel& level) {
-    return {static_cast<int>(level.size & 0xFFFFU), static_cast<int>(level.size >> 16)};
+std::size_t texelsOf(const PaintLevel& level) {
+    return static_cast<std::size_t>(level.size & 0xFFFFU) * (level.size >> 16);
 }
 
 }  // namespace
 
-PaintTextures::Source PaintTextures::sourceOf(const SilhouetteModels::Part& part) {
-    const mfar::Material& m = *part.material;
-    return {part.baseColour,
-            part.metallicRoughness,
-            {m.baseColour.x(), m.baseColour.y(), m.baseColour.z(), m.metallic}};
-}
-
-void PaintTextures::fill(const Source& source, Size size, std::span<PaintWords> out) {
-    for (std::size_t i = 0; i < out.size(); ++i) {
-        const std::size_t row = i / size.width;
-        const auto x = static_cast<float>(i % size.width), y = static_cast<float>(row);
-        const float u = (x + 0.5F) / static_cast<float>(size.width);
-        const float v = (y + 0.5F) / static_cast<float>(size.height);
-        const auto valueOf = [&](const SurfaceTexture& texture) {
-            return texture.size == size ? linearOf(texture, i) : lookedUp(texture, u, v);
-        };
-        Values base = source.factor;
-        if (source.colour != nullptr) {
-            const Values t = valueOf(*source.colour);
-            for (std::size_t c = 0; c < 3; ++c)
-                base[c] *= t[c];
-        }
-        if (source.metallic != nullptr) base[3] *= valueOf(*source.metallic)[2];
-        out[i] = wordsOf(base);
-    }
-}
-
-void PaintTextures::addPicture(Picture& picture, const Source& source) {
-    Size size{1, 1};
-    for (const SurfaceTexture* texture : {source.colour, source.metallic})
-        if (texture != nullptr)
-            size = {std::min(std::max(size.width, texture->size.width), kLargestSide),
-                    std::min(std::max(size.height, texture->size.height), kLargestSide)};
+void PaintTextures::addPicture(Picture& picture, const PaintSource& source) {
     picture.levels.clear();
-    for (Size level = size;; level = halfOf(level)) {
-        const std::size_t first = texels_.size();
-        picture.levels.push_back({static_cast<std::uint32_t>(first),
-                                  static_cast<std::uint32_t>(level.width | level.height << 16)});
-        texels_.resize(first + texelsOf(level));
-        const std::span<PaintWords> out(texels_.data() + first, texelsOf(level));
-        if (picture.levels.size() > 1) {
-            const PaintLevel& finer = picture.levels[picture.levels.size() - 2];
-            halve(texels_.data() + finer.first, sizeOf(finer), out.data(), level);
-        } else {
-            fill(source, size, out);
-        }
-        if (texelsOf(level) == 1) break;
+    for (const PaintPicture& level : paintPyramid(source, kLargestSide)) {
+        picture.levels.push_back(
+            {static_cast<std::uint32_t>(texels_.size()),
+             static_cast<std::uint32_t>(level.size.width | level.size.height << 16)});
+        texels_.insert(texels_.end(), level.texels.begin(), level.texels.end());
     }
 }
 
@@ -190,7 +29,7 @@ void PaintTextures::setPictures(std::span<const SilhouetteModels::Object> object
     Pictures now;
     for (const SilhouetteModels::Object& object : objects)
         for (const SilhouetteModels::Part& part : object.shape->parts)
-            now.try_emplace(sourceOf(part), Picture{object.shape->model, {}});
+            now.try_emplace(paintSourceOf(part), Picture{object.shape->model, {}});
     const auto isKept = [this](const auto& entry) { return pictures_.contains(entry.first); };
     if (now.size() == pictures_.size() && std::ranges::all_of(now, isKept)) return;
     const Pictures before = std::exchange(pictures_, std::move(now));
@@ -202,7 +41,7 @@ void PaintTextures::setPictures(std::span<const SilhouetteModels::Object> object
                 const auto from = texels.begin() + level.first;
                 level.first = static_cast<std::uint32_t>(texels_.size());
                 texels_.insert(texels_.end(), from,
-                               from + static_cast<std::ptrdiff_t>(texelsOf(sizeOf(level))));
+                               from + static_cast<std::ptrdiff_t>(texelsOf(level)));
             }
         } else {
             addPicture(picture, source);
@@ -213,7 +52,7 @@ void PaintTextures::setPictures(std::span<const SilhouetteModels::Object> object
 void PaintTextures::set(std::span<const SilhouetteModels::Object> objects) {
     setPictures(objects);
     levels_.clear();
-    std::map<Source, Material> made;
+    std::map<PaintSource, Material> made;
     for (const auto& [source, picture] : pictures_) {
         const auto first = static_cast<std::uint32_t>(levels_.size());
         const auto last = static_cast<std::uint32_t>(picture.levels.size() - 1);
@@ -224,7 +63,7 @@ void PaintTextures::set(std::span<const SilhouetteModels::Object> objects) {
     materials_.clear();
     for (const SilhouetteModels::Object& object : objects)
         for (const SilhouetteModels::Part& part : object.shape->parts)
-            materials_[&part] = made.at(sourceOf(part));
+            materials_[&part] = made.at(paintSourceOf(part));
 }
 
 }  // namespace mfar::simd

@@ -1,10 +1,8 @@
 #pragma once
 
 #include "pipeline/simd/paint_rows.h"
-#include "pipeline/warp/silhouette_models.h"
+#include "pipeline/warp/paint_pyramid.h"
 
-#include <array>
-#include <compare>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -13,9 +11,8 @@
 
 namespace mfar::simd {
 
-/// The textures of a scene's surfaces for paintRow(), in one array. A material's textures of base
-/// colour and of metallic are combined into one picture of the larger size, with all pyramid levels
-/// down to one texel. Equal materials share one picture.
+/// The paint of a scene's surfaces for paintRow(), in one array of all levels of all pyramids (see
+/// paintPyramid()). Equal materials share one pyramid.
 class PaintTextures {
 public:
     struct Material {
@@ -33,23 +30,15 @@ public:
     [[nodiscard]] PaintInput input() const { return {texels_.data(), levels_.data(), nullptr}; }
 
 private:
-    struct Source {
-        const SurfaceTexture *colour = nullptr, *metallic = nullptr;
-        std::array<float, 4> factor{};
-
-        auto operator<=>(const Source&) const = default;
-    };
     struct Picture {
         std::shared_ptr<const Model> model;  // keeps the textures alive, so that no other texture
                                              // gets their address
         std::vector<PaintLevel> levels;      // largest level first
     };
-    using Pictures = std::map<Source, Picture>;
+    using Pictures = std::map<PaintSource, Picture>;
 
-    static Source sourceOf(const SilhouetteModels::Part& part);
-    static void fill(const Source& source, Size size, std::span<PaintWords> out);
     void setPictures(std::span<const SilhouetteModels::Object> objects);
-    void addPicture(Picture& picture, const Source& source);
+    void addPicture(Picture& picture, const PaintSource& source);
 
     Pictures pictures_;
     std::vector<PaintWords> texels_;

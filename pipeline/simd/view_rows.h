@@ -1,7 +1,7 @@
 #pragma once
 
+#include "base/paint_words.h"
 #include "base/rows.h"
-#include "pipeline/simd/paint_words.h"
 #include "pipeline/simd/point_lens.h"
 
 #include <cstdint>

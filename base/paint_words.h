@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-namespace mfar::simd {
+namespace mfar {
 
 /// Paint of a texel or pixel, each word with bytes of red, green and blue. `diffuse`: the diffuse
 /// colour. `facing`: the reflectance along the normal. Paint can be averaged over texels, whereas
@@ -12,4 +12,4 @@ struct PaintWords {
     bool operator==(const PaintWords&) const = default;
 };
 
-}  // namespace mfar::simd
+}  // namespace mfar

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "base/geometry.h"
+#include "base/mirror_light.h"
+
+#include <array>
+#include <cstddef>
+
+namespace mfar {
+
+/// How a surface of one roughness mirrors distant light. The light is interpolated between the
+/// tables `table` and `table` + 1 of MirrorLight; `share` is the weight of the second one.
+struct MirrorLook {
+    std::size_t table = 0;
+    float share = 0;
+    float alpha = 0;  ///< GGX parameter, at least MirrorLight::leastSunAlpha
+};
+inline constexpr std::size_t kRoughnesses = 256;
+/// Returns the looks of all roughnesses, which are bytes as in GlossWords.
+[[nodiscard]] std::array<MirrorLook, kRoughnesses> mirrorLooks(const MirrorLight& mirrors);
+
+/// True if the pixels of both cameras have the same rays.
+[[nodiscard]] bool sameRays(const CameraModel& a, const CameraModel& b);
+
+}  // namespace mfar

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "base/paint_words.h"
+#include "pipeline/warp/silhouette_models.h"
+
+#include <array>
+#include <compare>
+#include <vector>
+
+namespace mfar {
+
+/// The textures and factors that determine the paint of a part. Parts with equal sources have the
+/// same paint.
+struct PaintSource {
+    const SurfaceTexture *colour = nullptr, *metallic = nullptr;
+    std::array<float, 4> factor{};  ///< base colour and metallic
+
+    auto operator<=>(const PaintSource&) const = default;
+};
+/// The part must have a material.
+[[nodiscard]] PaintSource paintSourceOf(const SilhouetteModels::Part& part);
+
+/// One level of a pyramid, row-major. The bytes of its words are 255 times the square root of
+/// linear values, so that sums of squared bytes are sums of linear values.
+struct PaintPicture {
+    Size size;
+    std::vector<PaintWords> texels;
+};
+/// Combines a material's textures of base colour and metallic into one picture of the larger size,
+/// with all smaller levels down to one texel; the largest level is the first. No side is longer
+/// than `longestSide` texels. Takes 4 ns per texel.
+[[nodiscard]] std::vector<PaintPicture> paintPyramid(const PaintSource& source, int longestSide);
+
+}  // namespace mfar
