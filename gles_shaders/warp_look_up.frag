@@ -2,7 +2,7 @@
 // four texels around the looked-up position in the traced picture show this surface at the same
 // depth. All other pixels are left to warp_rest.comp. There are no branches, because a software
 // renderer executes both sides anyway.
-// In: silhouette at twice the resolution.
+// In: silhouette and paint at twice the resolution.
 // Out: colour, RGBA8 premultiplied; z [m], 0 without a surface; state = (0, 1 if the pixel is left
 // to warp_rest.comp, 0, number of the surface that fills the pixel).
 // Source: paper, eq. 5.
@@ -11,11 +11,16 @@
 #include "warp_view_params.glsl"
 #include "warp_view.glsl"
 #include "warp_surface.glsl"
+#include "warp_light.glsl"
 
 layout(binding = 0) uniform usampler2D silhouette;
 layout(binding = 1) uniform sampler2D rays;
 layout(binding = 2) uniform sampler2D colours;
 layout(binding = 3) uniform usampler2D surfaces;  // packed by packSurface(); number 254: unknown
+layout(binding = 7) uniform sampler2D diffusePaint;
+layout(binding = 8) uniform sampler2D facingPaint;
+layout(binding = 9) uniform sampler2D diffuseLight;  // see struct Light
+layout(binding = 10) uniform sampler2D specularLight;
 layout(location = 0) out vec4 colour;
 layout(location = 1) out float depth;
 layout(location = 2) out vec4 state;
@@ -41,7 +46,13 @@ void main() {
     bool bare = id == kCatcher && (t.x | t.y | t.z | t.w) == 0u;
     bool inner = all(greaterThan(corner, vec2(0.0))) && all(lessThan(corner, vec2(tracedSize())));
     bool plain = whole && !empty && at.z > 0.0 && inner && (same || bare);
-    vec4 found = textureLod(colours, (at.xy + 0.5) / vec2(tracedSize()), 0.0);
+    vec2 texel = (at.xy + 0.5) / vec2(tracedSize());
+    vec4 found = textureLod(colours, texel, 0.0);
+    if (params.tracedIsLit != 0 && id != kCatcher) {
+        vec2 here = gl_FragCoord.xy / vec2(layerSize());
+        Paint paint = Paint(textureLod(diffusePaint, here, 0.0).rgb, textureLod(facingPaint, here, 0.0).rgb);
+        found = litColour(paint, Light(textureLod(diffuseLight, texel, 0.0), textureLod(specularLight, texel, 0.0)));
+    }
     colour = plain ? found : vec4(0.0);
     depth = plain && found.a > 0.0 ? (id == kCatcher ? (1.0 - kShadowLift) * z : z) : 0.0;
     state = empty ? vec4(0.0) : plain ? vec4(0.0, 0.0, 0.0, float(id) / 255.0) : vec4(0.0, 1.0, 0.0, 0.0);

@@ -17,15 +17,11 @@
 #include "warp_view.glsl"
 #include "warp_surface.glsl"
 #include "warp_quarters.glsl"
+#include "warp_known.glsl"
 
 layout(local_size_x = 64) in;
 layout(binding = 0) uniform usampler2D silhouette;
 layout(binding = 1) uniform sampler2D rays;
-layout(binding = 2) uniform sampler2D colours;
-// WarpSurface: z [m], surface number, tolerance of z [m], 1 if known.
-layout(binding = 3) uniform sampler2D surfaces;
-layout(binding = 4) uniform sampler2D rerenderedColours;
-layout(binding = 5) uniform sampler2D rerenderedSurfaces;
 layout(binding = 0, rgba8) writeonly uniform image2D colour;
 layout(binding = 1, r32f) writeonly uniform image2D depth;
 layout(binding = 2, rgba8) writeonly uniform image2D state;
@@ -41,51 +37,6 @@ layout(std430, binding = 2) buffer HoleCommands {
 layout(std430, binding = 3) writeonly buffer Holes {
     uvec2 holes[];
 };
-
-// Looks up the surface `id` bilinearly at `at` (pixel, z), in those of the four texels that show
-// this surface at this z. The rows of the picture begin at `firstRow`. `found` becomes the
-// premultiplied colour. Returns the sum of the weights, or 0 if it is not above kLeastLookUpWeight.
-// For the shadow catcher, texels without a surface count as catcher without a shadow.
-float lookUp(sampler2D from, sampler2D shown, ivec2 size, int firstRow, vec3 at, float id, out vec4 found) {
-    vec2 low = floor(at.xy), f = at.xy - low;
-    vec4 sum = vec4(0.0);
-    float weights = 0.0;
-    for (int i = 0; i < 4; ++i) {
-        ivec2 side = ivec2(i & 1, i >> 1);
-        ivec2 t = ivec2(low) + side;
-        bool within = at.z > 0.0 && all(greaterThanEqual(t, ivec2(0))) && all(lessThan(t, size));
-        t = clamp(t, ivec2(0), size - 1) + ivec2(0, firstRow);
-        vec4 s = texelFetch(shown, t, 0);
-        bool same = s.y == id ? abs(s.x - at.z) < s.z : s.y == 0.0 && id == float(kCatcher);
-        vec2 near = mix(1.0 - f, f, vec2(side));
-        float w = within && same && s.w > 0.5 ? near.x * near.y : 0.0;
-        weights += w;
-        sum += w * texelFetch(from, t, 0);
-    }
-    found = sum / max(weights, 1e-6);
-    return weights > kLeastLookUpWeight ? weights : 0.0;
-}
-
-// Looks up the colour of surface `id` at `point` in all pictures and returns it in `found`. Returns
-// the share of the colour that is known, [0, 1].
-float known(vec3 point, float id, out vec4 found) {
-    if (lookUp(colours, surfaces, tracedSize(), 0, inView(0, uint(id), point), id, found) > 0.0) return 1.0;
-    // Re-rendered pictures fade in: their shares grow from 0 to 1. Of those that show the point,
-    // the one with the largest share determines the colour.
-    float share_ = 0.0;
-    for (int i = 0; i < params.rerendered; ++i) {
-        vec4 own;
-        vec3 at = inView(i + 1, uint(id), point);
-        if (params.views[i + 1].share <= share_ || lookUp(rerenderedColours, rerenderedSurfaces, layerSize(), i * params.height, at, id, own) == 0.0) continue;
-        share_ = params.views[i + 1].share;
-        found = own;
-    }
-    if (share_ > 0.0) return share_;
-    // Outside the traced picture, the shadow catcher's colour is unknown. It nevertheless counts as
-    // known and transparent, so that it is not listed as missing.
-    found = vec4(0.0);
-    return id == float(kCatcher) && !(inView(0, uint(id), point).z > 0.0) ? 1.0 : 0.0;
-}
 
 uvec4 groupsOf(DispatchGroups g) {
     return uvec4(g.x, g.y, g.z, g.count);
@@ -107,8 +58,8 @@ void main() {
     vec3 point = object.z * vec3(ray + object.xy / focal, 1.0);
     vec3 under = catcher.z * vec3(ray + catcher.xy / focal, 1.0);
     vec4 ofObject, ofCatcher;
-    float objectKnown = covered > 0.0 ? known(point, float(id), ofObject) : 1.0;
-    float catcherKnown = below > 0.0 ? known(under, float(kCatcher), ofCatcher) : 1.0;
+    float objectKnown = covered > 0.0 ? known(point, float(id), paintAt(p, s, id), ofObject) : 1.0;
+    float catcherKnown = below > 0.0 ? known(under, float(kCatcher), Paint(vec3(0.0), vec3(0.0)), ofCatcher) : 1.0;
     vec4 shown = vec4(0.0);
     if (covered > 0.0) shown += covered * objectKnown * ofObject;
     if (below > 0.0) shown += below * catcherKnown * ofCatcher;

@@ -1,17 +1,27 @@
-// Writes number and depth of the surface that is visible in this pixel.
-// Out: R32UI, packed by warp_surface.glsl.
+// Writes number, depth and paint of the surface that is visible in this pixel.
+// Out: R32UI, packed by warp_surface.glsl; paint (see base/paint_words.h), linear, into textures
+// with sRGB encoding.
 // Variant: #define ALPHA_MASK
 #include "warp_silhouette_params.glsl"
 #include "warp_surface.glsl"
 
+layout(binding = 0) uniform sampler2D diffuseTexture;
+layout(binding = 1) uniform sampler2D facingTexture;
 #ifdef ALPHA_MASK
 // Alpha times the material's alpha factor; the texture repeats.
-layout(binding = 0) uniform sampler2D alpha;
-in vec2 texel;
+layout(binding = 2) uniform sampler2D alpha;
 #endif
+in vec2 texel;
+// Added to the mipmap level. Paint may be sharper than a single sample would need it, because the
+// mean of four samples is shown.
+const float kSharper = -0.5;
 layout(location = 0) out uint surface;
+layout(location = 1) out vec4 diffuse;
+layout(location = 2) out vec4 facing;
 
 void main() {
+    diffuse = texture(diffuseTexture, texel, kSharper);
+    facing = texture(facingTexture, texel, kSharper);
 #ifdef ALPHA_MASK
     if (!(textureLod(alpha, texel, 0.0).r >= params.cutoff)) discard;
 #endif

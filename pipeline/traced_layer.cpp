@@ -13,16 +13,7 @@ namespace mfar {
 struct TracedLayer::State {
     State(const CameraModel& video, Engine& warps, const TracedLayerOptions& options)
         : camera(video.scaledTo(options.size)), warp(camera, options.size, warps, options.warp),
-          renderer(rendererOptions(options, warp)), fadeFrames(options.warp.fadeFrames) {}
-
-    // With TracedPolicy::soon, a picture is shown after few samples. `soon` is switched off if the
-    // warp shows the picture's colours instead of its light alone: these colours would be noisy.
-    static TracedRendererOptions rendererOptions(const TracedLayerOptions& options,
-                                                 const Warp& warp) {
-        TracedRendererOptions out = options.renderer;
-        out.policy.soon = out.policy.soon && warp.takesLight();
-        return out;
-    }
+          renderer(options.renderer), fadeFrames(options.warp.fadeFrames) {}
 
     void take(const RenderedPicture& picture) {
         if (picture.scene != scene) {

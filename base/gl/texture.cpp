@@ -106,14 +106,42 @@ void Texture::uploadRows(std::span<const std::array<std::uint8_t, 4>> texels, in
                     texels.data());
 }
 
-void Texture::upload(std::span<const std::uint32_t> values) {
-    const bool four = format_ == TexelFormat::Rgba32Ui;
-    assert(four || format_ == TexelFormat::R32Ui);
-    assert(values.size() == (four ? 4UL : 1UL) * size_.width * size_.height);
+void Texture::upload(std::span<const std::uint32_t> values, int firstRow) {
+    GLenum layout = GL_RED_INTEGER, type = GL_UNSIGNED_INT;
+    std::size_t row = size_.width;
+    if (format_ == TexelFormat::Rg32Ui) {
+        layout = GL_RG_INTEGER;
+        row *= 2;
+    } else if (format_ == TexelFormat::Rgba32Ui) {
+        layout = GL_RGBA_INTEGER;
+        row *= 4;
+    } else if (format_ == TexelFormat::Rgb9E5) {
+        layout = GL_RGB;
+        type = GL_UNSIGNED_INT_5_9_9_9_REV;
+    } else {
+        assert(format_ == TexelFormat::R32Ui);
+    }
+    const auto rows = static_cast<int>(values.size() / row);
+    assert(values.size() % row == 0 && firstRow >= 0 && firstRow + rows <= size_.height);
     glBindTexture(GL_TEXTURE_2D, id_);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, size_.width, size_.height,
-                    four ? GL_RGBA_INTEGER : GL_RED_INTEGER, GL_UNSIGNED_INT, values.data());
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, firstRow, size_.width, rows, layout, type, values.data());
+}
+
+void Texture::uploadLevel(int level, Size size,
+                          std::span<const std::array<std::uint8_t, 4>> texels) {
+    assert(format_ == TexelFormat::Srgb8Alpha8);
+    assert(texels.size() == static_cast<std::size_t>(size.width) * size.height);
+    glBindTexture(GL_TEXTURE_2D, id_);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    glTexSubImage2D(GL_TEXTURE_2D, level, 0, 0, size.width, size.height, GL_RGBA, GL_UNSIGNED_BYTE,
+                    texels.data());
+}
+
+void Texture::repeat() const {
+    glBindTexture(GL_TEXTURE_2D, id_);
+    for (const GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
+        glTexParameteri(GL_TEXTURE_2D, axis, GL_REPEAT);
 }
 
 std::vector<std::uint8_t> Texture::readRgba8() const {

@@ -15,6 +15,7 @@ enum class TexelFormat : GLenum {
     R8 = GL_R8,
     Rg8 = GL_RG8,
     Rgba8 = GL_RGBA8,
+    Srgb8Alpha8 = GL_SRGB8_ALPHA8,
     R16F = GL_R16F,
     Rg16F = GL_RG16F,
     Rgba16F = GL_RGBA16F,
@@ -24,7 +25,9 @@ enum class TexelFormat : GLenum {
     R16I = GL_R16I,
     Rgba16I = GL_RGBA16I,
     R32Ui = GL_R32UI,
+    Rg32Ui = GL_RG32UI,
     Rgba32Ui = GL_RGBA32UI,
+    Rgb9E5 = GL_RGB9_E5,
     Depth24 = GL_DEPTH_COMPONENT24,
 };
 
@@ -49,7 +52,7 @@ public:
 
     /// Replaces the pixels of an R8, Rg8 or Rgba8 texture (asserted). `rows` has the texture's
     /// size. The upload is slow if the stride is not a multiple of the texel's size. All uploads
-    /// and reads of this class access mipmap level 0 only.
+    /// and reads of this class but uploadLevel() access mipmap level 0 only.
     void upload(const PlaneView& rows);
     /// Replaces rows of an R32F, Rg32F or Rgba32F texture (asserted), beginning at `firstRow`.
     /// `values` has one, two or four floats per texel and whole rows without padding (asserted).
@@ -57,9 +60,14 @@ public:
     /// Replaces rows of an Rgba8 texture, beginning at `firstRow`. `texels` has whole rows without
     /// padding (asserted).
     void uploadRows(std::span<const std::array<std::uint8_t, 4>> texels, int firstRow = 0);
-    /// Replaces the texels of an R32Ui or Rgba32Ui texture. `values` has one or four integers per
-    /// texel.
-    void upload(std::span<const std::uint32_t> values);
+    /// Replaces rows of an R32Ui, Rg32Ui, Rgba32Ui or Rgb9E5 texture (asserted), beginning at
+    /// `firstRow`. `values` has one, two, four or one integers per texel and whole rows without
+    /// padding (asserted).
+    void upload(std::span<const std::uint32_t> values, int firstRow = 0);
+    /// Replaces mipmap level `level` of an Srgb8Alpha8 texture (asserted), which has `size` texels.
+    void uploadLevel(int level, Size size, std::span<const std::array<std::uint8_t, 4>> texels);
+    /// Makes the texture repeat outside of [0, 1].
+    void repeat() const;
     /// Returns the texture as RGBA8, row 0 first. Waits for the GPU; too slow for the frame path.
     [[nodiscard]] std::vector<std::uint8_t> readRgba8() const;
     /// Returns four floats per texel. Waits for the GPU; too slow for the frame path.

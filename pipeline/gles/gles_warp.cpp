@@ -38,9 +38,9 @@ public:
     }
     void setTracedPicture(const TracedPicture& traced) override {
         textures_.upload(traced);
+        lookUp_.setTracedPicture(traced, textures_);
         traced_ = &traced;
     }
-    bool takesLight() const override { return false; }
     LayerPicture& traced() override {
         return rendered_.show(textures_.picture(), textures_.depth(), traced_->bounds);
     }
@@ -88,9 +88,8 @@ private:
 
     void lookUp(const Frame& frame) {
         silhouette_.draw(frame.T_world_camera, frame.bounds);
-        const ViewLookUp::Input input{
-            silhouette_.surface(), silhouette_.models(), textures_, *traced_,
-            rerendered_,           rerenderedTextures_};
+        const ViewLookUp::Input input{silhouette_, textures_, *traced_, rerendered_,
+                                      rerenderedTextures_};
         filler_.begin(frame.bounds, pushPulls(options_.filling));
         lookUp_.run(input, frame.T_world_camera, frame.bounds, filler_);
     }

@@ -19,8 +19,7 @@ gpu::Texture alphaOf(const SurfaceTexture& texture) {
         alpha.push_back(texel[3]);
     gpu::Texture out(texture.size, gpu::TexelFormat::R8);
     out.upload({alpha.data(), static_cast<std::size_t>(texture.size.width)});
-    for (const GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
-        glTexParameteri(GL_TEXTURE_2D, axis, GL_REPEAT);
+    out.repeat();
     return out;
 }
 
@@ -59,8 +58,10 @@ public:
 ModelSilhouette::ModelSilhouette(const CameraModel& layer)
     : lens_(layer), models_(layer),
       surface_({2 * layer.size.width, 2 * layer.size.height}, gpu::TexelFormat::R32Ui),
+      diffuse_(surface_.size(), gpu::TexelFormat::Srgb8Alpha8, gpu::Filter::Linear),
+      facing_(surface_.size(), gpu::TexelFormat::Srgb8Alpha8, gpu::Filter::Linear),
       window_(surface_.size(), gpu::TexelFormat::Depth24),
-      target_(std::array<const gpu::Texture*, 1>{&surface_}, &window_),
+      target_(std::array<const gpu::Texture*, 3>{&surface_, &diffuse_, &facing_}, &window_),
       pass_("warp_silhouette.vert", "warp_silhouette.frag", ""),
       maskedPass_("warp_silhouette.vert", "warp_silhouette.frag", "#define ALPHA_MASK\n") {
     target_.bind();
@@ -97,6 +98,7 @@ ModelSilhouette::Part ModelSilhouette::partOf(const Models::Part& part) {
     Part out{gpu::Buffer(vertices.size() * sizeof(vertices[0])),
              gpu::Buffer(mesh.triangles.size() * sizeof(mesh.triangles[0])),
              static_cast<int>(3 * mesh.triangles.size()),
+             paints_.of(part.material != nullptr ? paintSourceOf(part) : PaintSource{}),
              {},
              part.cutoff,
              part.bothSides};
@@ -120,10 +122,12 @@ void ModelSilhouette::drawObject(const Models::Object& object, std::size_t numbe
         std::optional<FrontFaces> front;
         if (!part.bothSides) front.emplace();
         const gpu::Mesh mesh{part.vertices, part.indices, part.indexCount};
+        const gpu::Binding diffuse = gpu::sampler(0, part.paint->diffuse),
+                           facing = gpu::sampler(1, part.paint->facing);
         if (part.alpha)
-            maskedPass_.runMesh(p, {gpu::sampler(0, *part.alpha)}, target_, mesh);
+            maskedPass_.runMesh(p, {diffuse, facing, gpu::sampler(2, *part.alpha)}, target_, mesh);
         else
-            pass_.runMesh(p, {}, target_, mesh);
+            pass_.runMesh(p, {diffuse, facing}, target_, mesh);
     }
 }
 

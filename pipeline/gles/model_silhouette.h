@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/gl/pass.h"
+#include "pipeline/gles/paint_textures.h"
 #include "pipeline/warp/pass_params.h"
 #include "pipeline/warp/silhouette_models.h"
 
@@ -13,10 +14,10 @@
 
 namespace mfar {
 
-/// Draws the depth and number of the virtual surface that is visible at each pixel: an object or,
-/// where there is none, the shadow catcher. Surfaces are rasterised at twice the layer's
+/// Draws the depth, number and paint of the virtual surface that is visible at each pixel: an
+/// object or, where there is none, the shadow catcher. Surfaces are rasterised at twice the layer's
 /// resolution, so that each layer pixel has four quarters. The lens distortion is applied to the
-/// vertices. Colours are not computed.
+/// vertices. Light is not computed.
 class ModelSilhouette {
 public:
     /// `layer` is the video camera at the layer's resolution. Throws GlError if the GL
@@ -44,6 +45,10 @@ public:
     /// warp_surface.glsl, or 0 without a surface. Objects hide the shadow catcher, even if the
     /// catcher is nearer.
     [[nodiscard]] const gpu::Texture& surface() const { return surface_; }
+    /// sRGB textures of surface()'s size with the paint of objects (see PaintWords). Valid only
+    /// where surface() shows an object.
+    [[nodiscard]] const gpu::Texture& diffuse() const { return diffuse_; }
+    [[nodiscard]] const gpu::Texture& facing() const { return facing_; }
     [[nodiscard]] std::size_t triangles() const { return models_.triangles(); }
 
 private:
@@ -51,6 +56,7 @@ private:
     struct Part {
         gpu::Buffer vertices, indices;
         int indexCount;
+        std::shared_ptr<const gles::PaintTextures> paint;
         std::optional<gpu::Texture> alpha;
         float cutoff;
         bool bothSides;
@@ -58,7 +64,7 @@ private:
     using ShapePointer = std::shared_ptr<const Models::Shape>;
     using PartsOfShapes = std::map<ShapePointer, std::shared_ptr<std::vector<Part>>>;
 
-    static Part partOf(const Models::Part& part);
+    Part partOf(const Models::Part& part);
     void addParts(const ShapePointer& shape, const PartsOfShapes& before);
     void clear(const PixelRect& where) const;
     void drawObject(const Models::Object& object, std::size_t number,
@@ -67,8 +73,9 @@ private:
     LensProjection lens_;
     Models models_;
     PartsOfShapes parts_;
+    gles::PaintStore paints_;
     PixelRect drawn_;
-    gpu::Texture surface_, window_;
+    gpu::Texture surface_, diffuse_, facing_, window_;
     gpu::Framebuffer target_;
     gpu::DrawPass<params::SilhouetteMesh> pass_, maskedPass_;
 };

@@ -7,7 +7,7 @@ namespace mfar {
 
 /// The re-rendered pictures on the GPU, one below the other in one texture. Picture i begins at row
 /// i * (height of the layer). colour() is RGBA8. surface() is Rgba32F; its channels are the members
-/// of WarpSurface.
+/// of WarpSurface. light() is Rg32UI with LightWords.
 class RerenderedTextures {
 public:
     explicit RerenderedTextures(Size layer);
@@ -15,10 +15,14 @@ public:
     void store(const RerenderedPictures::StoredRows& rows);
     [[nodiscard]] const gpu::Texture& colour() const { return colour_; }
     [[nodiscard]] const gpu::Texture& surface() const { return surface_; }
+    [[nodiscard]] const gpu::Texture& light() const { return light_; }
+    /// True if light was stored. Then it is valid for all objects.
+    [[nodiscard]] bool isLit() const { return isLit_; }
 
 private:
     Size layer_;
-    gpu::Texture colour_, surface_;
+    gpu::Texture colour_, surface_, light_;
+    bool isLit_ = false;
 };
 
 }  // namespace mfar

@@ -29,12 +29,18 @@ void TracedTextures::upload(const TracedPicture& traced) {
         colour_ = gpu::Texture(size, gpu::TexelFormat::Rgba8, gpu::Filter::Linear);
         surface_ = gpu::Texture(size, gpu::TexelFormat::Rgba32F);
         packed_ = gpu::Texture(size, gpu::TexelFormat::R32Ui);
+        light_ = gpu::Texture(size, gpu::TexelFormat::Rg32Ui);
+        gloss_ = gpu::Texture(size, gpu::TexelFormat::Rg32Ui);
     }
     lens_.emplace(traced.camera);
     picture_.uploadRows(traced.picture);
     depth_.upload(std::span(traced.depth));
     colour_.uploadRows(traced.colour);
     packed_.upload(traced.packed);
+    if (!traced.light.empty())
+        light_.upload(std::span(&traced.light.front().diffuse, 2 * traced.light.size()));
+    if (!traced.gloss.empty())
+        gloss_.upload(std::span(&traced.gloss.front().normal, 2 * traced.gloss.size()));
     surface_.upload(std::span(&traced.surface.front().z, 4 * traced.surface.size()));
 }
 

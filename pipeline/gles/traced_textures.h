@@ -12,7 +12,7 @@ namespace mfar {
 [[nodiscard]] gpu::Texture rayTexture(const CameraModel& camera);
 
 /// The members of a TracedPicture as textures: picture() is RGBA8, depth() is R32F, colour() is
-/// RGBA8, surface() is Rgba32F, and packed() is R32UI.
+/// RGBA8, surface() is Rgba32F, packed() is R32UI, light() and gloss() are Rg32UI.
 class TracedTextures {
 public:
     void upload(const TracedPicture& traced);
@@ -24,10 +24,13 @@ public:
     [[nodiscard]] const gpu::Texture& colour() const { return colour_; }
     [[nodiscard]] const gpu::Texture& surface() const { return surface_; }
     [[nodiscard]] const gpu::Texture& packed() const { return packed_; }
+    /// Valid only if TracedPicture::light, or TracedPicture::gloss, is not empty.
+    [[nodiscard]] const gpu::Texture& light() const { return light_; }
+    [[nodiscard]] const gpu::Texture& gloss() const { return gloss_; }
 
 private:
     std::optional<LensProjection> lens_;
-    gpu::Texture picture_, depth_, colour_, surface_, packed_;
+    gpu::Texture picture_, depth_, colour_, surface_, packed_, light_, gloss_;
 };
 
 }  // namespace mfar

@@ -28,7 +28,7 @@ ViewLookUp::ViewLookUp(const LensProjection& layer)
     : layer_(layer), rays_(rayTexture(layer.camera)),
       colour_(layer.camera.size, gpu::TexelFormat::Rgba8, gpu::Filter::Linear),
       depth_(layer.camera.size, gpu::TexelFormat::R32F),
-      state_(layer.camera.size, gpu::TexelFormat::Rgba8),
+      state_(layer.camera.size, gpu::TexelFormat::Rgba8), light_(layer.camera),
       target_(std::array<const gpu::Texture*, 3>{&colour_, &depth_, &state_}),
       commands_(sizeof(HoleFiller::Command)),
       list_(sizeof(std::uint32_t) * layer.camera.size.width * layer.camera.size.height),
@@ -48,7 +48,7 @@ void ViewLookUp::prepareMotion() {
 }
 
 bool ViewLookUp::showsMotion(const Input& input) const {
-    return motion_ && input.picture.poses.size() == input.models.objects().size() &&
+    return motion_ && input.picture.poses.size() == input.silhouette.models().objects().size() &&
            !input.picture.poses.empty();
 }
 
@@ -56,8 +56,8 @@ void ViewLookUp::upload(const Input& input, const RigidTransform& T_world_camera
     std::vector<float> texels(std::size_t{12} * kViews * params::kSurfaceNumbers);
     const auto add = [&](int view, const RigidTransform& T_world_view,
                          const std::vector<RigidTransform>& poses) {
-        const std::vector<RigidTransform> views =
-            viewsOfObjects(T_world_view, poses, input.models.objects(), T_world_camera);
+        const std::vector<RigidTransform> views = viewsOfObjects(
+            T_world_view, poses, input.silhouette.models().objects(), T_world_camera);
         for (int id = 0; id < params::kSurfaceNumbers; ++id) {
             const auto at = static_cast<std::size_t>(id);
             const params::Transform T =
@@ -97,12 +97,15 @@ params::LookUpViews ViewLookUp::paramsOf(const Input& input,
     }
     p.projections[0] = projectionOf(input.traced.lens());
     p.projections[1] = projectionOf(layer_);
-    const Eigen::Vector4f plane = planeIn(input.models.plane(), T_world_camera).cast<float>();
+    const Eigen::Vector4f plane =
+        planeIn(input.silhouette.models().plane(), T_world_camera).cast<float>();
     p.plane = {plane.x(), plane.y(), plane.z(), plane.w()};
     p.tracedWidth = from.width;
     p.tracedHeight = from.height;
     p.width = to.width;
     p.height = to.height;
+    p.tracedIsLit = light_.isLit() ? 1 : 0;
+    p.rerenderedIsLit = input.rerenderedTextures.isLit() ? 1 : 0;
     return p;
 }
 
@@ -115,17 +118,27 @@ void ViewLookUp::run(const Input& input, const RigidTransform& T_world_camera,
     std::ranges::copy(holes.wanted(), p.wanted);
     const bool moving = showsMotion(input);
     if (moving) upload(input, T_world_camera);
+    light_.run(T_world_camera.translation, rays_);
     {
         const gpu::Scissor scissor(where);
-        const gpu::Binding silhouette = gpu::sampler(0, input.silhouette),
+        const gpu::Binding silhouette = gpu::sampler(0, input.silhouette.surface()),
                            rays = gpu::sampler(1, rays_),
                            colour = gpu::sampler(2, input.traced.colour()),
-                           packed = gpu::sampler(3, input.traced.packed());
+                           packed = gpu::sampler(3, input.traced.packed()),
+                           diffusePaint = gpu::sampler(7, input.silhouette.diffuse()),
+                           facingPaint = gpu::sampler(8, input.silhouette.facing()),
+                           diffuse = gpu::sampler(9, light_.diffuse()),
+                           specular = gpu::sampler(10, light_.specular());
         if (moving)
-            motion_->passes.plain.run(
-                p, {silhouette, rays, colour, packed, gpu::sampler(6, motion_->views)}, target_);
+            motion_->passes.plain.run(p,
+                                      {silhouette, rays, colour, packed,
+                                       gpu::sampler(6, motion_->views), diffusePaint, facingPaint,
+                                       diffuse, specular},
+                                      target_);
         else
-            still_.plain.run(p, {silhouette, rays, colour, packed}, target_);
+            still_.plain.run(
+                p, {silhouette, rays, colour, packed, diffusePaint, facingPaint, diffuse, specular},
+                target_);
     }
     runRest(p, input, where, holes);
 }
@@ -138,27 +151,34 @@ void ViewLookUp::runRest(const Params& params, const Input& input, const PixelRe
                   {gpu::sampler(0, state_), gpu::storage(0, commands_), gpu::storage(1, list_)},
                   {gpu::groupsFor((where.x1 - where.x0 + 1) / 2, kListGroup),
                    gpu::groupsFor((where.y1 - where.y0 + 1) / 2, kListGroup), 1});
-    const gpu::Binding silhouette = gpu::sampler(0, input.silhouette),
+    const gpu::Binding silhouette = gpu::sampler(0, input.silhouette.surface()),
                        rays = gpu::sampler(1, rays_),
                        colours = gpu::sampler(2, input.traced.colour()),
                        surfaces = gpu::sampler(3, input.traced.surface()),
                        moreColours = gpu::sampler(4, input.rerenderedTextures.colour()),
                        moreSurfaces = gpu::sampler(5, input.rerenderedTextures.surface()),
+                       diffusePaint = gpu::sampler(7, input.silhouette.diffuse()),
+                       facingPaint = gpu::sampler(8, input.silhouette.facing()),
+                       diffuse = gpu::sampler(9, light_.diffuse()),
+                       specular = gpu::sampler(10, light_.specular()),
+                       moreLights = gpu::sampler(11, input.rerenderedTextures.light()),
                        colour = gpu::imageWrite(0, colour_), depth = gpu::imageWrite(1, depth_),
                        state = gpu::imageWrite(2, state_), commands = gpu::storage(0, commands_),
                        list = gpu::storage(1, list_),
                        holeCommands = gpu::storage(2, holes.commands()),
                        entries = gpu::storage(3, holes.entries());
     if (showsMotion(input))
-        motion_->passes.rest.runIndirect(params,
-                                         {silhouette, rays, colours, surfaces, moreColours,
-                                          moreSurfaces, gpu::sampler(6, motion_->views), colour,
-                                          depth, state, commands, list, holeCommands, entries},
-                                         commands_, 0);
+        motion_->passes.rest.runIndirect(
+            params,
+            {silhouette, rays, colours, surfaces, moreColours, moreSurfaces,
+             gpu::sampler(6, motion_->views), diffusePaint, facingPaint, diffuse, specular,
+             moreLights, colour, depth, state, commands, list, holeCommands, entries},
+            commands_, 0);
     else
         still_.rest.runIndirect(params,
                                 {silhouette, rays, colours, surfaces, moreColours, moreSurfaces,
-                                 colour, depth, state, commands, list, holeCommands, entries},
+                                 diffusePaint, facingPaint, diffuse, specular, moreLights, colour,
+                                 depth, state, commands, list, holeCommands, entries},
                                 commands_, 0);
 }
 

@@ -2,7 +2,9 @@
 
 #include "base/gl/pass.h"
 #include "pipeline/composite/lens_projection.h"
+#include "pipeline/gles/eye_light.h"
 #include "pipeline/gles/hole_filler.h"
+#include "pipeline/gles/model_silhouette.h"
 #include "pipeline/gles/rerendered_textures.h"
 #include "pipeline/gles/traced_textures.h"
 #include "pipeline/warp/pass_params.h"
@@ -16,17 +18,16 @@
 namespace mfar {
 
 /// Looks up the colours of a warped picture (eq. 5 of the paper in docs/paper.md). ModelSilhouette
-/// has drawn the surfaces that are visible at the current pose. Their colours come from the traced
-/// picture or, if that does not show the surface, from the re-rendered pictures. A draw call
-/// processes simple pixels. A compute shader processes a list of all other pixels, for example at
-/// edges.
+/// has drawn the surfaces that are visible at the current pose. The light on them comes from the
+/// traced picture or, if that does not show the surface, from the re-rendered pictures. Pictures
+/// without light give finished colours instead. A draw call processes simple pixels. A compute
+/// shader processes a list of all other pixels, for example at edges.
 class ViewLookUp {
 public:
     explicit ViewLookUp(const LensProjection& layer);
 
     struct Input {
-        const gpu::Texture& silhouette;
-        const SilhouetteModels& models;  ///< the objects at their current poses
+        const ModelSilhouette& silhouette;  ///< the objects at their current poses
         const TracedTextures& traced;
         const TracedPicture& picture;  ///< the picture that was uploaded to `traced`
         const RerenderedPictures& rerendered;
@@ -39,6 +40,10 @@ public:
     void run(const Input& input, const RigidTransform& T_world_camera, const PixelRect& where,
              const HoleFiller& holes);
     void clear(const PixelRect& where) const;
+    /// Must be called after each upload to the textures that run() gets.
+    void setTracedPicture(const TracedPicture& traced, const TracedTextures& textures) {
+        light_.setTracedPicture(traced, textures);
+    }
 
     /// colour() is RGBA8, premultiplied. depth() is R32F: z [m], or 0 without a surface.
     [[nodiscard]] const gpu::Texture& colour() const { return colour_; }
@@ -57,6 +62,7 @@ private:
 
     LensProjection layer_;
     gpu::Texture rays_, colour_, depth_, state_;
+    EyeLight light_;
     gpu::Framebuffer target_;
     gpu::Buffer commands_, list_;
     /// The passes that look up the surfaces' colours. `plain` draws the simple pixels, and `rest`

@@ -52,7 +52,6 @@ public:
         picture_ = copied<std::uint32_t>(traced.camera.size, traced.picture.data());
         depth_ = copied<float>(traced.camera.size, traced.depth.data());
     }
-    bool takesLight() const override { return true; }
     LayerPicture& traced() override {
         rendered_.colour.writtenOnHost(picture_.rows());
         rendered_.depth.writtenOnHost(depth_.rows());

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/lens_params.h"
 #include "pipeline/composite/pass_params.h"
 
 #include <cstdint>
@@ -61,6 +62,18 @@ struct alignas(16) LookUpViews {
     std::int32_t tracedWidth, tracedHeight;
     std::int32_t width, height;
     std::int32_t rerendered, levels;
+    /// 1: the pictures contain the light on objects, to which the paint is applied. 0: they contain
+    /// finished colours.
+    std::int32_t tracedIsLit, rerenderedIsLit;
+};
+
+/// Light of a traced picture's objects, and the eye that sees it.
+struct alignas(16) EyeLight {
+    Row4 axes[3];  ///< rows of the traced picture's R_world_camera
+    Row4 eye;      ///< vector from the traced picture's camera to the eye, in the world [m]
+    Row4 towardsSun, irradiance;  ///< see MirrorLight
+    float least, exposure;
+    std::int32_t mirrors;  ///< 1: mirrored light is computed for `eye`; 0: it stays unchanged
 };
 
 /// Position of one pyramid level in memory and in the picture. Missing pixels are filled from the

@@ -46,8 +46,6 @@ public:
     void setTracedPicture(TracedPicture traced);
     void dropTracedPicture();
 
-    [[nodiscard]] bool takesLight() const { return step_->takesLight(); }
-
     /// Returns the layer at this pose. It is empty without a scene or a traced picture, or if the
     /// pose is not finite. The result is valid until the next call of any member.
     /// If objects of the scene move, `poses` must be their present poses T_world_object, one for

@@ -32,9 +32,6 @@ public:
 
     /// Must be called before run(). `traced` must stay valid until the next setTracedPicture().
     virtual void setTracedPicture(const TracedPicture& traced) = 0;
-    /// True if run() takes only the light on objects from the pictures, and surface colours from
-    /// the objects' textures. False if run() takes finished colours from the pictures.
-    [[nodiscard]] virtual bool takesLight() const = 0;
     [[nodiscard]] virtual LayerPicture& traced() = 0;
 
     struct Frame {

@@ -1,95 +1,22 @@
-#include "pipeline/render/far_light.h"
 #include "pipeline/render/path_tracer.h"
 #include "pipeline/render/picture_resolver.h"
 #include "pipeline/simd/moving_mirrors.h"
 #include "pipeline/simd/simd_warp.h"
 #include "tests/render/render_scenes.h"
+#include "tests/warp/mirror_surfaces.h"
 #include "tests/warp/warp_support.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
 
 namespace mfar::simd {
 namespace {
 
-constexpr Size kPicture{21, 40};
-constexpr float kTwice = 2;  // light in the table of roughness 1, divided by that of roughness 0
-
-CameraModel camera() {
-    return {kPicture, 30, 30, 9.5, 18.5, {-0.1, 0.02, 0, 0, 0}};
-}
-
-Eigen::Vector3f lightFrom(const Eigen::Vector3f& direction) {
-    return direction + Eigen::Vector3f::Constant(1.5F);
-}
-
-MirrorLight smoothLight() {
-    MirrorLight out;
-    for (const float roughness : {0.0F, 1.0F}) {
-        const DirectionTable table(129);
-        out.tables.push_back(
-            {roughness, table.edge(), static_cast<std::uint32_t>(out.texels.size())});
-        for (int row = 0; row < table.edge(); ++row)
-            for (int column = 0; column < table.edge(); ++column) {
-                const Eigen::Vector3f light =
-                    (roughness > 0 ? kTwice : 1) * lightFrom(table.direction(column, row));
-                out.texels.push_back(packedLight({light.x(), light.y(), light.z()}));
-            }
-    }
-    return out;
-}
-
-struct Surfaces {
-    std::vector<Eigen::Vector3f> points, normals;
-    std::vector<float> roughness;
-    TracedPicture traced;
-
-    explicit Surfaces(const MirrorLight& mirrors) {
-        std::mt19937 random(3);
-        std::uniform_real_distribution<float> any(-1, 1);
-        traced.camera = camera();
-        traced.T_world_camera = {Eigen::Quaterniond(Eigen::AngleAxisd(
-                                     2.1, Eigen::Vector3d(0.3, 0.8, -0.5).normalized())),
-                                 {0.4, -0.2, 0.7}};
-        traced.mirrors = std::make_shared<const MirrorLight>(mirrors);
-        traced.exposure = 0.5F;
-        traced.bounds = {0, 0, kPicture.width, kPicture.height};
-        const Eigen::Matrix3f axes =
-            traced.T_world_camera.rotation.toRotationMatrix().cast<float>();
-        for (int y = 0; y < kPicture.height; ++y)
-            for (int x = 0; x < kPicture.width; ++x) {
-                const float z = std::bit_cast<float>(std::bit_cast<std::uint32_t>(2 + any(random)) &
-                                                     0xFFFFFF00U);
-                const Eigen::Vector3f ray =
-                    axes * camera().unproject(Eigen::Vector2d(x, y)).homogeneous().cast<float>();
-                Eigen::Vector3f n =
-                    Eigen::Vector3f(any(random), any(random), any(random)).normalized();
-                if (n.dot(ray) > 0) n = -n;
-                n = (n - 0.7F * ray.normalized()).normalized();
-                normals.push_back(n);
-                points.push_back(traced.T_world_camera.translation.cast<float>() + z * ray);
-                roughness.push_back(0.5F + 0.5F * any(random));
-                traced.packed.push_back(std::bit_cast<std::uint32_t>(z) | 7U);
-                traced.gloss.push_back(packedGloss({n.x(), n.y(), n.z()}, roughness.back(), 1, 1));
-            }
-        traced.light.resize(points.size());
-    }
-    [[nodiscard]] Eigen::Vector3f seenFrom(const Eigen::Vector3d& eye, std::size_t i) const {
-        return (eye.cast<float>() - points[i]).normalized();
-    }
-    [[nodiscard]] Eigen::Vector3f skyFor(const Eigen::Vector3d& eye, std::size_t i) const {
-        const Eigen::Vector3f wo = seenFrom(eye, i);
-        const Eigen::Vector3f towards = 2 * normals[i].dot(wo) * normals[i] - wo;
-        const float width = roughness[i] * roughness[i];
-        return 0.5F * (1 + width * (kTwice - 1)) * lightFrom(towards);
-    }
-    void setLight(std::size_t i, const Eigen::Vector3f& specular) {
-        traced.light[i] =
-            packedWords({{0.1F, 0.2F, 0.3F}, {specular.x(), specular.y(), specular.z()}, 0.5F});
-    }
-};
+using test::kMirrorPicture;
+using test::mirrorCamera;
+using test::MirrorSurfaces;
+using test::smoothLight;
 
 Eigen::Vector3f specularOf(const LightWords& words) {
     const auto rgb = unpackedWords(words).specular;
@@ -97,14 +24,14 @@ Eigen::Vector3f specularOf(const LightWords& words) {
 }
 
 struct Mirrors {
-    AlignedRows<float> rayX{kPicture}, rayY{kPicture};
+    AlignedRows<float> rayX{kMirrorPicture}, rayY{kMirrorPicture};
     MovingMirrors mirrors;
 
     explicit Mirrors(const TracedPicture& traced, int threads = 1)
-        : mirrors(camera(), rayX.rows(), rayY.rows(), std::make_shared<Workers>(threads)) {
-        for (int y = 0; y < kPicture.height; ++y)
-            for (int x = 0; x < kPicture.width; ++x) {
-                const Eigen::Vector2d ray = camera().unproject(Eigen::Vector2d(x, y));
+        : mirrors(mirrorCamera(), rayX.rows(), rayY.rows(), std::make_shared<Workers>(threads)) {
+        for (int y = 0; y < kMirrorPicture.height; ++y)
+            for (int x = 0; x < kMirrorPicture.width; ++x) {
+                const Eigen::Vector2d ray = mirrorCamera().unproject(Eigen::Vector2d(x, y));
                 rayX[y][x] = static_cast<float>(ray.x());
                 rayY[y][x] = static_cast<float>(ray.y());
             }
@@ -120,7 +47,7 @@ void expectNear(const Eigen::Vector3f& a, const Eigen::Vector3f& b, std::size_t 
 }
 
 TEST(MovingMirrors, AfterACameraMotionMirrorsReflectTheSkyAsSeenFromTheNewPosition) {
-    Surfaces s(smoothLight());
+    MirrorSurfaces s(smoothLight());
     const Eigen::Vector3d eye = s.traced.T_world_camera.translation;
     // One third of the pixels reflect the sky, one third reflect half of its light, and one third
     // reflect a sky with more light.
@@ -143,7 +70,7 @@ TEST(MovingMirrors, AfterACameraMotionMirrorsReflectTheSkyAsSeenFromTheNewPositi
 }
 
 TEST(MovingMirrors, AtThePositionOfTheTracedPictureMirrorsShowItsLight) {
-    Surfaces s(smoothLight());
+    MirrorSurfaces s(smoothLight());
     const Eigen::Vector3d eye = s.traced.T_world_camera.translation;
     for (std::size_t i = 0; i < s.points.size(); ++i)
         s.setLight(i, Eigen::Vector3f(0.3F, 2, 0.01F) * static_cast<float>(i % 5));
@@ -160,26 +87,10 @@ TEST(MovingMirrors, AtThePositionOfTheTracedPictureMirrorsShowItsLight) {
 }
 
 TEST(MovingMirrors, HighlightsOfTheSunMove) {
-    MirrorLight light = smoothLight();
-    const Eigen::Vector3f sun = Eigen::Vector3f(-0.2F, 0.4F, -0.9F).normalized();
-    light.towardsSun = {sun.x(), sun.y(), sun.z()};
-    light.sunIrradiance = {30, 30, 30};
-    light.leastSunAlpha = 0.005F;
-    Surfaces s(light);
+    MirrorSurfaces s(test::smoothLightAndSun());
     const Eigen::Vector3d eye = s.traced.T_world_camera.translation;
-    const auto all = [&](const Eigen::Vector3d& from, std::size_t i) {
-        const Eigen::Vector3f wo = s.seenFrom(from, i);
-        const float o = s.normals[i].dot(wo), to = s.normals[i].dot(sun);
-        Eigen::Vector3f out = s.skyFor(from, i);
-        if (!(to > 0)) return out;
-        const Eigen::Vector3f h = (wo + sun).normalized();
-        const Ggx ggx(alphaOf(s.roughness[i]));
-        const Eigen::Vector3f local = frameAround(s.normals[i]).transpose() * h;
-        return Eigen::Vector3f(out.array() +
-                               0.5F * 30 * ggx.density(local) * ggx.visibility(o, to) * to);
-    };
     for (std::size_t i = 0; i < s.points.size(); ++i)
-        s.setLight(i, all(eye, i));
+        s.setLight(i, s.skyAndSunFor(eye, i));
     Mirrors moving(s.traced);
     const Eigen::Vector3d other = eye + kMoved;
     const auto shown = moving.mirrors.lightFor(other);
@@ -187,7 +98,7 @@ TEST(MovingMirrors, HighlightsOfTheSunMove) {
     for (std::size_t i = 0; i < s.points.size(); ++i) {
         // The roughness is stored in one byte, which is too coarse for the sharpest lobes.
         if (s.normals[i].dot(s.seenFrom(other, i)) < 0.05F || s.roughness[i] < 0.3F) continue;
-        const Eigen::Vector3f truth = all(other, i);
+        const Eigen::Vector3f truth = s.skyAndSunFor(other, i);
         bright += truth.norm() > 1.3F * s.skyFor(other, i).norm() ? 1 : 0;
         EXPECT_LT((specularOf(shown[i]) - truth).lpNorm<Eigen::Infinity>(),
                   0.06F * truth.lpNorm<Eigen::Infinity>())
@@ -197,7 +108,7 @@ TEST(MovingMirrors, HighlightsOfTheSunMove) {
 }
 
 TEST(MovingMirrors, ResultIsIndependentOfTheNumberOfThreads) {
-    Surfaces s(smoothLight());
+    MirrorSurfaces s(smoothLight());
     for (std::size_t i = 0; i < s.points.size(); ++i)
         s.setLight(i, {1, 2, 3});
     Mirrors one(s.traced);
@@ -210,7 +121,7 @@ TEST(MovingMirrors, ResultIsIndependentOfTheNumberOfThreads) {
 }
 
 TEST(MovingMirrors, UnknownSurfacesKeepTheirLight) {
-    Surfaces s(smoothLight());
+    MirrorSurfaces s(smoothLight());
     for (std::size_t i = 0; i < s.points.size(); ++i)
         s.setLight(i, {1, 2, 3});
     s.traced.gloss[4] = {};

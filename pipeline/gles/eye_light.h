@@ -1,0 +1,48 @@
+#pragma once
+
+#include "base/gl/pass.h"
+#include "pipeline/gles/traced_textures.h"
+#include "pipeline/warp/pass_params.h"
+
+#include <memory>
+#include <optional>
+
+namespace mfar {
+
+/// The light of a traced picture's objects as seen from another position: distant light that they
+/// mirror is computed again. GPU version of the SIMD engine's MovingMirrors.
+class EyeLight {
+public:
+    explicit EyeLight(const CameraModel& layer);
+
+    /// `traced` and `textures` must live until the next call. `textures` must contain `traced`.
+    void setTracedPicture(const TracedPicture& traced, const TracedTextures& textures);
+    /// False if only the traced picture's colours are known.
+    [[nodiscard]] bool isLit() const { return traced_ != nullptr && !traced_->light.empty(); }
+    /// Computes the textures for the position `eye` in the world. `rays`: see rayTexture(), of the
+    /// layer's camera. Does nothing if isLit() is false. Mirrored light is unchanged if the pixels'
+    /// gloss is unknown, or if the traced picture has another camera model than the layer.
+    void run(const Eigen::Vector3d& eye, const gpu::Texture& rays);
+
+    /// RGBA16F textures, see struct Light in warp_light.glsl. Their size is that of the traced
+    /// picture, or one texel before the first run().
+    [[nodiscard]] const gpu::Texture& diffuse() const { return diffuse_; }
+    [[nodiscard]] const gpu::Texture& specular() const { return specular_; }
+
+private:
+    using Params = params::EyeLight;
+    void uploadTables();
+    [[nodiscard]] bool mirrorsMove() const;
+    [[nodiscard]] Params paramsFor(const Eigen::Vector3d& eye) const;
+
+    CameraModel layer_;
+    const TracedPicture* traced_ = nullptr;
+    const TracedTextures* textures_ = nullptr;
+    std::shared_ptr<const MirrorLight> mirrors_;
+    std::optional<Eigen::Vector3d> eye_;  // position of the last run(); empty: the picture is new
+    gpu::Texture diffuse_, specular_, tables_, looks_;
+    gpu::Framebuffer target_;
+    gpu::DrawPass<Params> pass_;
+};
+
+}  // namespace mfar
