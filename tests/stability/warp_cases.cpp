@@ -41,6 +41,48 @@ void spoilPicture(Context& c, std::vector<float>& depth, std::vector<std::uint8_
     }
 }
 
+std::uint32_t anyWord(Context& c) {
+    return static_cast<std::uint32_t>(c.hostile.integer(0, 0xFFFF)) << 16 |
+           static_cast<std::uint32_t>(c.hostile.integer(0, 0xFFFF));
+}
+
+std::vector<LightWords> anyLight(Context& c, std::size_t pixels) {
+    std::vector<LightWords> out(pixels);
+    for (LightWords& words : out)
+        words = {anyWord(c), anyWord(c)};
+    return out;
+}
+
+std::shared_ptr<const MirrorLight> anyMirrors(Context& c) {
+    auto out = std::make_shared<MirrorLight>();
+    const int tables = c.hostile.integer(1, 4);
+    for (int i = 0; i < tables; ++i) {
+        const int edge = c.hostile.integer(2, 17);
+        const float roughness = static_cast<float>(i) / 4;
+        out->tables.push_back({roughness, edge, static_cast<std::uint32_t>(out->texels.size())});
+        for (int texel = 0; texel < edge * edge; ++texel)
+            out->texels.push_back(anyWord(c));
+    }
+    const Eigen::Vector3d sun = c.hostile.direction().normalized();
+    for (std::size_t i = 0; i < 3; ++i) {
+        out->towardsSun[i] = static_cast<float>(sun[static_cast<Eigen::Index>(i)]);
+        out->sunIrradiance[i] = static_cast<float>(c.hostile.pick({0.0, 1.0, 1e4}));
+    }
+    out->leastSunAlpha = static_cast<float>(c.hostile.pick({0.0, 0.005, 1.0}));
+    out->least = static_cast<float>(c.hostile.pick({0.0, 0.01}));
+    return out;
+}
+
+/// Adds light whose words have any bits, and often the distant light that surfaces mirror.
+void addLight(Context& c, RenderedPicture& picture) {
+    picture.light = anyLight(c, picture.id.size());
+    if (c.hostile.chance(0.3)) return;
+    for (std::size_t i = 0; i < picture.id.size(); ++i)
+        picture.gloss.push_back({anyWord(c), anyWord(c)});
+    picture.mirrors = anyMirrors(c);
+    picture.exposure = static_cast<float>(c.hostile.logarithmic(1e-3, 1e3));
+}
+
 WarpOptions warpOptions(Context& c) {
     WarpOptions out;
     out.filling = c.hostile.pick({HoleFilling::None, HoleFilling::PushPull, HoleFilling::Rerender,
@@ -82,6 +124,7 @@ void showFrame(Context& c, Warp& warp, const test::CastScene& balls, const Rigid
                      "a request for pixels has a view that is not finite");
     HoleAnswer answer = test::answered(balls, *request, 1);
     spoilPicture(c, answer.depth, answer.id, answer.colour, spoilt);
+    if (c.hostile.chance(0.5)) answer.light = anyLight(c, answer.pixels.size());
     warp.answer(answer);
 }
 
@@ -97,6 +140,7 @@ void hostileWarp(Context& c) {
     const auto shoot = [&] {
         RenderedPicture picture = balls.cast({camera, from});
         spoilPicture(c, picture.depth, picture.id, picture.colour, spoilt);
+        if (c.hostile.chance(0.7)) addLight(c, picture);
         return tracedPicture(picture);
     };
     warp.setTracedPicture(shoot());
