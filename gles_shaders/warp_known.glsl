@@ -37,6 +37,8 @@ Light lightAt(bool ofTraced, ivec2 t) {
 // this surface at this z. The rows of the picture begin at `firstRow`. `found` becomes the
 // premultiplied colour. Returns the sum of the weights, or 0 if it is not above kLeastLookUpWeight.
 // For the shadow catcher, texels without a surface count as catcher without a shadow.
+// The loop's length is a parameter, because compilers would unroll a loop of known length, and V3D
+// and Mali would then spill registers.
 float lookUp(bool ofTraced, int firstRow, vec3 at, float id, Paint paint, out vec4 found) {
     vec2 low = floor(at.xy), f = at.xy - low;
     ivec2 size = ofTraced ? tracedSize() : layerSize();
@@ -44,7 +46,7 @@ float lookUp(bool ofTraced, int firstRow, vec3 at, float id, Paint paint, out ve
     vec4 sum = vec4(0.0);
     Light light = Light(vec4(0.0), vec4(0.0));
     float weights = 0.0;
-    for (int i = 0; i < 4; ++i) {
+    for (int i = 0; i < params.texels; ++i) {
         ivec2 side = ivec2(i & 1, i >> 1);
         ivec2 t = ivec2(low) + side;
         bool within = at.z > 0.0 && all(greaterThanEqual(t, ivec2(0))) && all(lessThan(t, size));

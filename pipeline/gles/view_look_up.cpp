@@ -104,6 +104,7 @@ params::LookUpViews ViewLookUp::paramsOf(const Input& input,
     p.tracedHeight = from.height;
     p.width = to.width;
     p.height = to.height;
+    p.texels = 4;
     p.tracedIsLit = light_.isLit() ? 1 : 0;
     p.rerenderedIsLit = input.rerenderedTextures.isLit() ? 1 : 0;
     return p;

@@ -65,6 +65,7 @@ struct alignas(16) LookUpViews {
     /// 1: the pictures contain the light on objects, to which the paint is applied. 0: they contain
     /// finished colours.
     std::int32_t tracedIsLit, rerenderedIsLit;
+    std::int32_t texels;  ///< always 4, see warp_known.glsl
 };
 
 /// Light of a traced picture's objects, and the eye that sees it.
@@ -92,7 +93,7 @@ struct alignas(16) FillHoles {
     std::int32_t level;
     std::int32_t levelCount;
     std::int32_t rows, rowsBelow;  ///< rows of this pyramid level and of the level below
-    std::int32_t texels;
+    std::int32_t texels;  ///< always 4, see warp_known.glsl
 };
 
 struct alignas(16) RefineEdges {
