@@ -61,7 +61,8 @@ struct CameraModel {
     [[nodiscard]] CameraModel scaledTo(Size to) const;
 };
 
-/// A rotation and a translation [m]. T_a_b is the transform from coordinates in frame b to frame a.
+/// A rotation and a translation [m]. T_a_b converts coordinates in frame b to coordinates in
+/// frame a.
 struct RigidTransform {
     Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
     Eigen::Vector3d translation = Eigen::Vector3d::Zero();
@@ -85,7 +86,7 @@ struct StereoRig {
     RigidTransform T_still_video;
 };
 
-/// The pose of the video camera in the world frame, which the tag map defines.
+/// The pose of the video camera in the world frame. The tag map defines the world frame.
 struct Pose {
     Timestamp time;
     RigidTransform T_world_video;

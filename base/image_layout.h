@@ -37,8 +37,8 @@ struct PlaneSize {
 void requireSound(const ImageView& picture, std::string_view what);
 
 /// Returns a Gray8 view of a valid picture's luma plane, without a copy. Returns nothing if the
-/// format has no separate luma plane. The values keep the picture's range (YuvRange): census, patch
-/// cost and tag detection work with both ranges.
+/// format has no separate luma plane. The values are not converted to another YuvRange, because the
+/// steps that use this view work with both ranges.
 [[nodiscard]] std::optional<ImageView> lumaPlane(const ImageView& picture);
 
 /// Conversion from Y U V to R G B, all in [0, 255]: channel = row[0..2] . (Y, U, V) + row[3]. The
