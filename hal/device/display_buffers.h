@@ -29,7 +29,8 @@ public:
 
     /// Starts to draw a picture. The previous picture need not be on the screen yet.
     virtual void begin(const Picture& picture) = 0;
-    /// Completes the picture of the last begin(). The previous picture must be on the screen.
+    /// Completes the picture of the last begin(). Before the call, the previous picture must have
+    /// appeared on the screen.
     [[nodiscard]] virtual Ready complete() = 0;
     /// Releases all GL objects, see Display::releaseGl(). After that, begin() must not be called.
     /// The screen keeps its picture.

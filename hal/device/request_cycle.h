@@ -42,7 +42,7 @@ public:
 
 /// Manages the requests of a camera. Each request goes through a cycle: it is queued, the driver
 /// completes it, a user holds its picture and returns it, and it is queued again. Thread-safe, but
-/// only one thread may call next(), which may call the driver's start() and stop(). `driver` must
+/// only one thread may call next(). next() may call the driver's start() and stop(). `driver` must
 /// outlive this object.
 class RequestCycle {
 public:

@@ -45,7 +45,7 @@ private:
     std::uint64_t hash_;
 };
 
-/// Computes four independent sums, because a multiplication has a long latency.
+/// Computes four independent sums, because the CPU then executes their multiplications in parallel.
 std::uint64_t checksum(std::span<const std::uint8_t> bytes, std::uint64_t key) {
     std::array<std::uint64_t, 4> sums{key, key + 1, key + 2, key + 3};
     std::array<std::uint64_t, 4> words{};
