@@ -92,7 +92,7 @@ struct Pose {
     RigidTransform T_world_video;
     /// Covariance of a small error x = (rotation [rad], translation [m]) in the video camera's
     /// frame: the true pose is T_world_video * exp(x). Zero means that the pose is exact, e.g.
-    /// recorded.
+    /// because it comes from a recording.
     Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
     int tags = 0;                  ///< number of tags used; 0: predicted, interpolated or recorded
     double reprojectionError = 0;  ///< RMS error of the tags' corners [px]

@@ -31,9 +31,9 @@ struct PlaneSize {
 /// the same YUV matrix and range.
 [[nodiscard]] ImageView packInto(std::uint8_t* data, const ImageView& picture);
 
-/// Throws std::invalid_argument "WHAT: reason" in four cases. A plane is missing. A side is not
-/// from 1 to kMaxPictureSide. A side is odd although the format subsamples chroma along it. A
-/// stride is smaller than a row.
+/// Throws std::invalid_argument "WHAT: reason" if a plane is missing, if a side is not from 1 to
+/// kMaxPictureSide, if a side is odd although the format subsamples chroma along it, or if a stride
+/// is smaller than a row.
 void requireSound(const ImageView& picture, std::string_view what);
 
 /// Returns a Gray8 view of a valid picture's luma plane, without a copy. Returns nothing if the
