@@ -15,7 +15,7 @@ enum class ScanoutMethod {
 };
 [[nodiscard]] const char* name(ScanoutMethod method);
 
-/// Buffers of the screen's size, which the screen shows in turn. All calls must come from one
+/// Buffers of the screen's size. The screen shows them in turn. All calls must come from one
 /// thread. For each picture, call begin(), then complete().
 class ScanoutBuffers {
 public:

@@ -16,8 +16,9 @@
 
 namespace mfar {
 
-/// Limits for restarts of the stream, which are needed if a driver cancels all queued requests.
-/// Raspberry Pi's driver does so after a second without a trigger pulse. This is not a fault.
+/// Limits for restarts of the stream. The stream must be restarted after a driver has cancelled all
+/// queued requests. Raspberry Pi's driver cancels them after a second without a trigger pulse. This
+/// is not a fault.
 struct RestartLimits {
     /// If the driver cancels all requests within this time after the start, the stream has ended
     /// early.

@@ -15,8 +15,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::int64_t kLongestPoseGap =
-    250'000'000;  // [ns]; in a longer gap, a hand-held camera may turn far
+// Longest gap between two poses in which poses are interpolated [ns]. In a longer gap, a hand-held
+// camera may turn far.
+constexpr std::int64_t kLongestPoseGap = 250'000'000;
 // Tolerance of a quaternion's norm. It is large because some files have only four digits.
 constexpr double kUnitTolerance = 1e-3;
 

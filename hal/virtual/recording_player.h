@@ -24,7 +24,8 @@ struct PlayerOptions {
     /// Number of buffers for pictures that are in use or decoded, at least 2.
     int videoBuffers = 8;
     int stillBuffers = 4;
-    bool asksVideoFirst = false;  ///< for Pace::Consumer only, see RecordingPlayer
+    /// For Pace::Consumer: the consumer requests a frame, and then the stills up to that frame.
+    bool asksVideoFirst = false;
 };
 
 /// The trigger of a recording. It only counts its calls, because the stills are already recorded.
