@@ -15,9 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Longest gap between two poses in which poses are interpolated [ns]. In a longer gap, a hand-held
-// camera may turn far.
-constexpr std::int64_t kLongestPoseGap = 250'000'000;
+constexpr std::int64_t kLongestPoseGap =
+    250'000'000;  // [ns]; in a longer gap, a hand-held camera may turn far
 // Tolerance of a quaternion's norm. It is large because some files have only four digits.
 constexpr double kUnitTolerance = 1e-3;
 
