@@ -113,10 +113,9 @@ std::optional<Frame> CameraV4l2::next(std::chrono::milliseconds timeout) {
         const auto filled = stream_->take();
         if (filled) {
             if (auto frame = frameOf(*filled)) return frame;
-            // At first, broken pictures do not end the wait even after the timeout, because whole
-            // pictures may be queued behind them. The number of broken pictures for which this
-            // holds is limited to the number of buffers, because a driver may deliver no whole
-            // pictures.
+            // After a broken picture, the timeout does not end the wait, because whole pictures may
+            // be queued behind it. After as many broken pictures as there are buffers, the timeout
+            // does end the wait, because the driver may never deliver whole pictures.
             if (++broken >= stream_->buffers() && steady_clock::now() >= until) return std::nullopt;
         } else if (waited == Wait::Trouble) {
             // The device is not lost; otherwise take() would have thrown. Drivers also set POLLERR

@@ -79,8 +79,9 @@ public:
     [[nodiscard]] RecordedTrigger& trigger() { return trigger_; }
     [[nodiscard]] const Recording& recording() const { return recording_; }
 
-    /// Converts the time of a delivered frame to the time in the recording's files. They differ
-    /// from the second pass through a looped recording on.
+    /// Converts the time of a delivered frame to the time in the recording's files. During the
+    /// first pass through a recording, both are equal. During further passes (PlayerOptions::loop),
+    /// the time of the delivered frame is later.
     [[nodiscard]] Timestamp recordedTime(Timestamp played) const;
     /// Returns the current time of the cameras. With Pace::Realtime, it is the time of their clock;
     /// otherwise it is the time of the last delivered video frame.
