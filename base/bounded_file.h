@@ -16,8 +16,8 @@ namespace mfar {
 
 enum class FileTrust {
     Any,
-    /// The file must belong to this user and must not be a symbolic link. Otherwise the call throws
-    /// "belongs to another user" or "is a symbolic link".
+    /// The file must belong to the user who runs this process, and must not be a symbolic link.
+    /// Otherwise the call throws "belongs to another user" or "is a symbolic link".
     OwnFile,
 };
 

@@ -6,7 +6,8 @@
 namespace mfar {
 namespace {
 
-// The lens model counts as folded where the determinant of its Jacobian is at most kFold.
+// The lens model is inverted only where the determinant of its Jacobian is above kFold. The
+// determinant is zero where the model folds over: there, several rays begin to map to one pixel.
 constexpr double kFold = 0.05;
 constexpr double kSquaredError = 1e-24;
 
@@ -47,7 +48,7 @@ Undistorted undistorted(const Eigen::Vector2d& target, const Eigen::Vector2d& st
         const Distorted d = distort(ray, distortion);
         const Eigen::Vector2d error = target - d.point;
         const double det = d.jacobian.determinant();
-        // The iteration must not cross the fold, where the determinant is zero.
+        // The iteration must not cross the fold of the lens model, where `det` is zero.
         if (!(det > kFold)) break;
         if (!(error.squaredNorm() > kSquaredError)) return {ray, true};
         Eigen::Vector2d step = d.jacobian.inverse() * error;

@@ -61,7 +61,8 @@ struct CameraModel {
     [[nodiscard]] CameraModel scaledTo(Size to) const;
 };
 
-/// A rotation and a translation [m]. T_a_b is the transform from coordinates in frame b to frame a.
+/// A rotation and a translation [m]. T_a_b converts coordinates in frame b to coordinates in
+/// frame a.
 struct RigidTransform {
     Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
     Eigen::Vector3d translation = Eigen::Vector3d::Zero();
@@ -85,13 +86,13 @@ struct StereoRig {
     RigidTransform T_still_video;
 };
 
-/// The pose of the video camera in the world frame, which the tag map defines.
+/// The pose of the video camera in the world frame. The tag map defines the world frame.
 struct Pose {
     Timestamp time;
     RigidTransform T_world_video;
     /// Covariance of a small error x = (rotation [rad], translation [m]) in the video camera's
     /// frame: the true pose is T_world_video * exp(x). Zero means that the pose is exact, e.g.
-    /// recorded.
+    /// because it comes from a recording.
     Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
     int tags = 0;                  ///< number of tags used; 0: predicted, interpolated or recorded
     double reprojectionError = 0;  ///< RMS error of the tags' corners [px]

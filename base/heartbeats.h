@@ -73,9 +73,9 @@ struct WatchedThread {
 
 /// The heartbeat of one thread; only this thread may use it. The thread calls beat() in each
 /// iteration of its loop, before any operation that may hang. It calls rest() before it waits for
-/// work, because waiting is not a fault. The thread counts as working from the construction of this
-/// object on, and is not watched after its destruction. A call costs one clock reading and two
-/// stores.
+/// work, because waiting is not a fault. The thread is watched from the construction of this object
+/// until the object's destruction. At first, the thread counts as working. A call of beat() or
+/// rest() costs one clock reading and two stores.
 class Heartbeat {
 public:
     /// `budget`: the longest allowed time between two beats. `all` must outlive this object.

@@ -31,14 +31,14 @@ struct PlaneSize {
 /// the same YUV matrix and range.
 [[nodiscard]] ImageView packInto(std::uint8_t* data, const ImageView& picture);
 
-/// Throws std::invalid_argument "WHAT: reason" in four cases. A plane is missing. A side is not
-/// from 1 to kMaxPictureSide. A side is odd although the format subsamples chroma along it. A
-/// stride is smaller than a row.
+/// Throws std::invalid_argument "WHAT: reason" if a plane is missing, if a side is not from 1 to
+/// kMaxPictureSide, if a side is odd although the format subsamples chroma along it, or if a stride
+/// is smaller than a row.
 void requireSound(const ImageView& picture, std::string_view what);
 
 /// Returns a Gray8 view of a valid picture's luma plane, without a copy. Returns nothing if the
-/// format has no separate luma plane. The values keep the picture's range (YuvRange): census, patch
-/// cost and tag detection work with both ranges.
+/// format has no separate luma plane. The values are not converted to another YuvRange, because the
+/// steps that use this view work with both ranges.
 [[nodiscard]] std::optional<ImageView> lumaPlane(const ImageView& picture);
 
 /// Conversion from Y U V to R G B, all in [0, 255]: channel = row[0..2] . (Y, U, V) + row[3]. The

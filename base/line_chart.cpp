@@ -119,7 +119,8 @@ private:
         return out;
     }
 
-    /// Draws an entry of the legend at `x`, and moves `x` to where the next entry begins.
+    /// Returns the SVG text of a legend's entry that begins at `x`. Moves `x` to the position where
+    /// the next entry begins.
     [[nodiscard]] static std::string entry(double& x, const std::string& name, const char* colour) {
         constexpr double kSample = 14, kLetter = 6.2, kGap = 26;
         const std::string out = svg::line(x, 30, x + kSample, 30, colour, 3) +

@@ -17,8 +17,8 @@ namespace mfar {
 
 /// How a pixel's surface mirrors light. `normal` is the surface normal in world coordinates on the
 /// octahedral map (Cigolle et al. 2014), with 16 bits per axis. `look` has one byte each for the
-/// roughness, the reflectance along the normal, and SpecularAlbedo::full(). If both words are zero,
-/// the surface is unknown.
+/// roughness, the reflectance along the normal, and the share of light that the surface would
+/// mirror if that reflectance were 1. If both words are zero, the surface is unknown.
 struct GlossWords {
     std::uint32_t normal = 0, look = 0;
     bool operator==(const GlossWords&) const = default;
@@ -52,7 +52,8 @@ struct MirrorLight {
     std::vector<Table> tables;  ///< sorted by roughness; the first table has roughness 0
     std::vector<std::uint32_t> texels;
     std::array<float, 3> towardsSun{0, 0, 1}, sunIrradiance{};  ///< irradiance 0: there is no sun
-    /// Smallest width of a lobe that mirrors the sun: the sun's angular radius [rad].
+    /// The sun's angular radius [rad]. The lobe that mirrors the sun has at least this width (GGX's
+    /// alpha), because even a perfect mirror shows a sun of this size.
     float leastSunAlpha = 0;
     float least = 0;  ///< small value added to all mirrored light, so that the light is never 0
 };

@@ -4,9 +4,9 @@
 
 namespace mfar {
 
-/// Paint of a texel or pixel, each word with bytes of red, green and blue. `diffuse`: the diffuse
-/// colour. `facing`: the reflectance along the normal. Paint can be averaged over texels, whereas
-/// means of base colour and metallic would be wrong where metal meets another material.
+/// The paint of a texel or pixel. `diffuse` is the diffuse colour. `facing` is the reflectance
+/// along the normal. Each word has one byte each for red, green and blue. Unlike the pair of base
+/// colour and metallic, paint may be averaged over texels even where metal meets another material.
 struct PaintWords {
     std::uint32_t diffuse = 0, facing = 0;
     bool operator==(const PaintWords&) const = default;

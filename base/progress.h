@@ -35,7 +35,7 @@ private:
     std::optional<Clock::time_point> shown_;
 };
 
-/// The progress of a part of the work, which can have parts itself. A default-constructed
+/// The progress of a part of the work. A part can have parts itself. A default-constructed
 /// ProgressPart shows nothing, so that functions can be called without a Progress.
 class ProgressPart {
 public:

@@ -7,8 +7,8 @@ namespace {
 
 /// The coefficients a and b of the matrix V = I + a [w] + b [w]^2. Here, w is the rotation of a
 /// twist [rad], [w] is skew(w), and t is the norm of w. V times the twist's translation is the
-/// translation of its exponential(). For t below 1e-4, series are used; their error is less than a
-/// double's rounding.
+/// translation of exponential(twist). For t below 1e-4, a and b are computed by series, whose error
+/// is less than a double's rounding.
 struct VCoefficients {
     double a, b;
 };

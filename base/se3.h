@@ -16,8 +16,8 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 /// Returns the matrix of the cross product: skew(a) b = a x b.
 [[nodiscard]] Eigen::Matrix3d skew(const Eigen::Vector3d& a);
 
-/// Returns the exponential map of SE(3): the motion in unit time of a body that rotates and
-/// translates at constant rates, given in its own frame.
+/// Returns the exponential map of SE(3): the motion of a body in unit time. `twist` is the body's
+/// constant rate of rotation and translation in its own frame.
 [[nodiscard]] RigidTransform exponential(const Vector6& twist);
 
 /// Returns the inverse of exponential(). The angle of rotation must be less than pi.

@@ -8,7 +8,7 @@
 /// with a newline.
 namespace mfar::svg {
 
-/// The colours of Okabe and Ito, which can be told apart with any colour vision.
+/// The colours of Okabe and Ito. People with any kind of colour vision can tell them apart.
 inline constexpr std::array<const char*, 7> kColours{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                                      "#e69f00", "#56b4e9", "#444444"};
 

@@ -10,7 +10,7 @@ namespace mfar {
 /// Selects when written data are safe from a power cut.
 enum class Durability {
     OnReturn,
-    WithSync,  ///< safe after the next syncFileSystem(); before it, a power cut can truncate files
+    WithSync,  ///< safe after the next syncFileSystem(); until then, a power cut can truncate files
 };
 
 /// Writes a file completely or not at all: the bytes go to a temporary file in the same folder,

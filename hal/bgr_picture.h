@@ -6,9 +6,9 @@
 
 namespace mfar {
 
-/// Converts a valid picture (requireSound()) of any format to channels B, G, R, or to one channel
-/// if it is grey. Chroma is interpolated as in picture_from_yuv.frag, so that a recording has the
-/// same pixels that the pipeline used. A grey result shares the picture's memory.
+/// Converts a picture of any format to channels B, G, R. A grey picture keeps one channel, and the
+/// result shares its memory. Chroma is interpolated like in picture_from_yuv.frag, so that a
+/// recording has the same pixels that the pipeline used. The picture must pass requireSound().
 [[nodiscard]] cv::Mat bgrPicture(const ImageView& picture);
 
 }  // namespace mfar

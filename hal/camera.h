@@ -18,8 +18,8 @@ struct CameraInfo {
     double rateHz = 0;  ///< frame rate [Hz]; 0: the camera takes pictures only when it is triggered
 };
 
-/// Numbers of a camera's frames since its start. Only the frames in `untimed` are counted twice,
-/// because `delivered` includes them.
+/// Counts a camera's frames since its start. A frame in `untimed` is also counted in `delivered`.
+/// All other frames are counted once.
 struct CameraCounters {
     std::uint64_t delivered = 0;
     /// Frames that the driver lost because it had no free buffer. Not set if the driver does not
@@ -31,10 +31,10 @@ struct CameraCounters {
     /// Frames that were not delivered, because their timestamp is in the future, too old or out of
     /// order.
     std::uint64_t badTimes = 0;
-    std::uint64_t startup = 0;   ///< frames that were not delivered, because the sensor had not
-                                 ///< settled
-    std::uint64_t untimed = 0;   ///< delivered frames without a timestamp; they got their arrival
-                                 ///< time
+    /// Frames that were not delivered, because the sensor had not settled.
+    std::uint64_t startup = 0;
+    /// Delivered frames to which the driver gave no timestamp. They got their arrival time.
+    std::uint64_t untimed = 0;
     std::uint64_t restarts = 0;  ///< restarts of the stream after the driver cancelled all requests
     std::uint64_t reopened = 0;
 

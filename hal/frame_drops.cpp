@@ -11,8 +11,9 @@ constexpr std::size_t kNeeded = 8;
 /// If an interval between two frames is longer than this number of frame periods, no drops are
 /// counted: the camera was probably stopped.
 constexpr double kMostMissing = 1000;
-/// The driver's frame numbers count as restarted after a jump of more than kMostNumbers, or of more
-/// than about kDoubtful times the jump that the frame times suggest.
+/// Limits for the jump from one of the driver's frame numbers to the next. The numbers count as
+/// restarted if the jump is above kMostNumbers. They also do if it is above about kDoubtful times
+/// the number of frame periods that passed.
 constexpr std::uint32_t kMostNumbers = 10000;
 constexpr int kDoubtful = 8;
 

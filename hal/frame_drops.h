@@ -11,8 +11,8 @@
 namespace mfar {
 
 /// Counts frames that a camera did not deliver, from gaps in the driver's frame numbers. If the
-/// numbers are missing or restart, drops are counted from the times of the delivered frames. The
-/// frame period is the mean of the recent intervals near their median.
+/// numbers are missing or restart, drops are counted from the times of the delivered frames. For
+/// this, the frame period is the mean of those recent intervals that are close to their median.
 class FrameDrops {
 public:
     /// Adds a frame and returns the number of frames missing before it. Without usable frame

@@ -19,8 +19,8 @@ public:
     virtual void makeCurrent() = 0;
     virtual void release() = 0;
     [[nodiscard]] virtual Proc getProcAddress(const char* name) const = 0;
-    /// Returns null if the driver cannot import camera memory, or if uploads are faster, as with a
-    /// software renderer.
+    /// Returns null if the driver cannot import camera memory, or if uploads are faster than
+    /// imports, e.g. with a software renderer.
     [[nodiscard]] virtual PlaneImporter* planeImporter() { return nullptr; }
     /// Returns the reason why pictures drawn since the last call are invalid: a GPU reset or a
     /// failed GL call. Returns nothing if there was no fault. Never waits.

@@ -68,7 +68,7 @@ void ReopeningCamera::keepOpen() {
     if (const std::shared_ptr<Camera> camera = camera_) work([&] { camera->stop(); });
 }
 
-/// take() and hangs() need a locked mutex_.
+/// The caller of take() and hangs() must have locked mutex_.
 void ReopeningCamera::take(std::shared_ptr<Camera> camera) {
     for (std::string& text : camera->takeWarnings())
         warnings_.push_back(std::move(text));

@@ -83,10 +83,11 @@ private:
     CameraCounters before_;
     std::vector<std::string> warnings_;
     std::shared_ptr<Camera> lost_;
-    std::optional<Timestamp> answer_;  ///< deadline of the running next(); not set: next() is not
-                                       ///< running
-    std::optional<Timestamp> busy_;    ///< start of the running call that opens, stops or closes
-                                       ///< the device
+    /// Deadline of the running next(). Not set while next() is not running.
+    std::optional<Timestamp> answer_;
+    /// Start of the running call that opens, stops or closes the device. Not set: no such call
+    /// runs.
+    std::optional<Timestamp> busy_;
     bool hasSent_ = false;
     bool stopped_ = false;
     std::thread opener_;

@@ -18,8 +18,8 @@ struct StillMatcherOptions {
     std::chrono::nanoseconds guess{0};
     /// Window while the delay is being learned.
     std::chrono::nanoseconds wideWindow{std::chrono::milliseconds(100)};
-    /// Window after the delay was learned. 1 ms suits timestamps of the sensor. Arrival times (USB
-    /// cameras) need more.
+    /// Window after the delay was learned. 1 ms suits cameras whose times come from the sensor. USB
+    /// cameras report arrival times, which need a larger window.
     std::chrono::nanoseconds window{std::chrono::milliseconds(1)};
     int learnFrom = 20;
     /// If a still does not arrive within this time after its exposure, its pulse counts as lost.
@@ -28,16 +28,16 @@ struct StillMatcherOptions {
 };
 
 struct StillCounters {
-    std::uint64_t fired = 0;      ///< pulses, including the repeated ones
-    std::uint64_t matched = 0;    ///< stills that match a pulse, including late ones
-    std::uint64_t unmatched = 0;  ///< stills that match no pulse, or a pulse that already has a
-                                  ///< still
-    std::uint64_t lost = 0;       ///< pulses whose still did not arrive before the timeout
+    std::uint64_t fired = 0;    ///< pulses, including the repeated ones
+    std::uint64_t matched = 0;  ///< stills that match a pulse, including late ones
+    /// Stills that match no pulse, or a pulse that already has a still.
+    std::uint64_t unmatched = 0;
+    std::uint64_t lost = 0;  ///< pulses whose still did not arrive before the timeout
     std::uint64_t late = 0;
     std::uint64_t repeated = 0;
     std::uint64_t relearned = 0;
-    std::uint64_t overtaken = 0;  ///< matched stills that were skipped because a newer still came
-                                  ///< first
+    /// Matched stills that were skipped because a newer still came first.
+    std::uint64_t overtaken = 0;
     std::uint64_t missedEdges = 0;
 };
 

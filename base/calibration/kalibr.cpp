@@ -55,8 +55,8 @@ RigidTransform readExtrinsics(const YamlReader& in, const YAML::Node& video,
     return T;
 }
 
-/// Returns RigCalibration::stillTimeOffset [s]. Kalibr defines t_imu = t_camera + timeshift_cam_imu
-/// for each camera.
+/// Returns the offset [s] that converts the time of a still to the video camera's clock. Kalibr
+/// states each camera's offset from the IMU: t_imu = t_camera + timeshift_cam_imu.
 double readOffset(const YamlReader& in, const YAML::Node& video, const YAML::Node& still) {
     const char* key = "timeshift_cam_imu";
     const YAML::Node ofVideo = video[key], ofStill = still[key];

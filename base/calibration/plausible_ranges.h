@@ -29,7 +29,7 @@ inline constexpr Range kCorner{
     0.25, 1.5};
 inline constexpr Range kBaseline{"distance of the sensors", "m", 0, 2};
 inline constexpr Range kTimeOffset{"time offset of the stills", "s", -10, 10};
-/// Outside this range, only rate 0 is accepted: the sensor takes pictures on trigger only.
+/// Rate 0 is accepted, too. It means that the sensor takes pictures on trigger only.
 inline constexpr Range kRate{"rate", "Hz", 0.01, 10000};
 
 inline constexpr Range kTagSize{"edge of a tag", "m", 0.001, 100};

@@ -13,7 +13,7 @@ namespace mfar {
 /// The calibration of the video camera and the still camera.
 struct RigCalibration {
     StereoRig rig;
-    /// Offset [s]. The time of a still plus this offset is its time on the video's clock.
+    /// Added to the time of a still [s] to obtain the still's time on the video camera's clock.
     double stillTimeOffset = 0;
 };
 
@@ -26,9 +26,9 @@ struct WantedSizes {
 /// Reads a calibration from one or two paths. The content of the files determines the format:
 ///   - rig.yaml as saveRig() writes it, or a folder that contains one;
 ///   - a Kalibr camchain; cam0 is the video camera, cam1 the still camera;
-///   - OpenCV FileStorage (YAML) with the keys M1 D1 M2 D2 R T or their long names, in one file or
-///     in two (intrinsics, extrinsics). Camera 1 is the video camera. If the file states no picture
-///     size, the wanted size is used;
+///   - OpenCV FileStorage (YAML) with the keys M1 D1 M2 D2 R T or their long names, e.g.
+///     camera_matrix1. There is one file, or one for the intrinsics and one for the extrinsics.
+///     Camera 1 is the video camera. If no picture size is stated, the wanted size is used;
 ///   - two sensor.yaml of EuRoC (video, still), or the folder that contains cam0/ and cam1/.
 /// Throws CalibrationError ("file:line: fault") if a file is missing, the picture size differs from
 /// the wanted one, a value is NaN or implausible, a matrix is singular, or the lens model is not

@@ -44,8 +44,8 @@ private:
     YAML::Node root_;
 };
 
-/// Opens a file and calls `read` with a reader of its content. Throws CalibrationError, also for
-/// exceptions of the YAML library.
+/// Opens a file and calls `read` with a reader of its content. Throws CalibrationError.
+/// Exceptions of the YAML library are turned into CalibrationError.
 void readYaml(const std::filesystem::path& file,
               const std::function<void(const YamlReader&)>& read);
 

@@ -29,8 +29,8 @@ public:
         static_assert(std::is_trivially_copyable_v<T>);
         writeBytes(values.data(), values.size_bytes(), offsetBytes);
     }
-    /// Waits until the GPU has written the buffer. Do not call this in the frame path, unless the
-    /// pass that writes the buffer ran at least one frame earlier.
+    /// Returns `count` values of the buffer. Waits until the GPU has written them. Code that runs
+    /// in every frame may read only a buffer that was written at least one frame earlier.
     template <class T>
     [[nodiscard]] std::vector<T> read(std::size_t count, std::size_t offsetBytes = 0) const {
         static_assert(std::is_trivially_copyable_v<T>);

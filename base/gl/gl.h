@@ -30,8 +30,8 @@ inline constexpr GLenum kContextLost = 0x0507;
     return code.data();
 }
 
-/// Throws GlError if the context has recorded an error. The message contains `where`. Too slow for
-/// the frame path.
+/// Throws GlError if the context has recorded an error. The message contains `where`. Too slow to
+/// be called in every frame.
 void checkErrors(const char* where);
 
 }  // namespace mfar::gpu

@@ -63,9 +63,9 @@ struct Groups {
 
 class LinkedProgram;
 
-/// Compiled programs that several passes share. While a Use object exists, passes that its thread
-/// creates with the same shader text share one program, which is compiled once. A cache belongs to
-/// one GL context, which must be current when the cache is destroyed.
+/// Compiled programs that several passes share. While a ProgramCache::Use exists, its thread
+/// compiles each shader text once; all passes created with the same text share the program. A cache
+/// belongs to one GL context. That context must be current when the cache is destroyed.
 class ProgramCache {
 public:
     ProgramCache() = default;
@@ -149,7 +149,8 @@ public:
         glMemoryBarrier(kBarriers);
         detail::ran(program_, bindings);
     }
-    /// Reads the numbers of workgroups from `commands`: three uints at `offset` [bytes].
+    /// Runs the shader. The GPU reads the numbers of workgroups in x, y and z from `commands`:
+    /// three uints at `offset` [bytes].
     void runIndirect(const P& params, Bindings bindings, const Buffer& commands,
                      std::size_t offset) {
         program_.use(&params, sizeof(P), bindings);

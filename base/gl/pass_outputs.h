@@ -19,9 +19,9 @@ struct PassOutput {
     Kind kind;
     std::string name;
     GLuint index;  ///< binding of the storage block, image unit, or colour attachment
-    /// One range per component, from the line "// Range: name low..high, low..high" in the shader.
-    /// The last range also applies to all further components. An empty list allows any finite
-    /// value.
+    /// The allowed values, with one range per component. They are read from a line in the shader:
+    /// "// Range: name low..high, low..high". The last range also applies to all further
+    /// components. An empty list allows any finite value.
     std::vector<ValueRange> ranges;
     // Type and position of the variable in its storage block.
     bool isFloat = true;

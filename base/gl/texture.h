@@ -10,7 +10,8 @@
 namespace mfar::gpu {
 
 /// The storage formats in use. OpenGL ES 3.1 allows each of them as a texture. Drawing into a float
-/// format needs EXT_color_buffer_float or OpenGL ES 3.2; without them, Framebuffer throws.
+/// format needs EXT_color_buffer_float or OpenGL ES 3.2. If the driver has neither, Framebuffer
+/// throws.
 enum class TexelFormat : GLenum {
     R8 = GL_R8,
     Rg8 = GL_RG8,
@@ -51,26 +52,28 @@ public:
     [[nodiscard]] TexelFormat format() const { return format_; }
 
     /// Replaces the pixels of an R8, Rg8 or Rgba8 texture (asserted). `rows` has the texture's
-    /// size. The upload is slow if the stride is not a multiple of the texel's size. All uploads
-    /// and reads of this class but uploadLevel() access mipmap level 0 only.
+    /// size. The upload is slow if the stride of `rows` is not a multiple of the texel's size.
+    /// Except for uploadLevel(), all functions of this class access mipmap level 0 only.
     void upload(const PlaneView& rows);
     /// Replaces rows of an R32F, Rg32F or Rgba32F texture (asserted), beginning at `firstRow`.
-    /// `values` has one, two or four floats per texel and whole rows without padding (asserted).
+    /// `values` holds whole rows without padding (asserted). A texel has one, two or four floats.
     void upload(std::span<const float> values, int firstRow = 0);
     /// Replaces rows of an Rgba8 texture, beginning at `firstRow`. `texels` has whole rows without
     /// padding (asserted).
     void uploadRows(std::span<const std::array<std::uint8_t, 4>> texels, int firstRow = 0);
     /// Replaces rows of an R32Ui, Rg32Ui, Rgba32Ui or Rgb9E5 texture (asserted), beginning at
-    /// `firstRow`. `values` has one, two, four or one integers per texel and whole rows without
-    /// padding (asserted).
+    /// `firstRow`. `values` holds whole rows without padding (asserted). A texel has one integer in
+    /// R32Ui and Rgb9E5, two in Rg32Ui and four in Rgba32Ui.
     void upload(std::span<const std::uint32_t> values, int firstRow = 0);
-    /// Replaces mipmap level `level` of an Srgb8Alpha8 texture (asserted), which has `size` texels.
+    /// Replaces mipmap level `level` of an Srgb8Alpha8 texture (asserted). `size` is the size of
+    /// that level.
     void uploadLevel(int level, Size size, std::span<const std::array<std::uint8_t, 4>> texels);
     /// Makes the texture repeat outside of [0, 1].
     void repeat() const;
-    /// Returns the texture as RGBA8, row 0 first. Waits for the GPU; too slow for the frame path.
+    /// Returns the texture as RGBA8, row 0 first. Waits for the GPU. Too slow to be called in every
+    /// frame.
     [[nodiscard]] std::vector<std::uint8_t> readRgba8() const;
-    /// Returns four floats per texel. Waits for the GPU; too slow for the frame path.
+    /// Returns four floats per texel. Waits for the GPU. Too slow to be called in every frame.
     [[nodiscard]] std::vector<float> readRgba32F() const;
 
 private:

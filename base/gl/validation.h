@@ -19,8 +19,8 @@ struct Binding;
 struct ValidationFault {
     std::string pass;
     std::string output;  ///< variable in the shader; "guard": a write beyond the end of a buffer
-    /// The texel. For a buffer, x is the index of the element. For "guard", x is the name of the
-    /// GL buffer, and y is the number of the guard byte.
+    /// Position of the texel. For a buffer, x is the index of the element. If `output` is "guard",
+    /// x is the name of the GL buffer and y is the number of the guard byte.
     int x = 0, y = 0;
     int component = 0;
     double value = 0;
@@ -30,12 +30,12 @@ struct ValidationFault {
 [[nodiscard]] std::string describe(const ValidationFault& fault);
 
 /// While a Validation object exists, all outputs of its thread's passes are read back and checked.
-/// In a storage buffer, a pass's values are checked only where the pass changed them: other passes,
-/// whose values have other ranges, may have written the rest of the buffer.
-/// Every Buffer that is created in that time is followed by guard bytes (NaN as floats), which must
-/// not change. Validation makes a pass ten times as slow. Without a Validation object, a pass only
-/// tests one pointer. The passes' GL context must be current; its state is restored. A thread has
-/// at most one Validation.
+/// In a storage buffer, only the values that the pass changed are checked: the rest of the buffer
+/// may come from other passes, which have other ranges of values.
+/// A Buffer that is created while a Validation object exists is followed by guard bytes. They must
+/// not change; read as floats, they are NaN. Validation makes a pass ten times as slow. Without
+/// Validation, a pass only tests one pointer. The passes' GL context must be current. The state of
+/// that context is restored. A thread has at most one Validation.
 ///
 ///     gpu::Validation validation;     // before the Pipeline is made
 ///     ... frames ...
@@ -78,7 +78,8 @@ private:
     void checkImage(const std::string& pass, const PassOutput& output, GLuint texture);
     void checkColour(const std::string& pass, const PassOutput& output, const Framebuffer& target);
     void checkPixels(const std::string& pass, const PassOutput& output, const Area& area);
-    /// Does not check values that are the same at `before`; null: checks all.
+    /// Checks `count` values. `before` holds the values from before the pass; values that did not
+    /// change are not checked. If `before` is null, all values are checked.
     void checkValues(const std::string& pass, const PassOutput& output, const std::uint8_t* first,
                      const std::uint8_t* before, std::size_t count, const Area& area);
     void report(ValidationFault fault);

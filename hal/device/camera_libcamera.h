@@ -37,8 +37,8 @@ struct LibcameraCounters {
     std::uint64_t startup = 0;
     /// Frames whose timestamp is in the future, too old, or not later than the previous frame's.
     std::uint64_t badTimes = 0;
-    std::uint64_t untimed = 0;  ///< delivered frames without a timestamp; they got their arrival
-                                ///< time
+    /// Delivered frames to which the driver gave no timestamp. They got their arrival time.
+    std::uint64_t untimed = 0;
     std::uint64_t restarted = 0;
     SensorClock::Kind clock = SensorClock::Kind::Monotonic;
 };

@@ -23,10 +23,11 @@ struct CameraWish {
 
 [[nodiscard]] std::string describe(const std::vector<ListedCamera>& cameras);
 
-/// Returns the index of the chosen camera. If wish.name is empty, the picture size decides (see
-/// `largest`), and among equal sizes the id. Throws std::runtime_error whose message lists the
-/// cameras if no camera or several cameras have the name, if `except` is the only camera, or if
-/// `largest` is set and there is only one camera.
+/// Returns the index of the camera that has wish.name. If that is empty, returns the camera with
+/// the smallest or largest pictures, see CameraWish::largest. The id decides among equal sizes.
+/// Throws std::runtime_error, whose message lists the cameras, in these cases: no camera or several
+/// cameras have the name; `except` is the only camera; `name` and `except` are empty, `largest` is
+/// set, and there is only one camera.
 [[nodiscard]] std::size_t chooseCamera(const std::vector<ListedCamera>& cameras,
                                        const CameraWish& wish);
 

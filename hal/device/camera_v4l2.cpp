@@ -21,13 +21,13 @@ namespace {
 using std::chrono::nanoseconds;
 using std::chrono::steady_clock;
 
-// Limits for a frame's timestamp, relative to now. It may be in the future because clocks of CPU
-// cores differ. It may be old because next() was not called.
+// A frame's timestamp may be at most kAhead in the future, because the clocks of CPU cores differ.
+// It may be at most kOldest in the past: next() may not have been called for a while.
 constexpr nanoseconds kAhead = std::chrono::milliseconds(50), kOldest = std::chrono::seconds(10);
 constexpr std::chrono::milliseconds kTroublePause{5};
 
-/// If the driver has fewer buffers, pictures are copied. Otherwise it would have no free buffer
-/// while users hold pictures.
+/// If the driver has fewer buffers than this, every picture is copied, and its buffer is given back
+/// at once. Without the copy, users could hold all buffers, and the driver would have none to fill.
 constexpr int kEnoughBuffers = 4;
 
 class Loan {
@@ -113,9 +113,9 @@ std::optional<Frame> CameraV4l2::next(std::chrono::milliseconds timeout) {
         const auto filled = stream_->take();
         if (filled) {
             if (auto frame = frameOf(*filled)) return frame;
-            // Broken pictures do not end the wait at once, because whole pictures may be queued
-            // behind them. Once as many broken pictures came as there are buffers, the timeout ends
-            // the wait. Otherwise it would never end if the driver delivers only broken pictures.
+            // After a broken picture, the timeout does not end the wait, because whole pictures may
+            // be queued behind it. After as many broken pictures as there are buffers, the timeout
+            // does end the wait, because the driver may never deliver whole pictures.
             if (++broken >= stream_->buffers() && steady_clock::now() >= until) return std::nullopt;
         } else if (waited == Wait::Trouble) {
             // The device is not lost; otherwise take() would have thrown. Drivers also set POLLERR

@@ -24,7 +24,7 @@ struct CameraV4l2Options {
     /// Number of driver buffers, 2 to 32. It must be larger than the number of pictures in use.
     int buffers = 6;
     /// Added to the driver's timestamps. If the driver takes the timestamp at the end of a frame,
-    /// use minus the sensor's readout time.
+    /// set this to the sensor's readout time with a minus sign.
     std::chrono::nanoseconds timeOffset{0};
     /// Names and values of controls, set in this order before the stream starts, see
     /// V4l2Controls::set().
@@ -38,8 +38,8 @@ struct CameraV4l2Options {
 ///     while (auto frame = camera.next(500ms)) ...
 /// Frames use the driver's buffers without a copy and may outlive the camera. Two exceptions: JPEG
 /// is decoded into separate buffers, and pictures are copied if the driver grants fewer buffers
-/// than requested and fewer than four. The next call of next() gives returned buffers back to the
-/// driver.
+/// than requested and fewer than four. When the users of a frame have released it, the next call of
+/// next() gives its buffer back to the driver.
 ///
 /// Frame::time() is the middle of the exposure if the exposure is known (a manual
 /// exposure_time_absolute). It is computed from the driver's timestamp, which is at the start of

@@ -41,8 +41,9 @@ public:
     [[nodiscard]] std::optional<Size> screenSize() override;
     void showAgain(const Picture& picture, Timestamp time) override;
     [[nodiscard]] std::string name() const override;
-    /// While there is no screen, returns name(). After a screen was lost, returns the reason until
-    /// a screen has shown pictures again.
+    /// Returns why pictures may not be visible, or nothing. While there is no screen, returns
+    /// name(). While a new screen has not yet shown its first pictures, returns why the previous
+    /// screen was lost.
     [[nodiscard]] std::optional<std::string> fault() const override;
 
     /// Returns the picture that the last show() sent to the screen, with its black borders. Returns

@@ -15,7 +15,7 @@ enum class ScanoutMethod {
 };
 [[nodiscard]] const char* name(ScanoutMethod method);
 
-/// Buffers of the screen's size, which the screen shows in turn. All calls must come from one
+/// Buffers of the screen's size. The screen shows them in turn. All calls must come from one
 /// thread. For each picture, call begin(), then complete().
 class ScanoutBuffers {
 public:
@@ -29,7 +29,8 @@ public:
 
     /// Starts to draw a picture. The previous picture need not be on the screen yet.
     virtual void begin(const Picture& picture) = 0;
-    /// Completes the picture of the last begin(). The previous picture must be on the screen.
+    /// Completes the picture of the last begin(). Before the call, the previous picture must have
+    /// appeared on the screen.
     [[nodiscard]] virtual Ready complete() = 0;
     /// Releases all GL objects, see Display::releaseGl(). After that, begin() must not be called.
     /// The screen keeps its picture.

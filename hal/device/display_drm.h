@@ -30,7 +30,7 @@ namespace mfar {
 [[nodiscard]] bool fulfils(const drmModeModeInfo& mode, const ModeWish& wish);
 
 /// Waits until the picture of the last commit is on the screen. The address of `pending` must be
-/// the user data of that commit, whose event then sets `pending` to false. Returns false after
+/// the user data of that commit. The commit's event sets `pending` to false. Returns false after
 /// `limit` or if the device is lost.
 [[nodiscard]] bool waitForFlip(int fd, bool& pending, std::chrono::milliseconds limit);
 

@@ -13,8 +13,8 @@
 namespace mfar {
 
 /// The validated layout of a framebuffer device's memory. All rows of all pages lie inside it.
-/// `visible` is the offset [bytes] of the first visible pixel. `page0` is its offset after panning
-/// to the top.
+/// `visible` is the offset [bytes] of the pixel that is at the top left of the screen. `page0` is
+/// the offset of the pixel that will be there after panning to the top.
 struct FbGeometry {
     Size size;
     PixelLayout layout;

@@ -63,7 +63,8 @@ struct Importer {
     }
 };
 
-/// The constructor throws if EGL does not support fences with file descriptors.
+/// Inserts fences into the GL commands and exports them as file descriptors. The constructor throws
+/// if EGL does not support that.
 class NativeFences {
 public:
     explicit NativeFences(EGLDisplay display) : display_(display) {
@@ -90,8 +91,8 @@ private:
     PFNEGLDUPNATIVEFENCEFDANDROIDPROC dup_ = nullptr;
 };
 
-/// The layout is linear, because both the card that drives the screen and a separate GPU support
-/// it.
+/// Allocates a buffer for the screen. Its layout is linear, because the card that drives the screen
+/// and the GPU may be different devices, and both support this layout.
 GbmBuffer allocate(gbm_device* device, Size size) {
     GbmBuffer buffer(gbm_bo_create(device, static_cast<std::uint32_t>(size.width),
                                    static_cast<std::uint32_t>(size.height), GBM_FORMAT_XRGB8888,

@@ -100,8 +100,8 @@ void HostScaler::scaleRow(const Rows<const std::uint32_t>& picture, int row, Lin
         const Footprint& across = columns_.footprints[static_cast<std::size_t>(x)];
         const float* pixel = &line.real[static_cast<std::size_t>(across.first) * 4];
         const float* weight = &columns_.weights[across.begin];
-        std::array<float, 4> sum{128, 128, 128, 128};  // half a grey level in 8.8 fixed point, for
-                                                       // rounding
+        // The sums begin with half a grey level in 8.8 fixed point, for rounding.
+        std::array<float, 4> sum{128, 128, 128, 128};
         for (int tap = 0; tap < across.taps; ++tap, pixel += 4)
             for (std::size_t k = 0; k < 4; ++k)
                 sum[k] += weight[tap] * pixel[k];

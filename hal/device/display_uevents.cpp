@@ -11,7 +11,7 @@ namespace mfar {
 namespace {
 
 // Multicast groups of uevents. The kernel's group reports a new device at once. udev's group
-// reports it when the permissions of its node are set.
+// reports the device when the permissions of its file in /dev are set.
 constexpr unsigned kKernelGroup = 1, kUdevGroup = 2;
 
 bool concernsDisplays(std::string_view message) {

@@ -79,8 +79,7 @@ EGLContext createContext(EGLDisplay display, EGLConfig config) {
 }
 
 // Opens the first EGL device that is a GPU (without EGL_MESA_device_software). If there is none,
-// opens the surfaceless platform. If EGL does not support devices, that platform may also use a
-// GPU.
+// opens the surfaceless platform. It may use a GPU, too, if this EGL cannot list devices.
 OpenedDisplay openDisplay(bool software) {
     const char* client = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
     const auto platformDisplay =

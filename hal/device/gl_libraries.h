@@ -29,7 +29,7 @@ using FindFunction = std::function<Function(const char* name)>;
 std::string connectEgl(const FindFunction& find);
 std::string connectGles(const FindFunction& find);
 
-/// Every function jumps here until the libraries are loaded.
+/// Until the libraries are loaded, every EGL and GLES function jumps here.
 template <class Result, class... Arguments>
 Result nothing(Arguments... /*unused*/) {
     if constexpr (!std::is_void_v<Result>) return Result{};

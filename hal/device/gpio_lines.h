@@ -55,8 +55,8 @@ public:
 };
 
 [[nodiscard]] std::vector<GpioChip> listGpioChips();
-/// Requests the line as an output at its inactive level. The line keeps its level after the
-/// destructor.
+/// Requests the line as an output at its inactive level. When the OutputLine is destroyed, the line
+/// keeps its level.
 [[nodiscard]] std::unique_ptr<OutputLine> requestOutput(const GpioAddress& line);
 [[nodiscard]] std::unique_ptr<EdgeInput> requestEdges(const GpioAddress& line);
 

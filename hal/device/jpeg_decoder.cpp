@@ -19,7 +19,8 @@ void halveRows(std::uint8_t* plane, std::size_t rowBytes, int rows) {
     }
 }
 
-// Many cameras add padding before the end marker of a picture; no pixels are missing then.
+// Returns true if the decoder's last message is about bytes before the end marker of a picture.
+// Many cameras add padding there. No pixels are missing then.
 bool harmless(void* handle) {
     return std::string_view(tjGetErrorStr2(handle)).find("before marker 0xd9") !=
            std::string_view::npos;

@@ -8,8 +8,8 @@
 
 namespace mfar {
 
-/// Returns the process's libcamera manager, of which libcamera allows only one. It lives as long as
-/// a pointer to it exists. Throws std::runtime_error.
+/// Returns the only libcamera manager of this process, because libcamera does not allow a second
+/// one. It lives as long as a pointer to it exists. Throws std::runtime_error.
 [[nodiscard]] std::shared_ptr<libcamera::CameraManager> libcameraManager();
 
 [[nodiscard]] std::vector<ListedCamera>

@@ -73,7 +73,8 @@ struct Chosen {
 };
 
 /// Returns a valid configuration of exactly the wanted size, in the most preferred format that
-/// works. Otherwise, returns nothing if a sensor mode is given, and throws if none is given.
+/// works. If there is no such configuration, returns nothing if `mode` is set and throws if it is
+/// not set.
 std::optional<Chosen> choose(libcamera::Camera& camera, const LibcameraOptions& options,
                              const std::optional<SensorMode>& mode) {
     Chosen chosen{generate(camera, options), {}};

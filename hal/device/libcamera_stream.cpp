@@ -146,9 +146,9 @@ int LibcameraCamera::Stream::queue(std::size_t slot) {
     return camera_->queueRequest(&request);
 }
 
-// If a camera was unplugged, waits until libcamera has noticed. libcamera learns of it from udev,
-// only after the kernel has deleted the device's node. If the camera were stopped in between, with
-// queued requests, libcamera would end the process.
+// If a camera was unplugged, waits until libcamera has noticed. libcamera would end the process if
+// a camera with queued requests were stopped before that. The kernel deletes the device's node
+// first, so the deleted node shows that libcamera still has to notice.
 void LibcameraCamera::Stream::prepareStop() {
     const auto end = std::chrono::steady_clock::now() + kUdevTime;
     while (hasLostVideoNode() && std::chrono::steady_clock::now() < end)

@@ -23,8 +23,8 @@ public:
     Stream(const Stream&) = delete;
     Stream& operator=(const Stream&) = delete;
     ~Stream() override = default;
-    /// Releases the device. Must be called once. The destructor does not release it, because a
-    /// frame that another thread returns may delay the destructor.
+    /// Releases the device. Must be called once. The destructor would release the device too late:
+    /// a thread that gives back a frame keeps the stream alive until it has done so.
     void close();
 
     [[nodiscard]] CameraInfo info() const;

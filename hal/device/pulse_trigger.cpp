@@ -16,7 +16,7 @@ constexpr microseconds kLongest{10'000'000};
 constexpr microseconds kInCaller{1000};
 /// Longest delay with which a sleeping thread wakes up, unless the machine is overloaded.
 constexpr microseconds kWakeUp{100};
-/// Longest wait for the kernel to report an edge. It reports an edge within microseconds or never.
+/// Longest wait for the kernel to report an edge. The kernel does so within microseconds or never.
 constexpr microseconds kEdgeWait{1000};
 
 std::chrono::steady_clock::time_point steady(Timestamp time) {

@@ -30,8 +30,8 @@ void RequestCycle::close() {
     requests_.clear();
 }
 
-/// The thread of next() calls this function. The driver's thread must not wait here, because it
-/// serves other cameras as well.
+/// Only the thread that runs next() may call this function. The driver's thread must not wait here,
+/// because it serves other cameras as well.
 void RequestCycle::restart() {
     const std::lock_guard life(lifecycle_);
     {
@@ -66,7 +66,8 @@ void RequestCycle::halt() {
         running_ = false;
     }
     changed_.notify_all();
-    // mutex_ is not locked here, because stop() completes queued requests, whose callbacks lock it.
+    // driver_.stop() completes the queued requests, and their callbacks lock mutex_. So mutex_ must
+    // not be locked here.
     driver_.stop();
     const std::lock_guard lock(mutex_);
     ready_.clear();
@@ -131,7 +132,7 @@ void RequestCycle::cancelled(std::size_t request) {
     if (running_ && !anyQueued()) planRestart();
 }
 
-/// restartAt_ may already be set by an earlier cancelled request.
+/// Sets the time of the next restart, unless an earlier cancelled request has already set it.
 void RequestCycle::planRestart() {
     if (restartAt_) return;
     const Timestamp now = clock_();

@@ -16,8 +16,9 @@
 
 namespace mfar {
 
-/// Limits for restarts of the stream, which are needed if a driver cancels all queued requests.
-/// Raspberry Pi's driver does so after a second without a trigger pulse. This is not a fault.
+/// Limits for restarts of the stream. The stream must be restarted after a driver has cancelled all
+/// queued requests. Raspberry Pi's driver cancels them after a second without a trigger pulse. This
+/// is not a fault.
 struct RestartLimits {
     /// If the driver cancels all requests within this time after the start, the stream has ended
     /// early.
@@ -42,7 +43,7 @@ public:
 
 /// Manages the requests of a camera. Each request goes through a cycle: it is queued, the driver
 /// completes it, a user holds its picture and returns it, and it is queued again. Thread-safe, but
-/// only one thread may call next(), which may call the driver's start() and stop(). `driver` must
+/// only one thread may call next(). next() may call the driver's start() and stop(). `driver` must
 /// outlive this object.
 class RequestCycle {
 public:

@@ -19,9 +19,10 @@ struct TriggerOptions {
     std::string loopback;
 };
 
-/// Requests the trigger line at its inactive level, and the loopback line. Throws
-/// std::runtime_error whose message lists the available chips or lines, or names the program that
-/// uses the line or the group that the user must join.
+/// Requests the trigger line at its inactive level. Also requests the loopback line, if there is
+/// one. Throws std::runtime_error. If a chip or line is not found, the message lists the available
+/// ones. If a line is in use, the message names the program that uses it. If permission is missing,
+/// the message names the group that the user must join.
 [[nodiscard]] std::unique_ptr<PulseTrigger> openGpioTrigger(const TriggerOptions& options);
 
 }  // namespace mfar

@@ -27,7 +27,7 @@ std::string text(const char* nullable) {
     return nullable ? nullable : "";
 }
 
-/// The chip must stay open, because closing it releases the line.
+/// A requested line and its chip. The chip must stay open, because closing it releases the line.
 struct Requested {
     Chip chip;
     gpiod_line* line = nullptr;

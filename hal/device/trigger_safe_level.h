@@ -4,8 +4,9 @@
 
 namespace mfar {
 
-/// Drives the trigger line to its inactive level and releases it. The service calls this function
-/// after mfard has ended, because mfard may have crashed during a pulse. Throws std::runtime_error.
+/// Drives the trigger line to its inactive level and releases it. After mfard has ended, systemd
+/// runs "mfard --release-trigger", which calls this function: mfard may have crashed during a
+/// pulse. Throws std::runtime_error.
 void driveSafe(const TriggerOptions& options);
 
 }  // namespace mfar

@@ -9,7 +9,7 @@
 namespace mfar {
 namespace {
 
-// [bytes]; a larger stride is a fault of the driver.
+// Largest stride of a picture [bytes]. A larger one is a fault of the driver.
 constexpr std::size_t kMostStride = std::size_t{1} << 20;
 
 struct Answer {

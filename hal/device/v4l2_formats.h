@@ -19,8 +19,8 @@ struct V4l2PixelFormat {
     std::uint32_t fourcc;
     PixelFormat picture;
     bool jpeg = false;
-    bool separatePlanes = false;  ///< true: each plane of the picture is its own V4L2 plane
-                                  ///< (multi-planar API)
+    /// True: each plane of the picture is a V4L2 plane of its own (multi-planar API).
+    bool separatePlanes = false;
     bool operator==(const V4l2PixelFormat&) const = default;
 };
 

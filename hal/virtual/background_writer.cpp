@@ -77,7 +77,8 @@ void BackgroundWriter::work(const WatchedThread& watched) {
         } catch (const std::exception& e) {
             failure = e.what();
         }
-        // The job is destroyed before idle_ is notified, because its destructor returns its buffer.
+        // The job's destructor gives back the job's buffer. This must happen before idle_ is
+        // notified.
         job = nullptr;
         lock.lock();
         if (failure && !error_) error_ = std::move(failure);

@@ -31,7 +31,7 @@ public:
     /// Waits until every posted job is done. Throws std::runtime_error with the error of the first
     /// job that failed.
     void drain();
-    /// Waits like drain(), but at most `limit`. Returns false if jobs are then left.
+    /// Waits like drain(), but at most `limit`. Returns false if some jobs are not done by then.
     [[nodiscard]] bool drainWithin(std::chrono::milliseconds limit);
     [[nodiscard]] std::optional<std::string> error() const;
 

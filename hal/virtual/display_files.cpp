@@ -92,8 +92,8 @@ protected:
     /// the writer's jobs call functions of these classes.
     void finishQuietly() noexcept {
         try {
-            // If writing one picture takes longer than policy_.finish, the wait for a pipe's reader
-            // ends.
+            // A live source must not wait without a limit for a pipe's reader. If writing one
+            // picture takes longer than policy_.finish, writing is cancelled.
             if (policy_.isLive && !drainWhileWriting()) cancel_.request_stop();
             writer_.drain();
         } catch (const std::exception&) {

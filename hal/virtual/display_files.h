@@ -31,7 +31,7 @@ struct FileDisplayPolicy {
 ///   "png:DIR"   writes a file TIME.png [ns] per picture to DIR, which is created; a picture with
 ///               the same time replaces the file
 ///   "y4m:FILE"  writes YUV4MPEG2, 4:2:0, BT.601 limited range, with `rateHz` in the header. FILE
-///               may be "-" (standard output) or a FIFO. The call waits up to 5 s until a program
+///               may be "-" (standard output) or a FIFO. Opening waits up to 5 s until a program
 ///               reads the FIFO
 /// Unless policy.isLive is set, every picture is written, and show() waits while all buffers are in
 /// use. After a write has failed, show() and finish() throw std::runtime_error. A write also fails

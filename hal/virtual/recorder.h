@@ -24,9 +24,9 @@ struct RecorderOptions {
     std::uint64_t leastFreeBytes = 64U << 20;
     std::uint64_t mostBytes = 0;  ///< largest size of a recording [bytes]; 0: no limit
     WatchedThread writer{};
-    /// Least interval between synchronisations of the disk, which protect the recording from a
-    /// power cut. A new picture or pose starts a synchronisation if the last synchronisation began
-    /// at least this long ago.
+    /// Least interval between two synchronisations of the disk. What was recorded before a
+    /// synchronisation is safe from a power cut. A new picture or pose starts a synchronisation if
+    /// the last one began at least this long ago.
     std::chrono::milliseconds syncEvery{1000};
 };
 

@@ -47,7 +47,8 @@ void checkIncreasing(const CsvRow& row, Timestamp previous, Timestamp t) {
             fmt::format("timestamp {} follows {}; timestamps must increase", t.ns, previous.ns));
 }
 
-// A recording that was made elsewhere must not refer to files outside its own folders.
+// Returns true if a file name contains no folder. A recording that was made elsewhere must not
+// refer to files outside its own folders.
 bool isPlainName(std::string_view name) {
     return !name.empty() && name != "." && name != ".." && name.find('/') == name.npos &&
            name.find('\\') == name.npos && name.find('\0') == name.npos;

@@ -46,9 +46,9 @@ struct Recording {
                                                                  Timestamp to) const;
 };
 
-/// Reads and validates a recording: the files must exist, their sizes must agree with sensor.yaml,
-/// times must be sorted and unique, and poses finite. Otherwise, or if the lists need more than
-/// `most` bytes of memory, throws RecordingError.
+/// Reads and validates a recording. Throws RecordingError if a file is missing, if a picture's size
+/// differs from sensor.yaml, if times are not sorted or not unique, if a pose is not finite, or if
+/// the lists need more than `most` bytes of memory.
 [[nodiscard]] Recording loadRecording(const std::filesystem::path& root,
                                       std::size_t most = std::numeric_limits<std::size_t>::max());
 

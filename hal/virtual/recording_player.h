@@ -24,7 +24,8 @@ struct PlayerOptions {
     /// Number of buffers for pictures that are in use or decoded, at least 2.
     int videoBuffers = 8;
     int stillBuffers = 4;
-    bool asksVideoFirst = false;  ///< for Pace::Consumer only, see RecordingPlayer
+    /// For Pace::Consumer: the consumer requests a frame, and then the stills up to that frame.
+    bool asksVideoFirst = false;
 };
 
 /// The trigger of a recording. It only counts its calls, because the stills are already recorded.
@@ -78,8 +79,9 @@ public:
     [[nodiscard]] RecordedTrigger& trigger() { return trigger_; }
     [[nodiscard]] const Recording& recording() const { return recording_; }
 
-    /// Converts the time of a delivered frame to the time in the recording's files. They differ
-    /// from the second pass through a looped recording on.
+    /// Converts the time of a delivered frame to the time in the recording's files. During the
+    /// first pass through a recording, both are equal. During further passes (PlayerOptions::loop),
+    /// the time of the delivered frame is later.
     [[nodiscard]] Timestamp recordedTime(Timestamp played) const;
     /// Returns the current time of the cameras. With Pace::Realtime, it is the time of their clock;
     /// otherwise it is the time of the last delivered video frame.

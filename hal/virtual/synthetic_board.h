@@ -48,9 +48,9 @@ class SyntheticStudio;
 /// options and pulses give the same bytes. The current time is the time of the last frame that
 /// video().next() returned, or epoch() before the first frame. A pulse is fired at the current
 /// time. Its still is available when the current time is at least stillLatency after the pulse.
-/// After the end of the video, next() with a timeout above zero returns the remaining stills. The
-/// timeout of video().next() applies only while the consumer holds all buffers. The call waits for
-/// the renderer without a limit.
+/// After the end of the video, stills().next() with a timeout above zero returns the remaining
+/// stills. video().next() waits for the renderer without a limit. Its timeout applies only while
+/// the consumer holds all buffers.
 ///
 /// As with a real sensor, a pulse is lost if the previous exposure has not ended, if
 /// stillBuffers - 1 stills are pending, or if the still camera is not started.
@@ -63,8 +63,9 @@ public:
     enum class View {
         Video,
         Still,
-        StillAtVideo,  ///< position of the still camera; orientation, lens and resolution of the
-                       ///< video camera
+        /// From the position of the still camera, with the orientation, lens and resolution of the
+        /// video camera.
+        StillAtVideo,
     };
 
     explicit SyntheticBoard(const SyntheticOptions& options);

@@ -100,8 +100,8 @@ cv::Mat4b foliage(std::uint64_t seed) {
     return toBytes(colour, cv::Mat1f(colour.size(), 0.25F));
 }
 
-/// Distances of a texel from the nearest and the second nearest of many random points. Each cell of
-/// a grid, which continues at the opposite edge, contains one point.
+/// The distances from a texel to the nearest and the second nearest of many random points. There is
+/// one random point in each square of a grid. The grid continues at the opposite edge.
 struct Cell {
     float nearest, second;
     std::uint64_t id;

@@ -69,7 +69,7 @@ World makeOutdoor(std::uint64_t seed) {
     b.box({0, 30, -0.1}, {140, 70, 0.2}, 0, grass).lightTexels = 112;
     b.box({0.9, 14, 0.01}, {2.6, 36, 0.04}, 0.04, gravel).lightTexels = 96;
     // The texture repeats four times along the width, so that the distant trees have detail that
-    // only the still resolves. A single texture would be too coarse for that.
+    // only the still resolves. Spread over the whole width, it would be too coarse for that.
     const int sky = b.sheet(Layer::Forest, 24, 44, {1.0, 1.0, 1.0});
     b.box({0, 58, 14}, {96, 0.5, 44}, 0, sky);
 

@@ -48,9 +48,9 @@ enum class Layer : std::uint8_t {
     Count
 };
 
-/// `repeats` is per metre; negative values mirror the texture. `offset` is the texture coordinate
-/// at a face's centre. The texture is multiplied by `tint`. `variation` and `gloss` are from 0 to
-/// 1.
+/// The look of a solid's face: the texture `layer`, multiplied by `tint`. `repeats` states how
+/// often the texture repeats per metre; negative values mirror it. `offset` is the texture
+/// coordinate at the face's centre. `variation` and `gloss` are from 0 to 1.
 struct Material {
     Layer layer = Layer::Enamel;
     Eigen::Vector2d repeats{4, 4};
@@ -94,8 +94,8 @@ struct Hit {
     Eigen::Vector3d local;
 };
 
-/// A directed key light of finite angular size, and the ambient light of the sky. `towards` is a
-/// unit vector. `background` is the radiance where a ray hits no solid.
+/// A directed key light of finite angular size, and the ambient light of the sky. `towards` is the
+/// unit vector to the key light. `background` is the radiance where a ray hits no solid.
 struct Lighting {
     Eigen::Vector3d towards{0.3, -0.3, 0.9};
     double spread = 0.1;  ///< tangent of the key light's angular radius

@@ -45,7 +45,7 @@ private:
     std::uint64_t hash_;
 };
 
-/// Computes four independent sums, because a multiplication has a long latency.
+/// Computes four independent sums, because the CPU then executes their multiplications in parallel.
 std::uint64_t checksum(std::span<const std::uint8_t> bytes, std::uint64_t key) {
     std::array<std::uint64_t, 4> sums{key, key + 1, key + 2, key + 3};
     std::array<std::uint64_t, 4> words{};
@@ -57,7 +57,7 @@ std::uint64_t checksum(std::span<const std::uint8_t> bytes, std::uint64_t key) {
     return mix(mix(sums[0] ^ mix(sums[1])) ^ mix(sums[2] ^ mix(sums[3])));
 }
 
-/// Reads a file of texels and their checksum. Returns nothing if it is missing or broken.
+/// Reads a file of texels and their checksum. Returns nothing if the file is missing or broken.
 std::optional<cv::Mat4b> stored(const fs::path& file, std::uint64_t key, int side) {
     cv::Mat4b texels(side, side);
     const std::size_t size = texels.total() * texels.elemSize();

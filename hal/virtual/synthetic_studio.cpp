@@ -161,8 +161,8 @@ std::optional<Frame> SyntheticStudio::nextVideo(std::chrono::milliseconds timeou
     std::unique_lock lock(mutex_);
     const auto ready = [&] {
         if (video_.empty()) return false;
-        // With Pace::Consumer, a frame is delivered only after all stills that are available at its
-        // time are complete, so that every run gives the same result.
+        // With Pace::Consumer, a frame waits until all stills that become available up to its time
+        // are rendered. So every run gives the same result.
         const Timestamp time = video_.front().time();
         return options_.pace == Pace::Realtime || std::ranges::all_of(stills_, [&](const Still& s) {
                    return s.frame || s.available > time;
@@ -183,9 +183,10 @@ std::optional<Frame> SyntheticStudio::nextVideo(std::chrono::milliseconds timeou
     return frame;
 }
 
-// With Pace::Consumer, the clock stops at the end of the video. Then a still is delivered before
-// the end of its latency, but only if `mayWait` is true. A caller that does not wait gets no still,
-// because its result would depend on whether the renderer has finished.
+// Returns true if the next still may be delivered: it is rendered, and its latency has passed. With
+// Pace::Consumer, the clock stops at the end of the video. From then on, the latency is ignored if
+// the caller waits for the still. Other callers get no still: whether they got one would depend on
+// the renderer's speed.
 bool SyntheticStudio::stillReady(bool mayWait) const {
     if (stills_.empty() || !stills_.front().frame) return false;
     return now() >= stills_.front().available ||
@@ -200,7 +201,8 @@ std::optional<Frame> SyntheticStudio::nextStill(std::chrono::milliseconds timeou
         if (!stillsOn_ || (videoDone() && stills_.empty())) return std::nullopt;
         const auto left = deadline - std::chrono::steady_clock::now();
         if (left <= 0ns) return std::nullopt;
-        // The end of a complete still's latency is not signalled, so it is checked every 2 ms.
+        // A rendered still becomes ready when its latency has passed. Nothing signals this moment,
+        // so it is checked every 2 ms.
         const bool latent = !stills_.empty() && stills_.front().frame;
         changed_.wait_for(lock, latent ? std::min<std::chrono::nanoseconds>(left, 2ms) : left);
     }

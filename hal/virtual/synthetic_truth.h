@@ -18,8 +18,8 @@ struct Viewpoint {
 /// hits nothing.
 [[nodiscard]] FloatImage inverseDepth(const World& world, const Viewpoint& view);
 
-/// Returns, for each pixel of `from`, the offset [px] to the same point in `to`, with the motion of
-/// objects. NaN: the point is occluded in `to` or outside of the picture.
+/// Returns, for each pixel of `from`, the offset [px] to the same point in `to`. If an object has
+/// moved, its points are followed. NaN: the point is occluded in `to` or outside of the picture.
 [[nodiscard]] FlowImage flowBetween(const World& world, const Viewpoint& from, const Viewpoint& to);
 
 }  // namespace mfar::synthetic
