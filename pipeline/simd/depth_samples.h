@@ -5,8 +5,8 @@
 
 namespace mfar::simd {
 
-/// A sample's inverse depth is reduced by these amounts before it is compared with a virtual pixel,
-/// see CompositeOptions [standard deviations of the sample].
+/// The comparison of a sample with a virtual pixel uses the sample's inverse depth, reduced by a
+/// multiple of its standard deviation. This struct contains the factors; see CompositeOptions.
 struct SampleBounds {
     float bias;    ///< for SampleRow::nearest: CompositeOptions::bias
     float hidden;  ///< for SampleRow::farthest: bias + softness

@@ -154,7 +154,8 @@ HWY_INLINE Footprint FootprintAt(const PaintTriangle* triangles, VU triangle, V 
     const Plane perZ = PlaneOf(triangles, triangle, 0);
     const Plane uPlane = PlaneOf(triangles, triangle, 3);
     const Plane vPlane = PlaneOf(triangles, triangle, 6);
-    // Outside its triangle, the plane of 1 / z may reach 0.
+    // The point (x, y) can lie outside the triangle, where the triangle's 1 / z can be 0 or
+    // negative.
     const V z = hn::Div(F(1), hn::Max(At(perZ, x, y), F(1e-6F)));
     const V u = hn::Mul(At(uPlane, x, y), z), v = hn::Mul(At(vPlane, x, y), z);
     const V step = hn::Mul(z, F(spread));
@@ -167,10 +168,10 @@ HWY_INLINE Footprint FootprintAt(const PaintTriangle* triangles, VU triangle, V 
 }
 
 /// Returns the paint at a position on the grid, averaged over `spread` grid pixels along each axis.
-/// It is the mean of four bilinear look-ups (probes). The texels of the pyramid level are at least
-/// half as wide as the distance of the probes. Two alternatives were measured against the true mean
-/// over a pixel, on the model "showpiece". A single probe between two pyramid levels is 4 dB worse.
-/// Four probes in a line along the footprint's longer side are no better.
+/// The average is computed from four bilinear look-ups (probes) at one pyramid level. The distance
+/// between two probes is one to two texels of this level. (Alternatives were compared with the true
+/// mean over a pixel on the model "showpiece". One probe, interpolated between two pyramid levels,
+/// is 4 dB worse. Four probes in a line along the footprint's longer side are no better.)
 HWY_INLINE Paint Sample(const PaintInput& in, VU triangle, V x, V y, float spread) {
     const D d;
     const DI di;

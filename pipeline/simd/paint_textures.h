@@ -25,15 +25,15 @@ public:
     [[nodiscard]] const Material& of(const SilhouetteModels::Part& part) const {
         return materials_.at(&part);
     }
-    /// Returns the input of paintRow() with null `triangles`, which the caller must set. Valid
-    /// until set().
+    /// Returns the input of paintRow() without its `triangles`, which the caller must set. The
+    /// input is valid until the next call of set().
     [[nodiscard]] PaintInput input() const { return {texels_.data(), levels_.data(), nullptr}; }
 
 private:
     struct Picture {
-        std::shared_ptr<const Model> model;  // keeps the textures alive, so that no other texture
-                                             // gets their address
-        std::vector<PaintLevel> levels;      // largest level first
+        // Keeps the textures alive, so that no other texture gets the address of one of them.
+        std::shared_ptr<const Model> model;
+        std::vector<PaintLevel> levels;  // largest level first
     };
     using Pictures = std::map<PaintSource, Picture>;
 

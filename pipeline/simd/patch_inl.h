@@ -57,7 +57,7 @@ struct alignas(64) Patch {
     std::int16_t pixels[64], gx[64], gy[64];
 };
 
-/// Sums over a patch's pixels, for each cell of a batch in four parts that must still be added.
+/// Sums over a patch's pixels, for each cell of a batch. Each sum is stored as four partial sums.
 struct alignas(64) Parts {
     std::int32_t of[kBatch][4] = {};
 

@@ -24,7 +24,8 @@ float depthOf(std::uint32_t surface) {
 }
 
 /// Returns the number of the object that covers the most quarters, or 0 if no object covers one. If
-/// objects cover equally many quarters, the first object wins; the lower quarters come first.
+/// objects cover equally many quarters, the object of the first quarter wins, in the order lower
+/// left, lower right, upper right, upper left.
 std::uint32_t mostOf(const Quarters& s) {
     std::uint32_t out = 0;
     int most = 0;
