@@ -62,8 +62,8 @@ void cellsHidden(const std::int32_t* landing, const float* nearest, const float*
 
 /// Adjusts the inverse depth `s` of each cell to its measured `flow`. The new `s` puts the cell's
 /// point on its epipolar line, as near as possible to the end of `flow`. `start`: flow of the old
-/// `s`. `step`: change of `s` that moves a point by about a pixel. A cell keeps its `s` if its
-/// point moves by less than `leastWay` [px] per `step`.
+/// `s`. `step`: change of `s` that moves a point by about a pixel. A cell keeps its old `s` if this
+/// change moves its point by less than `leastWay` [px].
 void alignCells(const FlowEnds& ends, const CellRow& row, const CellVector* flow,
                 const CellVector* start, float step, float leastWay, float* s);
 

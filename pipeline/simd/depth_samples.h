@@ -29,7 +29,7 @@ struct SampleRow {
 };
 
 /// Prepares the samples of pixels [first, last). A sample is known if its inverse depth and its
-/// standard deviation are within the limits at params::kLeastInverseDepth.
+/// standard deviation are within limits (params::kLeastInverseDepth and the constants next to it).
 void prepareSamples(const SampleSource& from, const SampleBounds& bounds, int first, int last,
                     const SampleRow& to);
 

@@ -46,8 +46,8 @@ struct GuideRows {
 };
 
 /// Corrects `from`, a row of the still at the video's resolution: to = from - trusted * (difference
-/// - mean). The mean is that of the trusted differences at most kGuideReach pixels away along each
-/// axis. All values have the same unit.
+/// - mean). `mean` is the mean of the trusted differences at most kGuideReach pixels away along
+/// each axis. All values have the same unit.
 void guideRow(const GuideRows& rows, int begin, int end, const float* from, float* to);
 
 /// A row of the warped still, and what is left of it at the video's resolution: the sum of the rows

@@ -18,7 +18,7 @@ struct DirectMatch {
     Size cells;
     const std::array<float, 4>* lines;  ///< flow along epipolar lines: x, y [px], two unused
     float noise;                        ///< standard deviation of the video's noise [grey levels]
-    float leastTexture;                 ///< smallest FlowCell::texture for which the cost counts
+    float leastTexture;                 ///< cells with less FlowCell::texture are not compared
 };
 
 /// Corrects the flow of doubtful cells by comparing the video with the full-resolution still; see

@@ -250,8 +250,8 @@ void Flow2d::refine(const Luma& luma, const TileWork& work, Cells forward, Cells
     errorsGiven_ = true;
     searched_.clear();
     if (work.matched == 0) return;
-    // Vectors are needed in this margin around the wanted tiles [tiles]. The clean-up reads
-    // neighbouring vectors, and TileSearch also needs them to choose the searched tiles.
+    // Width of the margin around the wanted tiles in which vectors are also needed [tiles]. The
+    // clean-up reads neighbouring vectors, and TileSearch needs them to choose the searched tiles.
     constexpr int kMargin = 2;
     chooseTiles(work, !work.drawsWhole(), kMargin);
     const FlowPlanes field = forwards_.stages[0].areas[0].planes();

@@ -154,8 +154,8 @@ HWY_INLINE Footprint FootprintAt(const PaintTriangle* triangles, VU triangle, V 
     const Plane perZ = PlaneOf(triangles, triangle, 0);
     const Plane uPlane = PlaneOf(triangles, triangle, 3);
     const Plane vPlane = PlaneOf(triangles, triangle, 6);
-    // The point (x, y) can lie outside the triangle, where the triangle's 1 / z can be 0 or
-    // negative.
+    // The position (x, y) can lie outside the triangle. There, the 1 / z of the triangle's plane
+    // can be 0 or negative.
     const V z = hn::Div(F(1), hn::Max(At(perZ, x, y), F(1e-6F)));
     const V u = hn::Mul(At(uPlane, x, y), z), v = hn::Mul(At(vPlane, x, y), z);
     const V step = hn::Mul(z, F(spread));
@@ -180,8 +180,8 @@ HWY_INLINE Paint Sample(const PaintInput& in, VU triangle, V x, V y, float sprea
     const VU levels = WordOf(DU(), in.triangles, triangle, 10);
     const V texels = hn::Mul(LowHalf(size), HighHalf(size));
     const V area = hn::Mul(hn::Abs(hn::NegMulAdd(f.uy, f.vx, hn::Mul(f.ux, f.vy))), texels);
-    // Area of the parallelogram whose corners are the four probes [texels]. Its sides are twice as
-    // long as those of `f`, so it has four times the area of `f`.
+    // Area of the parallelogram whose corners are the four probes [texels]. The parallelogram's
+    // sides are twice as long as those of `f`, so its area is four times as large.
     const V apart = hn::Mul(area, F(4));
     const M finite = hn::Lt(apart, F(1e12F));
     const V held = hn::Max(hn::IfThenElse(finite, apart, F(1e12F)), F(1));

@@ -19,8 +19,8 @@ public:
         std::uint32_t size, levels, material;
     };
 
-    /// Prepares the pictures of new materials, and keeps those of materials that the previous
-    /// objects had. Copies all input. Takes 4 ns per texel.
+    /// Prepares the pictures of the objects' materials. Pictures that are already prepared for the
+    /// previous objects are kept. Copies all input. Preparation takes 4 ns per texel.
     void set(std::span<const SilhouetteModels::Object> objects);
     [[nodiscard]] const Material& of(const SilhouetteModels::Part& part) const {
         return materials_.at(&part);

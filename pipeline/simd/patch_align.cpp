@@ -23,8 +23,8 @@ constexpr float kGentle = 1.0F / 10;
 // compared at the same flow vector. At the patch's corners, this vector is wrong by less than
 // 0.03 px along each axis, which is less than the error of the estimated change.
 constexpr float kFlat = 1.0F / 256;
-// Number of bits of interpolation weights. They are stored in 16 bits. The other bits are needed
-// where a weight changes along a row, because it can then leave the range [0, 1].
+// Number of bits of interpolation weights. Only 14 of the 16 stored bits are used, because a weight
+// that changes along a row can leave the range [0, 1].
 constexpr int kShareBits = 14;
 constexpr float kShare = 1 << kShareBits;
 // Values (pixel - 128) [1/32 grey level] are clamped to +-kMostValue, so that sums of their squares

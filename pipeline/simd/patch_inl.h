@@ -70,7 +70,7 @@ struct alignas(64) Parts {
     }
 };
 
-/// A sum of products of 16-bit lanes, for one or two rows.
+/// Sums products of 16-bit lanes. A vector contains one or two rows of a patch.
 template <class D16>
 struct ProductSum {
     using D32 = hn::CappedTag<std::int32_t, HWY_MAX(hn::MaxLanes(D16()) / 2, 1)>;

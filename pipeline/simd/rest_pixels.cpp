@@ -63,8 +63,8 @@ Point3 scaled(float by, const Point3& p) {
     return {by * p.x, by * p.y, by * p.z};
 }
 
-/// Returns a channel of the colour of a surface with this paint, [0, 255]. Channel 3 (alpha) is
-/// 255. `light`: sum of weighted lights; `weights`: sum of the weights.
+/// Returns one colour channel, [0, 255], of a surface with the given paint and light. Channel 3
+/// (alpha) is 255. `light`: weighted sum of light. `weights`: sum of the weights.
 float lit(const PaintWords& paint, std::size_t channel, const UnpackedLight& light, float weights) {
     if (channel == 3) return 255;
     const auto linear = [channel](std::uint32_t word) {

@@ -12,8 +12,8 @@ HWY_BEFORE_NAMESPACE();
 namespace mfar::simd::HWY_NAMESPACE {
 
 constexpr float kOutside = -1e6F;
-// Only rays whose z after the rotation lies between these limits are visible. 1 / z would lose
-// precision above the upper limit, which is far beyond the z of any lens's ray (x, y, 1).
+// Only rays (x, y, 1) whose z after the rotation lies between these limits are visible. The upper
+// limit is far beyond the z of any lens's ray. Above it, 1 / z would lose precision.
 constexpr float kLeastDepth = 0.05F, kMostDepth = 1e30F;
 
 void TurnedPoints(const TurnedLens& lens, const float* raysX, const float* raysY, std::size_t count,

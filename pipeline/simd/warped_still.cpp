@@ -28,9 +28,9 @@ RowTaps meanOf(int output, int video) {
                          std::sqrt(std::max(seen * seen - kWidened * pitch * pitch, 0.0)));
 }
 
-/// Returns how many rows of the warped still must be kept. The detail of an output row depends on
-/// this row and on some of the following rows of the warped still; the result is their largest
-/// number. `reach`: number of additional video rows that guidance reads.
+/// Returns n, the number of rows of the warped still that must be kept. The detail of output row y
+/// is computed from rows of the warped still up to row y + n - 1. `reach`: number of additional
+/// video rows that guidance reads.
 int rowsLookedAt(const RowTaps& mean, const RowTaps& cubic, Size video, Size output, int reach) {
     int most = mean.taps();
     for (int y = 0; y < output.height; ++y) {
