@@ -168,10 +168,11 @@ HWY_INLINE Footprint FootprintAt(const PaintTriangle* triangles, VU triangle, V 
 }
 
 /// Returns the paint at a position on the grid, averaged over `spread` grid pixels along each axis.
-/// The average is computed from four bilinear look-ups (probes) at one pyramid level. The distance
-/// between two probes is one to two texels of this level. (Alternatives were compared with the true
-/// mean over a pixel on the model "showpiece". One probe, interpolated between two pyramid levels,
-/// is 4 dB worse. Four probes in a line along the footprint's longer side are no better.)
+/// The average is computed from four bilinear look-ups (probes) at one pyramid level. If possible,
+/// this is the level at which neighbouring probes are one to two texels apart. (Alternatives were
+/// compared with the true mean over a pixel on the model "showpiece". One probe, interpolated
+/// between two pyramid levels, is 4 dB worse. Four probes in a line along the footprint's longer
+/// side are no better.)
 HWY_INLINE Paint Sample(const PaintInput& in, VU triangle, V x, V y, float spread) {
     const D d;
     const DI di;
