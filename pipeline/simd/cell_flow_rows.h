@@ -13,15 +13,16 @@ namespace mfar::simd {
 /// Flow x, y [px] of a cell of 4x4 pixels, followed by two unused entries.
 using CellVector = std::array<float, 4>;
 
-/// Parameters of the projection of a frame's points into the still, which is drawn as the video
-/// camera would show it. The ray of a point with inverse depth s changes from r to R (r + s (t - r
-/// t.z)), see EpipolarLens. R is `motion.turn`, t is `motion.move`.
+/// Parameters for projecting the points of a frame into the turned still, a picture of the still
+/// with the lens and the orientation of the video camera. A point with inverse depth s lies on the
+/// ray r of its pixel. Its ray in the turned still is turn * (r + s (move - r move.z)), see
+/// EpipolarLens.
 struct FlowEnds {
     Lens lens;  ///< lens of the video camera
     Motion motion;
     float nearPlane;  ///< a point is invalid if z of the changed ray is less than this
-    /// Limit of |x| and |y| of the projected point [px]. Points beyond it, and invalid points, get
-    /// x = y = nowhere.
+    /// Largest valid |x| and |y| of a projected point [px]. A point that is invalid or exceeds this
+    /// gets the position x = y = nowhere.
     float nowhere;
 };
 
@@ -34,9 +35,9 @@ struct CellRow {
     std::size_t count;
 };
 
-/// Computes the inverse depth of each cell: of its four central pixels, the mean of the second and
-/// the third largest value. `upper`, `lower`: second and third pixel row of the cells, from the
-/// first cell's first pixel on.
+/// Computes an inverse depth for each cell of 4x4 pixels: the mean of the second and the third
+/// largest of the inverse depths of its four central pixels. `upper`, `lower`: second and third
+/// pixel row of the cells, from the first cell's first pixel on.
 void cellDepths(const float* upper, const float* lower, std::size_t count, float* out);
 
 /// Computes the flow of each cell from its inverse depth `s`.
@@ -48,10 +49,11 @@ void cellFlow(const FlowEnds& ends, const CellRow& row, const float* s, CellVect
 void cellLandings(const CellVector* flow, int j, Size cells, std::int32_t* landing);
 
 /// Parameters of cellsHidden(), which tests if a nearer surface hides a cell in the other picture.
-/// The first entry of a cell's `out` is the cell's distance behind that surface [px of parallax]:
-/// (nearest[landing] - s) * pixelsPerUnit - slope, limited to [0, nowhere]. It is `nowhere` for a
-/// cell with landing -1. `nearest[k]`: largest s of all cells with landing k. `slope`: parallax
-/// [px] that two cells of one slanted surface can have.
+/// `landing`: cell of the other picture that shows the cell's point; -1: none. `nearest[k]`:
+/// largest s of all cells with landing k. The first entry of `out` is the cell's distance behind
+/// the nearest surface [px of parallax]: (nearest[landing] - s) * pixelsPerUnit - slope, limited to
+/// [0, nowhere]. It is `nowhere` if `landing` is -1. `slope`: largest parallax [px] between two
+/// cells of one slanted surface.
 struct HiddenRule {
     float pixelsPerUnit, slope, nowhere;
 };
@@ -60,8 +62,8 @@ void cellsHidden(const std::int32_t* landing, const float* nearest, const float*
 
 /// Adjusts the inverse depth `s` of each cell to its measured `flow`. The new `s` puts the cell's
 /// point on its epipolar line, as near as possible to the end of `flow`. `start`: flow of the old
-/// `s`. `step`: change of `s` that moves a point by about a pixel. A cell keeps its `s` if its
-/// point moves by less than `leastWay` [px] per `step`.
+/// `s`. `step`: change of `s` that moves a point by about a pixel. A cell keeps its old `s` if this
+/// change moves its point by less than `leastWay` [px].
 void alignCells(const FlowEnds& ends, const CellRow& row, const CellVector* flow,
                 const CellVector* start, float step, float leastWay, float* s);
 
@@ -73,8 +75,9 @@ struct CellMotion {
     /// unit of length.
     float lastZ, nextZ;
     float perUnit;  ///< factor that converts s from the last frame's unit to the next frame's
-    /// Lower limit of z times the old s for a valid moved point. It applies to z relative to the
-    /// next frame's camera and to z relative to the still camera.
+    /// A moved point is valid if its z, multiplied by the point's old s, exceeds this limit. Both
+    /// its z relative to the next frame's camera and its z relative to the still camera must
+    /// satisfy this.
     float nearPlane;
 };
 /// Finds the cells of the next frame that show the points of the last frame's cells. `s`: inverse

@@ -41,9 +41,9 @@ HWY_INLINE V Smoothed(const RowsAround& rows, int x) {
     return hn::Mul(hn::MulAdd(Const(2), Vertical(rows, x), sides), Const(1.0F / 16));
 }
 
-/// Returns the squared difference between the left and the right neighbour of a cell, plus that
-/// between the upper and the lower neighbour, in one component of the flow [px^2]. The neighbours
-/// are 8 px apart.
+/// Returns how strongly one component of the flow changes around a cell [px^2]: the squared
+/// difference of the left and right neighbours plus the squared difference of the upper and lower
+/// neighbours. The neighbours are 8 px apart.
 HWY_INLINE V Bend(const RowsAround& flow, int x) {
     const D d;
     const V dx = hn::Sub(hn::LoadU(d, flow.here + x + 1), hn::LoadU(d, flow.here + x - 1));

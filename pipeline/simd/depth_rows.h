@@ -15,10 +15,10 @@ struct Motion {
     std::array<float, 3> move;
 };
 
-/// Finds the pixels at which another camera shows points. A point with inverse depth `s` on the ray
-/// r = (raysX, raysY, 1) becomes the other camera's ray R (r + s (t - r t.z)), see EpipolarLens. R
-/// is `motion.turn`, t is `motion.move`. `landing`: row-major index of the pixel, or -1 if the
-/// point is not in the other picture of `size`.
+/// Finds the pixels at which another camera shows points. A point has the inverse depth `s` and
+/// lies on the ray r = (raysX, raysY, 1) of this camera. Its ray in the other camera is turn * (r +
+/// s (move - r move.z)), see EpipolarLens. `size`: size of the other camera's picture. `landing`:
+/// row-major index of the pixel, or -1 if the point is not in that picture.
 void landRow(const Lens& lens, Size size, const Motion& motion, const float* raysX,
              const float* raysY, const float* s, std::size_t count, std::int32_t* landing);
 
@@ -64,10 +64,9 @@ struct MeasureRule {
 void measureRow(const SearchedRow& row, const MeasureRule& rule, std::size_t count,
                 float* inverseDepth, float* variance);
 
-/// Input of takeCells(), one inverse depth per cell, row-major. takeCells() processes the pixels
-/// [first, first + count) of row y. It interpolates the cells' inverse depths bilinearly. A pixel
-/// gets the interpolated value if it differs from the pixel's `own` value by less than `same`, else
-/// `own`.
+/// Inverse depths of the cells of a picture, row-major. takeCells() interpolates them bilinearly at
+/// the pixels [first, first + count) of row y. A pixel gets the interpolated value if that differs
+/// from the pixel's `own` value by less than `same`. Otherwise it keeps its `own` value.
 struct CellField {
     const float* cells;
     Size size;

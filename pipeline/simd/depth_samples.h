@@ -5,8 +5,8 @@
 
 namespace mfar::simd {
 
-/// A sample's inverse depth is reduced by these amounts before it is compared with a virtual pixel,
-/// see CompositeOptions [standard deviations of the sample].
+/// The comparison of a sample with a virtual pixel uses the sample's inverse depth, reduced by a
+/// multiple of its standard deviation. This struct contains the factors; see CompositeOptions.
 struct SampleBounds {
     float bias;    ///< for SampleRow::nearest: CompositeOptions::bias
     float hidden;  ///< for SampleRow::farthest: bias + softness
@@ -29,7 +29,7 @@ struct SampleRow {
 };
 
 /// Prepares the samples of pixels [first, last). A sample is known if its inverse depth and its
-/// standard deviation are within the limits at params::kLeastInverseDepth.
+/// standard deviation are within limits (params::kLeastInverseDepth and the constants next to it).
 void prepareSamples(const SampleSource& from, const SampleBounds& bounds, int first, int last,
                     const SampleRow& to);
 

@@ -16,7 +16,7 @@ namespace mfar::simd {
 /// rows of LookUpCells, which are already enlarged to the output's width. All numbers are finite.
 struct LookUpRows {
     std::array<const float*, 2> x, y;   ///< LookUpCell::x and y, offset of a position [still px]
-    std::array<const float*, 2> share;  ///< LookUpCell::weight; in mode Blend, its `confidence`
+    std::array<const float*, 2> share;  ///< LookUpCell::weight; mode Blend: LookUpCell::confidence
     float t;                            ///< interpolation weight of the second row, [0, 1]
     /// Position of output pixel i before the offset is added: (stepX * i + startX, startY) [still
     /// px].
@@ -46,12 +46,12 @@ struct GuideRows {
 };
 
 /// Corrects `from`, a row of the still at the video's resolution: to = from - trusted * (difference
-/// - mean). The mean is that of the trusted differences at most kGuideReach pixels away along each
-/// axis. All values have the same unit.
+/// - mean). `mean` is the mean of the trusted differences at most kGuideReach pixels away along
+/// each axis. All values have the same unit.
 void guideRow(const GuideRows& rows, int begin, int end, const float* from, float* to);
 
-/// A row of the warped still. The video can show only a part of it: the sum of `low` times
-/// `weights`. The rest is the still's detail.
+/// A row of the warped still, and what is left of it at the video's resolution: the sum of the rows
+/// `low`, multiplied by `weights`. The still's detail is the difference of the two.
 struct WarpedRow {
     const std::int16_t* luma;  ///< luma of the warped still [1/32 grey level]
     /// Four rows of the still at the video's resolution, enlarged to the output's width [1/64 grey
@@ -61,17 +61,17 @@ struct WarpedRow {
 };
 
 /// Writes w * (still's detail) + max(1 - w, 0) * learned [1/32 grey level]; w is LookUpRows::share.
-/// `learned`: residual of the learned filters; null: 0. It predicts the same detail as the still
-/// shows, so the factor max(1 - w, 0) keeps the sum from containing this detail twice. One
-/// alternative adds `learned` without the factor and subtracts the still's own learned residual
-/// from the still's detail. This alternative is 0.3 to 0.7 dB worse on synthetic scenes, because it
-/// sharpens differences in blur and noise between the sensors.
+/// `learned`: detail that the learned filters predict from the video; null: 0. Both terms contain
+/// the same detail, so the factor max(1 - w, 0) keeps it from being added twice. The alternative
+/// would be to omit this factor and to subtract from the still's detail what the filters predict
+/// from the still. It is 0.3 to 0.7 dB worse on synthetic scenes, because it amplifies the
+/// differences in blur and noise between the two sensors.
 void detailRow(const WarpedRow& warped, const LookUpRows& lookUp, const std::int16_t* learned,
                int begin, int end, std::int16_t* to);
 
-/// Fades from the first still's detail (`inOut`) to the second still's detail (`second`). The more
-/// the second still's weight exceeds the first one's, the more of its detail is shown; see
-/// params::kSecondFrom.
+/// Replaces the first still's detail (`inOut`) gradually by the second still's detail (`second`).
+/// The share of the second still's detail grows with the difference (second still's weight) -
+/// (first still's weight); see params::kSecondFrom.
 void fadeRow(const std::int16_t* second, const LookUpRows& secondLookUp, const LookUpRows& lookUp,
              int begin, int end, std::int16_t* inOut);
 

@@ -73,8 +73,9 @@ DetailStep::Show DetailStep::showOf(const Frame& frame, int column, int row) con
     if (work.draw != TileWork::Draw::Whole) return upscaled ? Show::Video : Show::Detail;
     const PixelRect& in = work.detailTiles;
     if (!(column >= in.x0 && column < in.x1 && row >= in.y0 && row < in.y1)) return Show::Video;
-    // Unmatched tiles also have the class Upscaled, but the still can have a weight in them: at the
-    // border of a matched tile, weights are interpolated between the cells of both tiles.
+    // The class Upscaled does not imply that the still has no weight in the tile: unmatched tiles
+    // have this class too. Near a matched neighbour, their weights are interpolated between the
+    // cells of both tiles.
     const bool weightless =
         upscaled && tile.matched != 0 && frame.options.mode == SuperResMode::Detail;
     return weightless ? Show::Video : Show::Detail;

@@ -52,11 +52,13 @@ struct DetailInput {
     Second second{};
 };
 
-/// Draws the high-resolution picture from video, still and flow on the CPU. The result differs from
-/// the GLES engine's DetailPainter by at most a grey level, except near the border of a drawn tile:
-/// drawing the tile also reads sharpened pixels of the neighbouring tile. In the GLES engine, they
-/// can be from an older frame; here, they are always from this frame. Memory is allocated only in
-/// the constructor.
+/// Draws the high-resolution picture from video, still and flow on the CPU. Memory is allocated
+/// only in the constructor.
+///
+/// Each pixel differs from the result of the GLES engine's DetailPainter by at most a grey level.
+/// Exceptions are pixels near the border of a drawn tile, which also depend on sharpened pixels of
+/// the neighbouring tile. The GLES engine can use sharpened pixels of an older frame there; this
+/// class always uses those of the current frame.
 class DetailStep {
 public:
     /// `stillRig`: see StillPreparation::rig(). `output`: size of the whole enlarged video.

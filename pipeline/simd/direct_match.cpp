@@ -70,7 +70,8 @@ public:
         slopeY_ = slope(0, 2);
     }
 
-    /// Returns the flow along the epipolar line, see params::kPairReach.
+    /// Returns the cell's flow along the epipolar line, smoothed over the neighbouring cells; see
+    /// params::kPairReach.
     [[nodiscard]] Vector line() const {
         const Vector middle = median();
         Vector sum;

@@ -10,23 +10,26 @@
 
 namespace mfar::simd {
 
-/// Input of matchDirectly(). All fields of cells have no gaps between rows.
+/// Input of matchDirectly(). Arrays with one entry per cell are row-major without gaps.
 struct DirectMatch {
     const RgbPlanes& video;
     const StillPairs& still;
     const LookUpParams& lookUp;
     Size cells;
     const std::array<float, 4>* lines;  ///< flow along epipolar lines: x, y [px], two unused
-    float noise;                        ///< standard deviation [grey levels]
-    float leastTexture;                 ///< smallest FlowCell::texture for which the cost counts
+    float noise;                        ///< standard deviation of the video's noise [grey levels]
+    float leastTexture;                 ///< cells with less FlowCell::texture are not compared
 };
 
-/// Compares doubtful cells of a row with the still itself instead of its reduction, see
-/// params::kPatchSamples. Only cells [first, end) are compared; `flow` and `errors` are the fields
-/// of all cells. The flow along its epipolar line replaces a cell's flow if the still fits clearly
-/// better there. If the correlation with the still itself exceeds 1 - FlowCell::cost, the cell's
-/// ErrorCell gets the sums of this comparison. Its two-way error is then at most the one that
-/// params::kErrorPerCost gives for the cost 1 - correlation. CPU version of flow_direct.comp.
+/// Corrects the flow of doubtful cells by comparing the video with the full-resolution still; see
+/// params::kPatchSamples. (The flow search compares it with a still reduced to the video's
+/// resolution.) Processes the cells [first, end) of a row; `flow` and `errors` contain all cells of
+/// the frame. CPU version of flow_direct.comp.
+///
+/// A cell's flow is replaced by its flow along the epipolar line if the still fits clearly better
+/// there. If the correlation with the still exceeds 1 - FlowCell::cost, the sums of this comparison
+/// are stored in the cell's ErrorCell. Then the cell's two-way error is limited to the error that
+/// params::kErrorPerCost gives for the cost 1 - correlation.
 void matchDirectly(const DirectMatch& in, int row, int first, int end, FlowCell* flow,
                    ErrorCell* errors);
 

@@ -105,7 +105,7 @@ void VotePixels(const Voters& voters, const VoteRule& rule, const PixelRect& whe
     const auto first = [](int from) { return (from + kVoterStep - 1) / kVoterStep; };
     for (OpenPixel& pixel : pixels) {
         const int x = pixel.x;
-        // The voters at most rule.radius pixels away, as indices of Voters.
+        // Range of the voters that are at most rule.radius pixels away, in indices of Voters.
         const PixelRect window{first(std::max(x - rule.radius, where.x0)),
                                first(std::max(y - rule.radius, where.y0)),
                                first(std::min(x + rule.radius + 1, where.x1)),

@@ -9,10 +9,11 @@
 
 namespace mfar::simd {
 
-/// Parameters of openRow(), which writes 1 at pixels without a valid depth or near a depth edge,
-/// else 0. An edge is near if largest - smallest > jump * largest + sigmas * (the pixel's standard
-/// deviation). The largest and the smallest inverse depth are those around the pixel: `low` and
-/// `high` are results of rangeAlongRow() for `rows` consecutive rows, `pitch` entries apart.
+/// Parameters of openRow(), which finds the pixels whose depth is not reliable. It writes 1 at a
+/// pixel without a valid depth or near a depth edge, else 0. A depth edge is near if largest -
+/// smallest > jump * largest + sigmas * (the pixel's standard deviation), where `largest` and
+/// `smallest` are the extreme inverse depths around the pixel. They are taken from `low` and
+/// `high`, the results of rangeAlongRow() for `rows` consecutive rows, `pitch` entries apart.
 struct EdgeRule {
     float jump, sigmas;
 };
@@ -42,10 +43,11 @@ struct VoteRule {
     float leastWeight;  ///< a pixel is decided if a group of voters has at least this total weight
 };
 
-/// Decides the depth of pixels of row y from the voters around them within `where`. The middle of
-/// the voters' range of inverse depth divides them into a near and a far group. A voter's weight is
-/// at most 1, and the larger the more its colour resembles the pixel's. The pixel gets the weighted
-/// mean inverse depth and variance of the group with the larger total weight.
+/// Decides the depth of pixels of row y. The voters of a pixel are those near it (VoteRule::radius)
+/// and within `where`. The mean of their smallest and their largest inverse depth divides them into
+/// a near and a far group. A voter's weight is 1 if its colour equals the pixel's colour, and falls
+/// with the colour difference. The pixel gets the weighted mean inverse depth and variance of the
+/// group with the larger total weight.
 void votePixels(const Voters& voters, const VoteRule& rule, const PixelRect& where, int y,
                 std::span<OpenPixel> pixels);
 

@@ -117,9 +117,9 @@ HWY_INLINE hn::Vec<F> SumOfFive(const float* at) {
 HWY_INLINE hn::Vec<F> GradientClass(hn::Vec<F> xx, hn::Vec<F> xy, hn::Vec<F> yy) {
     using C = GradientClasses;
     const F d;
-    // Converts a squared strength [(grey levels / px)^2] to the unit of twiceLargest, which is
-    // twice the largest eigenvalue. An eigenvalue is a sum over 25 pixels. Its terms are squared
-    // differences [1/8 grey level] of values that are two pixels apart.
+    // Factor that converts a squared strength [(grey levels / px)^2] to the unit of `twiceLargest`,
+    // which is twice the largest eigenvalue. An eigenvalue is a sum of 25 squared differences [1/8
+    // grey level]. The values of a difference are two pixels apart.
     constexpr float kScale = 2.0F * 25 * (2 * kLumaScale) * (2 * kLumaScale);
     const auto sum = hn::Add(xx, yy), cosine = hn::Sub(xx, yy), sine = hn::Add(xy, xy);
     const auto spread = hn::Sqrt(hn::MulAdd(cosine, cosine, hn::Mul(sine, sine)));

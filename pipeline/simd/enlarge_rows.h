@@ -19,9 +19,9 @@ void lumaEighthsRow(const std::array<const std::uint8_t*, 3>& rgb, int begin, in
 void classRow(const std::array<const std::int16_t*, 7>& luma, int begin, int end,
               const std::array<float*, 3>& sums, std::uint16_t* gradient, std::uint16_t* curvature);
 
-/// Writes the limits of the enlarged picture's luma in each pixel, minus the pixel's luma [1/8 grey
-/// level]. The limits are the range of the 5x5 pixels around the pixel, extended by the allowed
-/// overshoot (kOvershootShift).
+/// Writes for each pixel the lowest and the highest value that the enlarged picture's luma may have
+/// there. Both are relative to the pixel's own luma [1/8 grey level]. They are the range of the 5x5
+/// pixels around the pixel, extended by the allowed overshoot (kOvershootShift).
 void rangeRow(const std::array<const std::int16_t*, 5>& luma, int begin, int end,
               std::int16_t* lowest, std::int16_t* highest);
 

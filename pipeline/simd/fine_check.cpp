@@ -94,8 +94,8 @@ void FineCheck::sum(const Frame& frame, Scratch& scratch, int row) {
         }
     }
     for (CellPlane* plane : {&ofVideo_, &ofBoth_, &ofStill_}) {
-        // Clears the cells outside the spans. Vectors have written to some of them, because they
-        // can be longer than the rest of a span.
+        // Clears the cells outside the spans. Some of them were written to, because a vector can be
+        // longer than the rest of a span.
         int done = 0;
         for (const auto& [begin, end] : scratch.cells) {
             if (!isWhole) break;

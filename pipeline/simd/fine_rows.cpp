@@ -43,8 +43,9 @@ HWY_INLINE void SumSamples(std::int16_t* upper, const std::int16_t* lower, int b
     }
 }
 
-/// Differences between neighbouring pixels of two rows: for each column of a cell, to the right in
-/// both rows, and from the upper to the lower row.
+/// Differences between neighbouring pixels in two rows of a cell. of[i] belongs to the pixels in
+/// column i. It contains the upper pixel's difference from its right neighbour, the same for the
+/// lower pixel, and the difference between the lower and the upper pixel.
 struct Differences {
     hn::Vec<F> of[4][3];
 };

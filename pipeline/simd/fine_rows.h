@@ -16,11 +16,11 @@ struct FineSums {
     float *video, *both, *still;
 };
 
-/// Computes FineSums of cells [begin, end) from the two middle pixel rows of a row of cells.
-/// `video`: two rows [1/8 grey level]. `still`: four rows with 2x2 samples per video pixel [1/32
-/// grey level]; they are overwritten. The rows begin at the first cell of the frame. They contain
-/// `pixels` video pixels; the last one is repeated after them. The first pixel after the cells is
-/// also compared.
+/// Computes FineSums of the cells [begin, end) from the two middle pixel rows of a row of cells.
+/// All rows begin at the first cell of the frame. `video`: two rows of luma [1/8 grey level].
+/// `still`: four rows, which contain 2x2 samples of luma for each video pixel [1/32 grey level];
+/// they are overwritten. `pixels`: width of the frame [video px]. The first pixel to the right of
+/// the cells is also read; at the end of the frame, it is replaced by the frame's last pixel.
 void fineSumsRow(const std::array<std::int16_t*, 2>& video,
                  const std::array<std::int16_t*, 4>& still, int begin, int end, int pixels,
                  const FineSums& to);

@@ -95,9 +95,9 @@ void Flow2d::chooseTiles(const TileWork& work, bool keepsUnchanged, int margin) 
     widen(fine_, 1, between_, next_);
 }
 
-// Marks the tiles of the still in which the backward flow is needed: around the end of each wanted
-// forward vector, where the two-way error is interpolated between backward cells. Clean-up and
-// propagation read three more cells on each side.
+// Marks the tiles of the still in which the backward flow is needed. Each wanted forward vector
+// needs the backward cells around its end, because the two-way error is interpolated between them.
+// Clean-up and propagation read three more cells on each side.
 void Flow2d::chooseBackward() {
     std::ranges::fill(ends_.flags, std::uint8_t{0});
     for (int y = 0; y < videoCells_.height; ++y)
@@ -250,8 +250,8 @@ void Flow2d::refine(const Luma& luma, const TileWork& work, Cells forward, Cells
     errorsGiven_ = true;
     searched_.clear();
     if (work.matched == 0) return;
-    // Vectors are needed in this margin around the wanted tiles [tiles]. The clean-up reads
-    // neighbouring vectors, and TileSearch also needs them to choose the searched tiles.
+    // Width of the margin around the wanted tiles in which vectors are also needed [tiles]. The
+    // clean-up reads neighbouring vectors, and TileSearch needs them to choose the searched tiles.
     constexpr int kMargin = 2;
     chooseTiles(work, !work.drawsWhole(), kMargin);
     const FlowPlanes field = forwards_.stages[0].areas[0].planes();

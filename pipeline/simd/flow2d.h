@@ -43,10 +43,11 @@ public:
     /// still.
     void run(const Luma& luma, const TileWork& work, bool usePrior);
 
-    /// Computes the flow from video to still, starting from the vectors `forward` of the epipolar
-    /// search, whose error is a fraction of a pixel. Tiles in which these vectors do not match (see
-    /// TileSearch) are searched in two dimensions, from coarse to fine. `errors`: two-way errors
-    /// [px] (eq. 2 of the paper) of `forward`, in each cell's first entry.
+    /// Computes the flow from video to still. The search starts from `forward`, the vectors of the
+    /// epipolar search, whose error is a fraction of a pixel. Tiles in which these vectors do not
+    /// match (see TileSearch) are searched in two dimensions, from coarse to fine. The first entry
+    /// of each cell's `errors` is the two-way error of its `forward` vector [px], see eq. 2 in
+    /// docs/paper.md.
     using Cells = std::span<const std::array<float, 4>>;
     void refine(const Luma& luma, const TileWork& work, Cells forward, Cells errors);
 

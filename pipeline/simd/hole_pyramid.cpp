@@ -99,8 +99,9 @@ void HolePyramid::markBlocks(const PixelRect& where, std::span<const Hole> holes
     }
 }
 
-/// Merges four texels into one texel of the next coarser level. Its object and its catcher get full
-/// weight (255) if they cover at least half of the texel.
+/// Merges four texels into one texel of the next coarser pyramid level. The object that covers most
+/// of the new texel gets full weight (255) if it covers at least half of it. The same applies to
+/// the shadow catcher.
 HolePyramid::Area HolePyramid::merged(const std::array<Area, 4>& parts) {
     Area out;
     Mixture best, catcher;

@@ -23,9 +23,9 @@ using DLabels = hn::CappedTag<std::int32_t, kLabels>;
 /// segment contains the points of kLabels successive labels, so it has kSteps steps.
 struct Segments {
     HWY_ALIGN float fromX[kRun], fromY[kRun], wayX[kRun], wayY[kRun];
-    /// Start (x, y) and step (dx, dy) of a segment in fixed point [1/kFixed px]. Here, pixel k
-    /// covers [k, k + 1). They are used only if `isInside` is not 0: both ends of the segment are
-    /// in the picture.
+    /// Start (x, y) and step (dx, dy) of each segment in fixed point [1/kFixed px]. Pixel k covers
+    /// the coordinates [k, k + 1). The values are used only if `isInside` is not 0: then both ends
+    /// of the segment are in the picture.
     HWY_ALIGN std::int32_t x[kRun], y[kRun], dx[kRun], dy[kRun], isInside[kRun];
 };
 

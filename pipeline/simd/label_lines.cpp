@@ -72,10 +72,10 @@ struct NearestPixels {
         const V along = hn::Mul(hn::Sub(x, best.x), way.x);
         return {x, y, hn::Mul(hn::MulAdd(hn::Sub(y, best.y), way.y, along), perSquare)};
     }
-    /// Finds the first pixel after `own`, the best label's pixel, in the direction `side` (-1 or
-    /// 1). Returns the pixel's foot, and how much more the pixel costs than `own`. `near`, `far`:
-    /// how much more the labels `side` and 2 * `side` cost than the best label. The result is
-    /// kUnknown if both labels have the pixel `own` too.
+    /// Looks for a pixel other than `own`, the best label's pixel, among the pixels of the next two
+    /// labels in the direction `side` (-1 or 1). Returns the first one: its foot, and how much more
+    /// it costs than `own`. The cost is kUnknown if both labels have the pixel `own`. `near`,
+    /// `far`: how much more the first and the second of the two labels cost than the best label.
     HWY_INLINE Side beside(const Pixel& own, float side, V near, V far) const {
         const Pixel one = at(side), two = at(2 * side);
         const auto isNext = [&](const Pixel& p)

@@ -10,8 +10,8 @@
 namespace mfar::simd {
 
 /// Parameters that map labels to points of epipolar lines. A label is a number that stands for the
-/// inverse depth s = perLabel * label, see EpipolarLens. The lines are on the still's canvas, which
-/// is the still drawn with the lens and the orientation of the frame's camera (TurnedPicture).
+/// inverse depth s = perLabel * label, see EpipolarLens. The lines are on the still's canvas: the
+/// still, drawn with the lens and the orientation of the frame's camera (TurnedPicture).
 struct LabelLines {
     Lens lens;
     float tx, ty, tz;        ///< translation of points, in the axes of the frame's camera
@@ -30,12 +30,13 @@ struct CensusPicture {
     Size size;
 };
 
-/// Computes the matching costs of a row's pixels, whose census is `own`. Each pixel has kLabels *
-/// `vectors` labels, the first of which is its `base`; costs are ordered by pixel, then by label. A
-/// cost is the Hamming distance to the census of the still's nearest pixel, or half of the number
-/// of bits if the still has no pixel there. With `slack`, a cost is the smallest of three: on the
-/// epipolar line, and one pixel to either side of it. Within kLabels labels, the line is treated as
-/// straight.
+/// Computes the matching costs of a row of pixels. `own`: census of these pixels. Each pixel has
+/// kLabels * `vectors` successive labels, and `base` is the first of them. `out` is ordered by
+/// pixel, then by label. The cost of a label is the Hamming distance between the pixel's census and
+/// the census at the label's point in the still. It is half of the number of bits if the still has
+/// no pixel there. With `slack`, the points one pixel to either side of the epipolar line are also
+/// compared, and the smallest of the three costs counts. The line is treated as straight within
+/// kLabels labels.
 void labelCosts(const LabelLines& lines, const LabelRow& row, const std::int16_t* base,
                 const std::uint32_t* own, const CensusPicture& still, int vectors, bool slack,
                 std::uint8_t* out);
@@ -45,10 +46,10 @@ void labelCosts(const LabelLines& lines, const LabelRow& row, const std::int16_t
 /// the minimum is interpolated between the points of the line that are nearest to these pixels.
 void labelPlaces(const LabelLines& lines, const LabelRow& row, const Valley* valleys, float* out);
 
-/// Computes the label of each Valley's cost minimum with a fractional part. The minimum is where
-/// two straight lines with opposite slopes meet, which pass through the costs of the best label and
-/// of its two neighbours. (With these costs, a parabola would prefer whole labels.) The result is
-/// the best label itself if a neighbour's cost is unknown.
+/// Computes the label of each Valley's cost minimum with a fractional part. Two straight lines with
+/// opposite slopes are laid through the costs of the best label and of its two neighbours. The
+/// minimum is where the lines meet. (With these costs, a parabola would prefer whole labels.) The
+/// result is the best label itself if a neighbour's cost is unknown.
 void labelVertices(const Valley* valleys, std::size_t count, float* out);
 
 }  // namespace mfar::simd

@@ -21,7 +21,8 @@ struct BlendedColours {
     std::uint32_t *redBlue, *greenAlpha;
 };
 
-/// Returns the weight `share`, in [0, 1], as 16 bits in units of 2^-15, twice in the 32-bit word.
+/// Returns a word whose lower and upper 16 bits both contain the weight `share` [2^-15]. `share`
+/// must be in [0, 1].
 [[nodiscard]] std::uint32_t twiceInAWord(float share);
 
 /// Interpolates `count` RGBA8 colours between two rows. `share`: weight of the lower row, [0, 1].

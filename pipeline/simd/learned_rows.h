@@ -47,8 +47,8 @@ private:
     const RgbPlanes* picture_ = nullptr;
     const LearnedTaps* taps_ = nullptr;
     const FilterBank* bank_ = nullptr;
-    // within_: output columns given to begin(). columns_: columns of the picture from which they
-    // are computed.
+    // within_: output columns given to begin(). columns_: columns of the picture that are read to
+    // compute the output columns within_.
     PixelSpan within_{}, columns_{};
     PixelSpans covered_;
     PixelSpans made_;

@@ -15,8 +15,8 @@ struct SmoothRows {
 };
 
 /// Computes a row of the finest pyramid level with three taps along each axis, as
-/// luma_from_video.comp does. `side`: weight of a neighbour. Writes `width` pixels and reads no
-/// pixels beyond them.
+/// luma_from_video.comp does. `side`: weight of a neighbour. `width`: number of pixels of the row.
+/// Nothing is read after the end of the input rows.
 void smoothLumaRow(const SmoothRows& rows, int width, float side, std::uint8_t* to);
 
 /// Computes a row of the next coarser pyramid level as means of 2x2 pixels. Reads 2 * width pixels

@@ -25,8 +25,8 @@ using V3 = Triples<V>;
 // The visible share of the sun is measured only in pixels in which the mirrored sunlight exceeds
 // this factor times the mirrored light of the sky.
 constexpr float kLeastSun = 0.1F;
-// The 6 free bits of a pixel's two MirrorParts words store the sun's visible share in steps of
-// 1 / kMostSunShare.
+// The two words of MirrorParts have 6 free bits in total. They store the visible share of the sun,
+// in steps of 1 / kMostSunShare.
 constexpr float kMostSunShare = 63;
 
 HWY_INLINE V F(float value) {

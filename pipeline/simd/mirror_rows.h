@@ -33,9 +33,10 @@ struct MirrorRow {
     const float *rayX, *rayY;  ///< normalised rays of the pixels
 };
 
-/// The specular light of a pixel in parts, as two light words. `share`: share of the mirrored sky
-/// that no object hides. `rest`: specular light in addition to that of sky and sun. The free bits
-/// of both words store the share of the sun that no object hides.
+/// The specular light of a pixel, split into parts. `share`: share of the mirrored sky that no
+/// object hides, for each colour channel. `rest`: the specular light that exceeds the light
+/// mirrored from sky and sun. Both are light words (base/light_word.h). Their free bits store the
+/// share of the sun that no object hides.
 struct MirrorParts {
     std::uint32_t share = 0, rest = 0;
 };

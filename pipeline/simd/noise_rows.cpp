@@ -100,9 +100,9 @@ public:
             normal_[c] = hn::LoadU(d, surfaces.normal[c] + centre);
     }
 
-    /// Returns the weight of the neighbours from index `i` on, `away` pixels away: the eighth power
-    /// of the cosine between both pixels' normals (1/2 at 24 degrees). It is 0 if they show
-    /// different surfaces.
+    /// Returns the weight of the neighbours from index `i` on, `away` pixels away. It is the eighth
+    /// power of the cosine of the angle between both pixels' normals (1/2 at 24 degrees), or 0 if
+    /// the two pixels show different surfaces.
     HWY_INLINE V weight(std::ptrdiff_t i, int away) const {
         const V depth = hn::LoadU(d_, surfaces_.depth + i), id = hn::LoadU(d_, surfaces_.id + i);
         const V slope = hn::Mul(hn::Set(d_, static_cast<float>(away)), slope_);

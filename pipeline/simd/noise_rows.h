@@ -23,9 +23,9 @@ struct LightSurfaces {
 
 struct NoiseRule {
     int step;  ///< distance between a pixel and its neighbours [px], at most kNoiseMargin
-    /// Largest difference between two pixels' luminances that noise explains [standard deviations
-    /// of the difference]. `sparseTolerance` replaces it at pixels of surface `sparseId` whose
-    /// first part has fewer than `few` samples.
+    /// Largest luminance difference between two pixels that noise explains [standard deviations of
+    /// the difference]. It is `sparseTolerance` at pixels of surface `sparseId` whose first
+    /// LightPart has fewer than `few` samples, else `tolerance`.
     float tolerance, sparseTolerance, few, sparseId;
     float leastVariance;  ///< added to the variance of each luminance difference
     float depthSlope;     ///< largest change of depth within a surface [fraction of depth per px]
@@ -44,7 +44,7 @@ struct NoiseRow {
     int width, y;
 };
 
-/// Filters a row with one level of the wavelets of NoiseFilter.
+/// Filters a row of the picture with one level of NoiseFilter's wavelet transform.
 void filterNoiseRow(const NoiseRow& row, const NoiseRule& rule);
 
 }  // namespace mfar::simd

@@ -43,8 +43,8 @@ struct OcclusionStep::Task {
     int first, last;  // columns [first, last) of the video that the pixels in `bounds` read
 };
 
-/// Temporary values for `count` pixels of an output row, from column `x` on. All output rows
-/// between two video rows use the same `greatest` and `least`.
+/// Temporary values for `count` pixels of an output row, from column `x` on. `greatest` and `least`
+/// (see rangeOfSamples()) are the same for all output rows between two video rows.
 struct OcclusionStep::Strip {
     int x = 0, count = 0;
     std::array<float, kVisibilityChunk + kSpare> greatest{}, least{}, z{}, inverse{};

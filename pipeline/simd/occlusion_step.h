@@ -16,8 +16,8 @@
 
 namespace mfar::simd {
 
-/// A picture of the virtual objects alone, as the video camera sees them. It is like VirtualLayer,
-/// but in host memory, which it does not own.
+/// A picture of the virtual objects alone, as the video camera sees them. This struct does not own
+/// its memory. It is the counterpart of the GLES engine's VirtualLayer in host memory.
 struct LayerRowsView {
     Rows<const std::uint32_t> colour;  ///< RGBA8, premultiplied by coverage
     /// z along the camera's axis [m]; 0: no surface. In shadows, it is reduced by kShadowLift.
@@ -50,11 +50,12 @@ public:
     OcclusionStep(Size video, Size output, Size layer, const CompositeOptions& options,
                   std::shared_ptr<Workers> workers);
 
-    /// Draws `layer` into `picture`, which is `video` at output size in RGBA8. `real`: depth of the
-    /// same frame; pixels whose inverse depth or sigma is not finite and positive occlude nothing.
-    /// Layer pixels are drawn only if their depth is finite and positive. If the layer is smaller
-    /// than the output, colours are interpolated linearly. The depth is then copied from one of the
-    /// four surrounding layer pixels: of those with a depth, the one closest to the output pixel.
+    /// Draws `layer` over `picture`, the RGBA8 picture of the frame at output size. `real`,
+    /// `video`: depth and colours of the same frame. Real pixels occlude nothing if their inverse
+    /// depth or sigma is not finite and positive. Layer pixels are drawn only if their depth is
+    /// finite and positive. If the layer is smaller than the output, its colours are interpolated
+    /// linearly. An output pixel's depth is then that of the closest of the four surrounding layer
+    /// pixels; those without a depth are skipped.
     void run(const LayerRowsView& layer, const RealDepth& real, const RgbPlanes& video,
              Rows<std::uint32_t> picture);
 

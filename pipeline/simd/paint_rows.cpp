@@ -154,7 +154,8 @@ HWY_INLINE Footprint FootprintAt(const PaintTriangle* triangles, VU triangle, V 
     const Plane perZ = PlaneOf(triangles, triangle, 0);
     const Plane uPlane = PlaneOf(triangles, triangle, 3);
     const Plane vPlane = PlaneOf(triangles, triangle, 6);
-    // Outside its triangle, the plane of 1 / z may reach 0.
+    // The position (x, y) can lie outside the triangle. There, the 1 / z of the triangle's plane
+    // can be 0 or negative.
     const V z = hn::Div(F(1), hn::Max(At(perZ, x, y), F(1e-6F)));
     const V u = hn::Mul(At(uPlane, x, y), z), v = hn::Mul(At(vPlane, x, y), z);
     const V step = hn::Mul(z, F(spread));
@@ -167,10 +168,11 @@ HWY_INLINE Footprint FootprintAt(const PaintTriangle* triangles, VU triangle, V 
 }
 
 /// Returns the paint at a position on the grid, averaged over `spread` grid pixels along each axis.
-/// It is the mean of four bilinear look-ups (probes). The texels of the pyramid level are at least
-/// half as wide as the distance of the probes. Two alternatives were measured against the true mean
-/// over a pixel, on the model "showpiece". A single probe between two pyramid levels is 4 dB worse.
-/// Four probes in a line along the footprint's longer side are no better.
+/// The average is computed from four bilinear look-ups (probes) at one pyramid level. If possible,
+/// this is the level at which neighbouring probes are one to two texels apart. (Alternatives were
+/// compared with the true mean over a pixel on the model "showpiece". One probe, interpolated
+/// between two pyramid levels, is 4 dB worse. Four probes in a line along the footprint's longer
+/// side are no better.)
 HWY_INLINE Paint Sample(const PaintInput& in, VU triangle, V x, V y, float spread) {
     const D d;
     const DI di;
@@ -179,8 +181,8 @@ HWY_INLINE Paint Sample(const PaintInput& in, VU triangle, V x, V y, float sprea
     const VU levels = WordOf(DU(), in.triangles, triangle, 10);
     const V texels = hn::Mul(LowHalf(size), HighHalf(size));
     const V area = hn::Mul(hn::Abs(hn::NegMulAdd(f.uy, f.vx, hn::Mul(f.ux, f.vy))), texels);
-    // Area of the parallelogram whose corners are the four probes [texels]. Its sides are twice as
-    // long as those of `f`, so it has four times the area of `f`.
+    // Area of the parallelogram whose corners are the four probes [texels]. The parallelogram's
+    // sides are twice as long as those of `f`, so its area is four times as large.
     const V apart = hn::Mul(area, F(4));
     const M finite = hn::Lt(apart, F(1e12F));
     const V held = hn::Max(hn::IfThenElse(finite, apart, F(1e12F)), F(1));

@@ -18,8 +18,7 @@ struct PaintLevel {
 
 /// Data for painting a triangle. It fills one cache line, because vector lanes gather its words.
 struct PaintTriangle {
-    RasterPlane perZ, u, v;  ///< 1 / z, u / z and v / z on the grid; set only for triangles
-                             ///< that are drawn
+    RasterPlane perZ, u, v;  ///< 1 / z, u / z and v / z on the grid; set if the triangle is drawn
     std::uint32_t size = 0;
     std::uint32_t levels = 0;    ///< index of the largest level; top byte: number of smaller levels
     std::uint32_t material = 0;  ///< triangles with equal numbers are painted in the same way

@@ -19,21 +19,21 @@ public:
         std::uint32_t size, levels, material;
     };
 
-    /// Prepares the pictures of new materials, and keeps those of materials that the previous
-    /// objects had. Copies all input. Takes 4 ns per texel.
+    /// Prepares the pictures of the objects' materials. Pictures that are already prepared for the
+    /// previous objects are kept. Copies all input. Preparation takes 4 ns per texel.
     void set(std::span<const SilhouetteModels::Object> objects);
     [[nodiscard]] const Material& of(const SilhouetteModels::Part& part) const {
         return materials_.at(&part);
     }
-    /// Returns the input of paintRow() with null `triangles`, which the caller must set. Valid
-    /// until set().
+    /// Returns the input of paintRow() without its `triangles`, which the caller must set. The
+    /// input is valid until the next call of set().
     [[nodiscard]] PaintInput input() const { return {texels_.data(), levels_.data(), nullptr}; }
 
 private:
     struct Picture {
-        std::shared_ptr<const Model> model;  // keeps the textures alive, so that no other texture
-                                             // gets their address
-        std::vector<PaintLevel> levels;      // largest level first
+        // Keeps the textures alive, so that no other texture gets the address of one of them.
+        std::shared_ptr<const Model> model;
+        std::vector<PaintLevel> levels;  // largest level first
     };
     using Pictures = std::map<PaintSource, Picture>;
 

@@ -13,18 +13,18 @@ namespace mfar::simd::HWY_NAMESPACE {
 namespace {
 
 constexpr float kSteepest = params::kSteepestFlow;
-// Number of pixels of a patch's row that are read at the same whole-pixel offset: all eight if the
-// flow changes by less than kGentle per pixel along the row, otherwise kHalf. The fewer pixels and
-// the gentler the flow, the smaller is the error. Eight pixels at kGentle are no worse than kHalf
-// pixels at the steepest flow.
+// A patch's row is read in parts. All pixels of a part are read at the same whole-pixel offset. A
+// part has eight pixels (the whole row) if the flow changes by less than kGentle per pixel along
+// the row, else kHalf pixels. The error grows with the length of a part and with the change of the
+// flow. With eight pixels at kGentle, it is no larger than with kHalf pixels at the steepest flow.
 constexpr int kHalf = 4;
 constexpr float kGentle = 1.0F / 10;
 // If the flow changes by less than this per pixel, the change is ignored: all pixels of a patch are
 // compared at the same flow vector. At the patch's corners, this vector is wrong by less than
 // 0.03 px along each axis, which is less than the error of the estimated change.
 constexpr float kFlat = 1.0F / 256;
-// Number of bits of interpolation weights. Weights are stored in 16 bits. The spare bits keep a
-// weight that changes along a row from overflowing.
+// Number of bits of interpolation weights. Only 14 of the 16 stored bits are used, because a weight
+// that changes along a row can leave the range [0, 1].
 constexpr int kShareBits = 14;
 constexpr float kShare = 1 << kShareBits;
 // Values (pixel - 128) [1/32 grey level] are clamped to +-kMostValue, so that sums of their squares
@@ -66,8 +66,9 @@ HWY_INLINE Bend bendAt(const AlignStep& step, int column, int row, Vector2 here)
             slope(seedAt(step, column, row - 2), seedAt(step, column, row + 2))};
 }
 
-/// Positions in the searched picture of a patch's rows, or of the halves of its rows if kParts is
-/// 2. `upper` and `lower` are offsets of the pixels at and below each position.
+/// Where the parts of a patch's rows lie in the searched picture. A part is a row if kParts is 1,
+/// or half a row if kParts is 2. `upper`: offset of the pixel at a part's position. `lower`: offset
+/// of the pixel below.
 template <int kParts>
 struct BentPlaces {
     static constexpr int kCount = kPatch * kParts;
@@ -133,8 +134,8 @@ HWY_INLINE void placeParts(const PatchPicture& p, int column, int row, Vector2 u
     }
 }
 
-/// Loads a patch's row from its parts. Each part starts `next` pixels after its address in `parts`.
-/// On the scalar target, only the pixel in column c is loaded.
+/// Loads a row of a patch from its parts. `parts`: address of each part. `next`: number of pixels
+/// to skip at the start of each part. On the scalar target, only the pixel in column c is loaded.
 template <int kParts>
 HWY_INLINE Vec16 loadParts(const std::uint8_t* const* parts, int next, int c) {
     if constexpr (kParts == 1) return loadPixels(parts[0] + next + c);

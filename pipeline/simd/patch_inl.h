@@ -57,7 +57,7 @@ struct alignas(64) Patch {
     std::int16_t pixels[64], gx[64], gy[64];
 };
 
-/// Sums over a patch's pixels, for each cell of a batch in four parts that must still be added.
+/// Sums over a patch's pixels, for each cell of a batch. Each sum is stored as four partial sums.
 struct alignas(64) Parts {
     std::int32_t of[kBatch][4] = {};
 
@@ -70,7 +70,7 @@ struct alignas(64) Parts {
     }
 };
 
-/// A sum of products of 16-bit lanes, for one or two rows.
+/// Sums products of 16-bit lanes. A vector contains one or two rows of a patch.
 template <class D16>
 struct ProductSum {
     using D32 = hn::CappedTag<std::int32_t, HWY_MAX(hn::MaxLanes(D16()) / 2, 1)>;

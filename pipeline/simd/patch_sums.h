@@ -22,11 +22,11 @@ struct PatchSums {
     float* varianceStill;
 };
 
-/// Compares the patches of cells [first, last) in the video's row `cellRow` with the still at the
-/// ends of their flow vectors (patch.glsl). A patch has 8x8 pixels around a cell of 4x4 pixels. The
-/// still is interpolated in steps of 2^-15 px and 1/64 grey level. Positions outside the still are
-/// clamped to its border; a NaN counts as far to the left or far above. The flow of up to 15 cells
-/// after `last` is read.
+/// Compares the patches of cells [first, last) in row `cellRow` of the video's cells with the
+/// still, as patch.glsl does. A patch has 8x8 pixels around a cell of 4x4 pixels. In the still, the
+/// patch is displaced by the cell's flow. The still is interpolated in steps of 2^-15 px and 1/64
+/// grey level. Positions outside the still are clamped to its border; a flow that is NaN leads to
+/// the left or upper border. The flow of up to 15 cells after `last` is read.
 void comparePatches(const PatchLevel& video, const PatchLevel& still, int cellRow, int first,
                     int last, const float* flowX, const float* flowY, const PatchSums& out);
 

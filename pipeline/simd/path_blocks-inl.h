@@ -1,8 +1,8 @@
 // Aggregates costs along paths (see path_costs.h) in registers, for pixels with a window of 16
 // labels. A block of 16 bytes contains the path costs of one pixel's labels; a vector contains
-// several blocks. Path costs are stored as 255 - cost. Byte shifts and look-ups insert zeros
-// outside a window, which are then the highest cost and never win. This header is included once per
-// instruction set.
+// several blocks. Path costs are stored as 255 - cost. So a zero, which byte shifts and look-ups
+// insert for a label outside the window, is the highest cost and never wins. This header is
+// included once per instruction set.
 #include "pipeline/simd/path_costs.h"
 
 #include <algorithm>
@@ -190,9 +190,9 @@ private:
     int chunks_;
 };
 
-/// Penalties for label changes (`jumps`) and shifts of the window, as computed by Neighbours, for
-/// successive pixels in `Blocks` rows. The values of the rows are interleaved: first those of the
-/// first pixel of each row.
+/// Results of Neighbours for successive pixels of `Blocks` rows: penalties for label changes
+/// (`jumps`) and shifts of the window. Both arrays begin with the first pixel of each row, followed
+/// by the second pixel of each row.
 template <int Blocks>
 struct RunOfRows {
     HWY_ALIGN std::uint8_t jumps[Neighbours::kMost * 4], shifts[Neighbours::kMost * 4];

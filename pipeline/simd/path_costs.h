@@ -22,11 +22,11 @@ struct Valley {
     std::array<std::uint8_t, 4> rise{};
 };
 
-/// Input of semi-global matching (see semi_global.h): matching costs of labels are aggregated along
+/// Input of semi-global matching (see semi_global.h), which sums the path costs of labels along
 /// straight paths from four directions. Each pixel has a window of kLabels * `vectors` successive
-/// labels. Rows have no gaps. Costs and penalties must be so small that path costs stay below 85:
-/// the sum over the first three directions is stored in a byte (the fourth is only added when the
-/// cheapest label is found).
+/// labels. Rows have no gaps. Costs and penalties must be so small that a path cost stays below 85,
+/// because a byte stores the sum of the path costs from three directions. The fourth is not stored;
+/// it is added when the cheapest label is determined.
 struct PathVolume {
     const std::uint8_t* guide;  ///< picture whose edges make large label differences cheaper
     const std::int16_t* base;   ///< first label of each pixel's window

@@ -24,7 +24,8 @@ float depthOf(std::uint32_t surface) {
 }
 
 /// Returns the number of the object that covers the most quarters, or 0 if no object covers one. If
-/// objects cover equally many quarters, the first object wins; the lower quarters come first.
+/// objects cover equally many quarters, the object of the first quarter wins, in the order lower
+/// left, lower right, upper right, upper left.
 std::uint32_t mostOf(const Quarters& s) {
     std::uint32_t out = 0;
     int most = 0;
@@ -62,8 +63,8 @@ Point3 scaled(float by, const Point3& p) {
     return {by * p.x, by * p.y, by * p.z};
 }
 
-/// Returns a channel of the colour of a surface with this paint, [0, 255]. Channel 3 (alpha) is
-/// 255. `light`: sum of weighted lights; `weights`: sum of the weights.
+/// Returns one colour channel, [0, 255], of a surface with the given paint and light. Channel 3
+/// (alpha) is 255. `light`: weighted sum of light. `weights`: sum of the weights.
 float lit(const PaintWords& paint, std::size_t channel, const UnpackedLight& light, float weights) {
     if (channel == 3) return 255;
     const auto linear = [channel](std::uint32_t word) {

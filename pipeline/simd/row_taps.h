@@ -17,10 +17,11 @@ struct ColumnTaps {
     std::array<std::int16_t, 4> weights;
 };
 
-/// A table for resampling a row (the source) to another length. Entry x of the result is the
-/// weighted sum of taps() entries of the source, starting with first(x). Its centre is at
-/// (x + 0.5) * step - 0.5 in the source, where step is the ratio of the lengths. Beyond its ends,
-/// the source counts as constant. The table also resamples columns, whose entries are rows.
+/// A table for resampling a row (the source) to another length (the result). Entry x of the result
+/// is the weighted sum of taps() successive entries of the source, from first(x) on. The centre of
+/// entry x is at (x + 0.5) * step - 0.5 in the source, where step = (length of the source) /
+/// (length of the result). Beyond the ends of the source, its outermost entries are repeated. The
+/// table also resamples columns; the entries are then rows.
 class RowTaps {
 public:
     /// Keys' cubic with a = -0.75, as in cubic.glsl.
@@ -31,8 +32,8 @@ public:
     /// A tent filter that is as wide as two entries of the result, as in still_reduce.frag. `to`
     /// must not exceed `from`.
     [[nodiscard]] static RowTaps tent(int from, int to);
-    /// Mean of four linearly interpolated samples, as in superres_sharpen.frag. The distance
-    /// between samples is a quarter of `footprint` entries of the result.
+    /// Mean of four linearly interpolated samples, as in superres_sharpen.frag. `footprint`: four
+    /// times the distance between two samples [entries of the result].
     [[nodiscard]] static RowTaps mean(int from, int to, double footprint);
 
     [[nodiscard]] int taps() const { return weights_.size().height; }

@@ -9,9 +9,10 @@ namespace mfar::simd {
 // Functions for rows of a still. Rows that are written need 64 bytes of padding, and so do luma
 // rows and 16-bit rows that are read.
 
-/// Parameters of lumaOfPlane() and lumaOfPairs(), which compute luma from a plane of Y or from byte
-/// pairs with Y first. Luma is gain [1/16384] times Y plus `offset` plus `chroma` [both 1/32 grey
-/// level], clamped to [0, 255]. If `chroma` is null, it counts as 0.
+/// Parameters of lumaOfPlane() and lumaOfPairs(), which compute luma from Y and chroma.
+/// lumaOfPlane() reads a plane of Y; lumaOfPairs() reads byte pairs with Y first. The result is Y *
+/// gain / 16384 + (offset + chroma) / 32 [grey levels], clamped to [0, 255]. A null `chroma` counts
+/// as 0.
 struct LumaGain {
     std::int16_t gain, offset;
 };

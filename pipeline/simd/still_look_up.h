@@ -22,8 +22,9 @@ struct LookUpParams {
     float scaleX, scaleY;  ///< still pixels per video pixel
 };
 
-/// Input for the two-way errors of a row of cells: `errors` are the errors themselves, from the
-/// row's first cell on. If `errors` is null, the errors are computed from the backward field.
+/// Tells lookUpCells() the two-way errors of a row of cells. If `errors` is not null, it contains
+/// them, from the row's first cell on. Otherwise they are computed from `field`, the flow from
+/// still to video.
 struct BackwardCells {
     const ErrorCell* errors = nullptr;
     const FlowCell* field = nullptr;
@@ -44,8 +45,9 @@ struct LookUpRow {
     int row, count;
     const float *flowX, *flowY;  ///< [video px]
     float *lookX, *lookY;        ///< LookUpCell::x and y [still px]
-    float* confidence;           ///< eq. 2 of the paper with lambda(x) = min(x, 1); 0 if the flow
-                                 ///< ends outside the still or the video
+    /// Confidence, as in eq. 2 of docs/paper.md with lambda(x) = min(x, 1). It is 0 if the flow
+    /// ends outside the still or outside the video.
+    float* confidence;
 };
 
 /// Computes the position in the still at which each cell's flow vector ends, and the cell's

@@ -227,8 +227,8 @@ bool SurfaceRaster::addTriangle(Batch& batch, const RasterCorner (&c)[3],
     return true;
 }
 
-/// Stores the planes of 1/z and of the texture coordinates. `c`: corners of the triangle, or of a
-/// piece of it after clipping, whose planes are the same.
+/// Stores 1 / z and the texture coordinates as linear functions on the grid. `c`: corners of the
+/// triangle or, after clipping, of any piece of it. The functions are the same for all pieces.
 void SurfaceRaster::setPaint(const Placed& placed, const RasterCorner (&c)[3],
                              std::uint32_t index) {
     if (placed.part->source->material == nullptr) return;  // the shadow catcher has no paint

@@ -19,8 +19,8 @@ namespace mfar::simd {
 
 /// Rasterises the visible surfaces of the virtual scene: the objects and, behind them, the shadow
 /// catcher. The grid has twice the layer's resolution, so a pixel of the layer has four quarters.
-/// Lens distortion is applied to the triangles' corners. Colours are not computed, except by
-/// paintRow(). CPU version of the GLES engine's ModelSilhouette.
+/// Lens distortion is applied to the triangles' corners. draw() determines the surfaces, and
+/// paintRow() their colours without light. CPU version of the GLES engine's ModelSilhouette.
 class SurfaceRaster {
 public:
     /// `layer`: the camera at the layer's resolution. If `workers` is null, all work runs in the

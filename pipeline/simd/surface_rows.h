@@ -23,13 +23,13 @@ inline constexpr std::uint32_t kBehindObjects = 0x80000000;
 struct MeshRows {
     const float *x, *y, *z;
 };
-/// Corners in pixels of the grid, whose pixel i extends from i to i + 1. z [m] may have any sign; x
-/// and y are valid only if z > 0.
+/// Projected corners. x, y: position on the grid [grid px]; pixel i extends from i to i + 1. z [m]
+/// may have any sign. x and y are valid only if z > 0.
 struct CornerRows {
     float *x, *y, *z;
 };
-/// Projects `count` corners through a lens, onto a grid with twice the lens's pixels. Rows need
-/// kAlignment bytes of padding.
+/// Projects `count` corners through a lens, onto a grid with twice the resolution of the lens's
+/// picture. Rows need kAlignment bytes of padding.
 void projectCorners(const MeshRows& mesh, int count, const PointTransform& view,
                     const PointLens& lens, const CornerRows& out);
 

@@ -27,9 +27,10 @@ constexpr int kCells = 4;             // side of a tile [cells of 2x2 blocks]
 constexpr int kRowBlocks = kSide * kTileGroup;
 constexpr int kRowCells = kCells * kTileGroup;
 
-/// Sums and twists of blocks of 2x2 pixels in a group of tiles. A block with the pixels a b above
-/// c d has the twist a - b - c + d, which is 0 where brightness changes linearly. "Difference"
-/// means TilePixels::now minus TilePixels::drawn. Values after the last tile are not initialised.
+/// Measurements of a group of tiles, one for each block of 2x2 pixels or for each cell. A block
+/// with the pixels a b above c d has the sum a + b + c + d and the twist a - b - c + d. The twist
+/// is 0 where brightness changes linearly. "Difference" means TilePixels::now minus
+/// TilePixels::drawn. Values after the last tile are not initialised.
 struct Blocks {
     using Values = std::array<std::array<float, kRowBlocks>, kSide>;
     using CellSums = std::array<std::array<std::int32_t, kRowCells>, kCells>;
@@ -40,8 +41,8 @@ struct Blocks {
     // Each value is computed for all three colour channels of a cell, and the largest is stored.
     // farthest: |sum of the differences|. absolute: sum of the |differences|.
     HWY_ALIGN CellSums farthest, absolute;
-    // Sums of the squared twists of the difference of red or blue. A tile has four sums, one for
-    // each column of its cells.
+    // Sums of the squared twists of the red difference and of the blue difference. A tile has four
+    // sums of each kind, one for each column of its cells.
     HWY_ALIGN std::array<std::int32_t, kRowCells> redTwist, blueTwist;
 };
 
@@ -156,8 +157,8 @@ HWY_INLINE Block<D> BlockOf(const Quad<D>& q) {
             hn::Add(hn::Add(hn::Abs(q.a), hn::Abs(q.b)), hn::Add(hn::Abs(q.c), hn::Abs(q.d)))};
 }
 
-/// Stores the luma of three colour channels times `scale` (a power of 2), or the absolute value of
-/// this product if `absolute` is true.
+/// Computes luma from three colour channels, multiplies it by `scale` (a power of 2), and stores
+/// it. Stores its absolute value instead if `absolute` is true.
 template <class D>
 HWY_INLINE void StoreLuma(D, float scale, hn::Vec<D> red, hn::Vec<D> green, hn::Vec<D> blue,
                           bool absolute, float* to) {

@@ -18,7 +18,7 @@ constexpr float kSurelyChanged = 40;
 // A cell has certainly changed if the squared mean of its difference exceeds this multiple of the
 // mean's variance.
 constexpr float kCellSurelyChanged = 30;
-// Variance of the difference of two pixels that is caused by rounding both to 8 bits.
+// Variance of the difference of two pixels if each is rounded to 8 bits [grey levels^2].
 constexpr float kByteRounding = 0.17F;
 
 // In this file, each lane of a vector belongs to one tile, so that the values of a tile are added
@@ -75,9 +75,10 @@ HWY_INLINE V StructureOf(const Blocks& blocks, int tile) {
     return hn::Div(sum, Const(9));
 }
 
-/// The mean and both slopes of a tile's difference, from the means of its 4x4 cells. over() squares
-/// these three values, divides each by its variance and returns the sum. `variance`: variance of a
-/// cell's mean.
+/// Mean and slopes of a tile's difference (new frame minus the frame drawn last), computed from the
+/// means of its 4x4 cells. over() tests whether they exceed noise: it divides the square of each of
+/// these three values by its variance and returns the sum of the quotients. `variance`: variance of
+/// a cell's mean.
 class Moments {
 public:
     HWY_INLINE Moments() : sum_(hn::Zero(D())), slopeX_(sum_), slopeY_(sum_) {}
@@ -109,10 +110,11 @@ HWY_INLINE Moments MomentsOf(const Blocks::CellSums& sums, int tile) {
     return out;
 }
 
-/// Measures of a tile's luma difference (new frame minus the frame drawn last). Four values a b
-/// above c d have the twist a - b - c + d. `means` adds up the squared sum of each block of 2x2
-/// pixels. `noise` adds up the squared twist of each block. `bends`, which becomes
-/// TileMeasure::bends, adds up (twist / 16)^2 for the sums of each 2x2 blocks.
+/// Sums of squares over a tile's luma difference (new frame minus the frame drawn last). Four
+/// values a b above c d have the twist a - b - c + d. Each block of 2x2 pixels has a sum and a
+/// twist. `means`: squares of these sums. `noise`: squares of these twists. Each 2x2 blocks also
+/// have a twist, that of their four sums. `bends`: squares of these twists, divided by 256; see
+/// TileMeasure::bends.
 struct LumaDifference {
     V means, bends, noise;
     Moments moments;

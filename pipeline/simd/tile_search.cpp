@@ -83,8 +83,8 @@ void TileSearch::find(const FlowPlanes& field, std::span<const ErrorCell> errors
         const bool within = x >= 0 && y >= 0 && x < size.width && y < size.height;
         return within ? int{unexplained_.at(x, y)} : 0;
     };
-    // A tile with at least two flagged neighbours is flagged too. It may be a part of a moving
-    // object without texture, in which wrong matches have a low cost and are not noticed.
+    // A tile with at least two flagged neighbours is flagged too. It may be a textureless part of a
+    // moving object. Wrong matches in such a part have a low cost and are not noticed.
     for (int y = 0; y < size.height; ++y)
         for (int x = 0; x < size.width; ++x) {
             const int beside =

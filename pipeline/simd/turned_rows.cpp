@@ -12,8 +12,8 @@ HWY_BEFORE_NAMESPACE();
 namespace mfar::simd::HWY_NAMESPACE {
 
 constexpr float kOutside = -1e6F;
-// Smallest z of a visible ray (x, y, 1) after the rotation, and an upper limit far beyond any ray
-// of a lens, from which 1 / z would lose precision.
+// Only rays (x, y, 1) whose z after the rotation lies between these limits are visible. The upper
+// limit is far beyond the z of any lens's ray. Above it, 1 / z would lose precision.
 constexpr float kLeastDepth = 0.05F, kMostDepth = 1e30F;
 
 void TurnedPoints(const TurnedLens& lens, const float* raysX, const float* raysY, std::size_t count,

@@ -22,8 +22,8 @@ namespace mfar::simd {
 class RestPixels;
 class SurfaceRaster;
 
-/// Returns the result `views` of viewsOfObjects() as a table with one transform for each of the
-/// params::kSurfaceNumbers surface numbers. Returns an empty table if `views` is empty.
+/// Converts `views`, the result of viewsOfObjects(), to a table with one transform for each of the
+/// params::kSurfaceNumbers surface numbers. The table is empty if `views` is empty.
 [[nodiscard]] std::vector<PointTransform> transformsByNumber(std::span<const RigidTransform> views);
 
 /// A pixel of the layer whose colour is not completely known.

@@ -45,16 +45,15 @@ struct ViewLookUpInput {
 
 struct ViewRow {
     int count;
-    const std::uint32_t *upper, *lower;  ///< the two rows of surface numbers in this row; they have
-                                         ///< twice the layer's resolution
-    const PaintWords* paint;             ///< see SurfaceRaster::paintRow(); read only if
-                                         ///< ViewLookUpInput::lights is not null
-    const float *rayX, *rayY;            ///< rays with z = 1
-    std::uint32_t* colour;               ///< RGBA8 premultiplied
-    float* depth;                        ///< z [m]; 0: empty
-    std::uint32_t* state;                ///< see WarpStep::state()
-    std::uint32_t* left;                 ///< indices of the pixels that were not looked up; has
-                                         ///< room for all pixels and 16 more
+    const std::uint32_t *upper, *lower;  ///< surfaces of the pixels' upper and lower quarters
+    /// See SurfaceRaster::paintRow(). It is read only if ViewLookUpInput::lights is not null.
+    const PaintWords* paint;
+    const float *rayX, *rayY;  ///< rays with z = 1
+    std::uint32_t* colour;     ///< RGBA8 premultiplied
+    float* depth;              ///< z [m]; 0: empty
+    std::uint32_t* state;      ///< see WarpStep::state()
+    /// Indices of the pixels that were not looked up. It must have room for `count` + 16 entries.
+    std::uint32_t* left;
 };
 
 /// Looks up the plain pixels of a row (warp_look_up.frag). In a plain pixel, a single surface fills

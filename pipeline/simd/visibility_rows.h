@@ -24,10 +24,9 @@ struct DecideRow {
     int count;
     const float* z;                 ///< z of the virtual layer [m]
     const float *greatest, *least;  ///< for each pixel, see rangeOfSamples()
-    std::uint8_t* visibility;       ///< 0, 255 or kOpen; written up to 16 pixels beyond the last
-                                    ///< pixel
-    float* inverse;                 ///< inverse depth of the layer [1/m]; written up to 16 pixels
-                                    ///< beyond the last pixel
+    // Results; both rows are written up to 16 pixels beyond the last pixel.
+    std::uint8_t* visibility;  ///< 0, 255 or kOpen
+    float* inverse;            ///< inverse depth of the layer [1/m]
 };
 /// Value in DecideRow::visibility for a pixel that decideRow() leaves to weighOpenPixels().
 inline constexpr std::uint8_t kOpen = 1;

@@ -15,21 +15,22 @@ constexpr int kReach = params::kGuideReach;
 constexpr int kMargin = 16;       // [columns] on each side of a row; one cache line
 constexpr float kMeanScale = 32;  // units of the mean per grey level
 
-/// Returns the weights for the mean of the warped still over a video pixel, along one axis: a mean
-/// of four samples. Linear interpolation of the warped still blurs each sample. The samples are
-/// therefore closer together, so that the mean is not wider than a video pixel.
+/// Returns the weights that average the warped still over a video pixel along one axis, as the mean
+/// of four samples. Each sample is interpolated linearly, which blurs it. To make up for this blur,
+/// the samples are closer together. So the mean is not wider than a video pixel.
 RowTaps meanOf(int output, int video) {
-    // The tent of linear interpolation has a variance of 1/6 of its squared sample spacing. The
-    // four positions have a variance of 5/64 of the squared footprint. kWidened is the ratio.
+    // Linear interpolation has a tent-shaped kernel; its variance is 1/6 of the squared distance
+    // between source entries. The four positions of RowTaps::mean() have a variance of 5/64 of the
+    // squared footprint. kWidened = (1/6) / (5/64).
     constexpr double kWidened = 2.0 + 2.0 / 15;
     const double pitch = static_cast<double>(video) / output, seen = params::kSeen;
     return RowTaps::mean(output, video,
                          std::sqrt(std::max(seen * seen - kWidened * pitch * pitch, 0.0)));
 }
 
-/// Returns the number of rows of the warped still that must be kept: the largest distance from an
-/// output row to the last row that is read for its detail, plus 1. `reach`: number of additional
-/// rows of the video that guidance reads.
+/// Returns n, the number of rows of the warped still that must be kept. The detail of output row y
+/// is computed from rows of the warped still up to row y + n - 1. `reach`: number of additional
+/// video rows that guidance reads.
 int rowsLookedAt(const RowTaps& mean, const RowTaps& cubic, Size video, Size output, int reach) {
     int most = mean.taps();
     for (int y = 0; y < output.height; ++y) {

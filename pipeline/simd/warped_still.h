@@ -23,12 +23,14 @@ struct WarpedStillTaps {
     int kept, keptGuided;
 };
 
-/// Warps the still to the frame's view and computes its detail, which the video cannot show. For
-/// this, the warped still is reduced to the video's resolution (its mean over each video pixel),
-/// enlarged again and subtracted from the warped still. The mean is computed for each frame,
-/// because aliasing depends on the position of the frame's pixels. Compared with detail that is
-/// computed once per still, this gains 0.5 dB on photographs and 0.5 to 0.9 dB on synthetic scenes.
-/// Output rows are computed when they are requested. Each thread has its own object.
+/// Warps the still to the frame's view and computes its detail: what the video cannot show. For
+/// this, the warped still is reduced to the video's resolution (to its mean over each video pixel),
+/// enlarged again, and subtracted from the warped still. Output rows are computed when they are
+/// requested. Each thread has its own object.
+///
+/// The mean is computed for each frame, because aliasing depends on where the frame's pixels lie.
+/// Compared with detail that is computed once per still, this gains 0.5 dB on photographs and 0.5
+/// to 0.9 dB on synthetic scenes.
 class WarpedStill {
 public:
     WarpedStill(Size video, Size output, const WarpedStillTaps& taps);
@@ -77,8 +79,9 @@ private:
     // One row of the warped still, reduced along columns (column_), and along both axes to the
     // video's resolution (mean_).
     AlignedRows<float> column_, mean_;
-    AlignedRows<std::int16_t> low_;  // four reduced rows, enlarged to the output's width
-                                     // [1/64 grey level]
+    // Four rows of the still at the video's resolution, enlarged to the output's width [1/64 grey
+    // level].
+    AlignedRows<std::int16_t> low_;
 
     const RgbPlanes* guide_ = nullptr;
     Guidance guidance_;
