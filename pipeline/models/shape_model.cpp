@@ -14,7 +14,8 @@ std::uint8_t displayByte(float value) {
     return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0F, 1.0F) * 255));
 }
 
-/// Returns the checkerboard of a side. It has many texels per square, so that edges are sharp.
+/// Returns the checkerboard texture of one side of the object. A square is 4 to 32 texels wide, so
+/// that its edges are sharp.
 SurfaceTexture checkerboard(const VirtualObject& object) {
     constexpr int kMostTexels = 1024, kMostASquare = 32, kLeastASquare = 4;
     const int each = std::clamp(kMostTexels / object.squares, kLeastASquare, kMostASquare);

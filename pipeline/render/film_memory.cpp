@@ -40,7 +40,8 @@ void FilmMemory::provide(std::size_t blocks) {
         LargePages pages = newPages();
         pages.provide();
         const std::scoped_lock lock(mutex_);
-        // Blocks that were in use before are returned first.
+        // take() takes blocks from the end of free_. The new blocks are put before the free ones,
+        // so that blocks that were already used are taken first.
         std::vector<std::byte*> used = std::exchange(free_, {});
         add(std::move(pages));
         free_.insert(free_.end(), used.begin(), used.end());
