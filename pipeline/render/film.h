@@ -38,8 +38,7 @@ struct SeenSurface {
 
 struct FilmSample {
     FirstHit hit;
-    Eigen::Vector3f radiance{0, 0, 0};  ///< radiance of the object, or of the shadow catcher with
-                                        ///< objects
+    Eigen::Vector3f radiance{0, 0, 0};  ///< radiance of the object or catcher, with all objects
     Eigen::Vector3f without{0, 0, 0};   ///< radiance of the shadow catcher if no object existed
     SurfaceLight light{};               ///< light on the hit object
     SurfaceLight far{{1, 1, 1}, {1, 1, 1}};

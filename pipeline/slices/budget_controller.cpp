@@ -19,8 +19,8 @@ constexpr double kPortionsPerFrame = 16;
 // unused if the threads get too little processor time.
 constexpr double kMostSaved = 0.08;
 // Converting a picture may exceed the budget of a frame. The excess becomes a debt of at most
-// kMostDebt budgets. Each frame repays the share kRepaid of the budget, or of the debt if that is
-// larger.
+// kMostDebt budgets. Each frame repays kRepaid times the budget. If the debt is larger than the
+// budget, the frame repays kRepaid times the debt instead.
 constexpr double kMostDebt = 10, kRepaid = 0.08;
 
 double valid(double ms) {

@@ -36,9 +36,9 @@ public:
     /// Throws std::invalid_argument if the budget is not a finite number above 0.
     explicit BudgetController(double msPerFrame);
 
-    /// Begins a frame. `workWaits` must be true if work was left over in the last frame. Only then
-    /// kept() counts the last frame, and a small part of its unused time is added to the new frame.
-    /// `extraMs` is added to the budget of this frame alone.
+    /// Begins a frame. `workWaits` must be true if work was left over in the last frame. If it is
+    /// true, kept() counts the last frame, and a small part of the last frame's unused time is
+    /// added to the new frame. `extraMs` is added to the budget of the new frame alone.
     void beginFrame(bool workWaits, double extraMs = 0);
 
     [[nodiscard]] BudgetGrant grant();

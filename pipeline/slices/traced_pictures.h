@@ -22,9 +22,9 @@ enum class TracedStep : unsigned char {
     Drop,      ///< discard the next picture: the view is near the shown picture's again
 };
 
-/// `sinceShown` and `sinceNext` are viewChange() since the views of the shown and the next picture.
-/// They are empty if that picture does not exist or shows another scene. A next picture begins if
-/// the change reaches `renewed`.
+/// `sinceShown` is viewChange() from the view of the shown picture to the present view; `sinceNext`
+/// is the same for the next picture. A value is empty if its picture does not exist or shows
+/// another scene. Without a next picture, one begins if `sinceShown` reaches `renewed`.
 [[nodiscard]] TracedStep nextStep(std::optional<double> sinceShown, std::optional<double> sinceNext,
                                   double renewed);
 
