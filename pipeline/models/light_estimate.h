@@ -33,11 +33,11 @@ struct LightEstimatorOptions {
 /// front of the lens has little effect. Nine coefficients of spherical harmonics are fitted to the
 /// map by ridge regression, weighted by solid angle and age.
 ///
-/// A camera mostly sees lit surfaces and rarely lamps. Unless the pictures show otherwise, the light
-/// is therefore assumed to come from above, as strong as the brightness of the seen surfaces
-/// requires. Lamps that are clipped in the video are underestimated. Sources:
-/// Ramamoorthi, Hanrahan 2001 (nine coefficients); Sloan, Stupid Spherical Harmonics Tricks, GDC
-/// 2008 (main direction).
+/// A camera mostly sees lit surfaces and rarely lamps. Unless the pictures show otherwise, the
+/// light is therefore assumed to come from above, and to be as strong as the brightness of the seen
+/// surfaces requires. Lamps that are clipped in the video are underestimated. Sources: Ramamoorthi,
+/// Hanrahan 2001 (nine coefficients); Sloan, Stupid Spherical Harmonics Tricks, GDC 2008 (main
+/// direction).
 class LightEstimator {
 public:
     /// Throws std::invalid_argument if an option is out of range.
@@ -63,8 +63,8 @@ private:
     std::vector<SeenRadiance> frame_;
 };
 
-/// Converts the estimate to a scene's lighting. If much more light comes from one direction above
-/// the horizon than from others, a part of it becomes a sun with soft shadows. The rest becomes an
+/// Converts the estimate to a scene's lighting. If one direction above the horizon is much brighter
+/// than the others, a part of the light becomes a sun with soft shadows. The rest becomes an
 /// environment of low resolution.
 [[nodiscard]] Lighting lightingOf(const LightEstimate& estimate);
 

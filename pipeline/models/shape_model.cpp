@@ -54,8 +54,9 @@ Model shapeModel(const VirtualObject& object) {
     const Eigen::Vector3f size = object.size.cast<float>();
     Mesh& mesh = model.meshes.emplace_back();
     mesh.triangles = shape.triangles;
-    // Textures repeat, which would mix the opposite border into the edges. So texture coordinates
-    // go only from the centre of the first texel to the centre of the last texel.
+    // Textures repeat, so interpolation at a border of the texture mixes in the opposite border. To
+    // avoid this, texture coordinates go only from the centre of the first texel to the centre of
+    // the last texel.
     const float texels = plain ? 1 : static_cast<float>(model.textures[0].size.width);
     for (const ShapeMesh::Vertex& v : shape.vertices) {
         mesh.positions.push_back(v.position.cwiseProduct(size));

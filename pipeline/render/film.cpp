@@ -110,7 +110,7 @@ Film::Pixel& Film::begun(std::size_t pixel) {
 }
 
 // Several threads may find at the same time that a block has no memory for this picture yet. Only
-// the first of them adds it.
+// the first of these threads adds the memory.
 void Film::addBlock(Block& block) {
     const std::scoped_lock lock(*mutex_);
     if (block.picture.load(std::memory_order_relaxed) == picture_) return;

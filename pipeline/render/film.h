@@ -55,7 +55,7 @@ struct KnownLight {
 };
 
 /// Sums of the samples of each pixel of one view. Pixels are numbered row-major. A block of pixels
-/// gets memory when one of them is first used, so unused parts cost neither time nor memory.
+/// gets memory when one of its pixels is first used, so unused parts cost neither time nor memory.
 /// Threads may process different pixels at the same time.
 class Film {
 public:
@@ -117,10 +117,11 @@ public:
     /// proportional to n^-3/4, as for jittered samples (Mitchell 1996).
     [[nodiscard]] float error(std::size_t pixel, const Exposure& exposure = {}) const;
 
-    /// One pixel of the picture. Shadow and bounced light multiply the real surface's value by the
-    /// ratio of modelled light with objects to light without objects (differential rendering,
-    /// Debevec 1998). The darkest channel gives a black layer of coverage 1 - ratio^(1/2.2). The
-    /// excess of the other channels is added as colour.
+    /// One pixel of the picture. Shadow and bounced light multiply the value of the real surface by
+    /// a ratio: modelled light with objects, divided by modelled light without objects
+    /// (differential rendering, Debevec 1998). The colour channel with the smallest ratio gives a
+    /// black layer of coverage 1 - ratio^(1/2.2). The excess of the other channels is added as
+    /// colour.
     struct Resolved {
         std::array<std::uint8_t, 4> colour{};
         FirstHit hit;

@@ -69,8 +69,8 @@ private:
     void unpack(std::size_t pixel, int set);
     void filterRow(int level, int y);
 
-    // Numbers of the filter's arrays, which hold one value of all pixels each. The arrays of light
-    // exist in two sets: a level of the filter reads one set and writes the other.
+    // Numbers of the filter's arrays. Each array holds one value of every pixel. The arrays of
+    // light exist twice, in two sets: a level of the filter reads one set and writes the other.
     static constexpr int kFirst = 0, kSecond = 3, kFirstVariance = 6, kSecondVariance = 7,
                          kFirstCount = 8, kSecondCount = 9, kOfSet = 10;
     static constexpr int kNormal = 2 * kOfSet, kDepth = kNormal + 3, kId = kNormal + 4,

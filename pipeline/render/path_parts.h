@@ -53,8 +53,9 @@ struct PathIntegrator::World {
         return true;
     }
 
-    /// Returns the point that a ray hits. `density` is the probability density of the ray's
-    /// direction. The point's emission is multiplied by its weight in multiple importance sampling.
+    /// Returns the point that a ray hits. `density` is the probability density with which the ray's
+    /// direction was sampled. The point's emission is multiplied by the weight of this sample in
+    /// multiple importance sampling.
     std::optional<SurfacePoint> next(Ray ray, float density) {
         RayHit object;
         if (objects && !scene.objects().empty()) object = scene.objects().first(ray);

@@ -8,8 +8,8 @@
 namespace mfar {
 namespace {
 
-// Number of samples in the first portion of work, when the time per sample is still unknown. So few
-// samples take little time in any scene.
+// Number of samples in the first portion of work, when the time per sample is still unknown. It is
+// small, so that the portion takes little time in any scene.
 constexpr std::int64_t kFirstSamples = 64;
 // Least number of samples in a portion; fewer are not worth a call of the path tracer. If they take
 // longer than the rest of the budget, the next frame repays the excess.

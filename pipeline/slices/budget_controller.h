@@ -12,9 +12,9 @@ struct BudgetGrant {
     double reservedMs = 0;
 };
 
-/// Accuracy with which the last frames kept the time budget. `deviation` counts only frames that
-/// had work all the time and used up the budget. In other frames, the low-priority threads got too
-/// little processor time.
+/// Accuracy with which the last frames kept the time budget. `deviation` leaves out two kinds of
+/// frames: frames without enough work, and frames that did not use up the budget. In the latter,
+/// the threads got too little processor time, because their priority is low.
 struct BudgetKept {
     int frames = 0;
     /// Mean of used time / budget. It also counts frames whose threads got too little processor

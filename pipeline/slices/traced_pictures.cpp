@@ -23,8 +23,8 @@ constexpr double kHopeless = 3;
 // The shown picture is converted again when its number of samples has grown by this factor.
 constexpr int kSamplesRatio = 2;
 // The camera rests if it moves by less than kRestPixels in kRestLooks calls of look(). At rest, the
-// picture should not be warped. If the shown picture is off by more than kElsewherePixels, a new
-// picture begins.
+// shown picture should not need to be warped. So a new picture begins if the shown picture is off
+// by more than kElsewherePixels.
 constexpr double kRestPixels = 0.1, kElsewherePixels = 0.2;
 constexpr int kRestLooks = 10;
 // Upper limits of the weight with which the light of an earlier picture counts in a new one
@@ -39,7 +39,7 @@ constexpr double kShadowPixels = 1;
 // By then, a quarter of the pixels has a sample.
 constexpr int kMovingTurns = 3;
 // Light on the shadow catcher is traced again if moving objects may have changed it by more than
-// this (see MovedLight::diffuseChange()).
+// this share (see MovedLight::diffuseChange()).
 constexpr float kVisible = 0.003F;
 constexpr double kFarthestAhead = 0.5;  // longest prediction of the motion of objects [s]
 constexpr double kPeriodShare = 0.3;
@@ -245,8 +245,9 @@ void TracedPictures::trace(const Portion& portion) {
                                  *picture.film, picture.history ? &*picture.history : nullptr);
 }
 
-// At rest, only the pixel's own samples count, because light from earlier pictures (known()) has no
-// sharp edges and textures.
+// Returns the state by which Slices decides if the pixel gets more samples. At rest, only the
+// pixel's own samples count. Light of earlier pictures does not count, because it gives no sharp
+// edges and textures.
 PixelState TracedPictures::Picture::state(std::uint32_t pixel, const Exposure& exposure) const {
     const KnownLight known = rests ? KnownLight{} : film->known(pixel);
     return {film->error(pixel, exposure),
