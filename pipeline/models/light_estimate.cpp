@@ -19,11 +19,11 @@ constexpr Size kMap{32, 16};
 
 constexpr float kY0 = 0.282095F, kY1 = 0.488603F;
 
-/// Returns the weight of the prior for each of the nine coefficients. The weight is the variance of
-/// the seen light about a sum of nine harmonics, divided by the variance of the coefficient between
-/// scenes. Assumed for the former: objects of about 0.25 sr that are half or twice as bright.
-/// Assumed for the latter: standard deviations of 3, 1.5 and 0.7 times the mean light for degrees
-/// 0, 1 and 2.
+/// Returns the weight of the prior in the ridge regression, for each of the nine coefficients. The
+/// weight is A / B. A is the variance of the seen light about a sum of nine harmonics. It is
+/// assumed that objects of about 0.25 sr are half or twice as bright as this sum. B is the variance
+/// of the coefficient between scenes. The assumed standard deviations are 3, 1.5 and 0.7 times the
+/// mean light for coefficients of degree 0, 1 and 2.
 Eigen::Vector<double, 9> priorInformation() {
     Eigen::Vector<double, 9> out;
     out << 0.007, 0.03, 0.03, 0.03, 0.13, 0.13, 0.13, 0.13, 0.13;

@@ -9,8 +9,8 @@ LargePages FilmMemory::newPages() const {
     return LargePages(std::max(blockBytes_, LargePages::kPage));
 }
 
-// The caller has locked mutex_. The first block becomes the last entry of free_, so that memory is
-// used in ascending order.
+// The caller has locked mutex_. take() returns the last entry of free_. So the blocks are added
+// from the last to the first, and memory is used in ascending order.
 void FilmMemory::add(LargePages pages) {
     for (std::size_t i = pages.size() / blockBytes_; i > 0; --i)
         free_.push_back(pages.data() + (i - 1) * blockBytes_);

@@ -98,8 +98,8 @@ void setLane(Packet& query, std::size_t i, const Ray& ray) {
 }
 
 /// True if the hit is on a triangle's edge. The adjacent triangle may be hit at the same distance.
-/// Embree then returns the triangle that it tests first. This may be another one for a packet of
-/// rays than for a single ray.
+/// Embree then returns the triangle that it tests first. A packet of rays may test the two
+/// triangles in another order than a single ray.
 bool onEdge(const RayHit& hit) {
     return hit.found() && !(std::min({hit.u, hit.v, 1 - hit.u - hit.v}) > kEdge);
 }

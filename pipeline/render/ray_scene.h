@@ -35,8 +35,8 @@ struct RayHit {
     [[nodiscard]] bool found() const { return mesh != kNone; }
 };
 
-/// isHole() must return true for points of a triangle that rays pass through. Any thread may call
-/// it.
+/// isHole() must return true for each point of a triangle at which rays pass through the triangle.
+/// Any thread may call it.
 struct HoleTest {
     bool (*isHole)(const void* context, std::uint32_t triangle, float u, float v) = nullptr;
     const void* context = nullptr;  ///< argument of isHole(); must outlive the RayScene
