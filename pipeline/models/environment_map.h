@@ -11,7 +11,7 @@
 
 namespace mfar {
 
-/// Largest memory for reading an environment [bytes]. The file may use half of it.
+/// Most memory that reading an environment may take [bytes]. The file itself may take half of it.
 inline constexpr std::size_t kEnvironmentMemory = std::size_t{1} << 30U;
 
 /// Reads an environment from a latitude-longitude picture: Radiance RGBE (.hdr), PNG or JPEG (sRGB;
@@ -37,8 +37,8 @@ inline constexpr std::size_t kEnvironmentMemory = std::size_t{1} << 30U;
 
 /// Returns the direction in the world of a point (u, v) in [0, 1]^2 of an Environment.
 [[nodiscard]] Eigen::Vector3f environmentDirection(float u, float v);
-/// Returns an environment of `size` texels. `radiance` returns the value of a texel for the
-/// direction of its centre in the world.
+/// Returns an environment of `size` texels. For each texel, `radiance` is called with the direction
+/// of the texel's centre in the world and returns the texel's value.
 [[nodiscard]] Environment
 environmentOf(Size size, const std::function<Eigen::Vector3f(const Eigen::Vector3f&)>& radiance);
 

@@ -77,8 +77,8 @@ float floatAt(const std::uint8_t* p, int componentType, bool normalized) {
     }
 }
 
-/// Completes `wanted`, which has the type and number of the elements, with their bytes and stride.
-/// If `stride` is 0, the elements are tightly packed.
+/// Returns `wanted` with its bytes and its stride filled in. The caller has set the number and the
+/// type of the elements. If `stride` is 0, the elements are tightly packed.
 ElementView elementsIn(const GltfDocument& document, int bufferView, std::uint64_t offset,
                        std::size_t stride, ElementView wanted, std::string_view place) {
     const std::size_t one = bytesOf(wanted.componentType) * wanted.components;
@@ -88,7 +88,7 @@ ElementView elementsIn(const GltfDocument& document, int bufferView, std::uint64
         document.refuse(place,
                         fmt::format("byteStride is {}, but an element has {} bytes", stride, one));
     const std::uint64_t left = offset > view.size() ? 0 : view.size() - offset;
-    // Counts are below 2^32 and element sizes below 2^8, so the product cannot overflow.
+    // `count` is below 2^32 and `stride` is below 2^8, so the product cannot overflow.
     const std::uint64_t needed = std::uint64_t{wanted.count - 1} * wanted.stride + one;
     if (needed > left)
         document.refuse(

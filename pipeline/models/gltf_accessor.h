@@ -8,10 +8,10 @@
 
 namespace mfar {
 
-/// Reads the numbers of an accessor, element by element, with `components` (1 to 4) numbers each.
-/// Normalised integers become [0, 1] or [-1, 1]. The values of accessor.sparse replace the elements
-/// that it names. Refuses an invalid index, type or range, more than `most` elements, and numbers
-/// that are not finite. The message contains `place`, the position in the document.
+/// Returns the numbers of an accessor. Each element has `components` (1 to 4) numbers, one after
+/// the other. Normalised integers become [0, 1] or [-1, 1]. Values in accessor.sparse replace
+/// single elements. Refuses an invalid index, type or range, more than `most` elements, and numbers
+/// that are not finite. The error message contains `place`, the position in the document.
 [[nodiscard]] std::vector<float> accessorFloats(const GltfDocument& document, int accessor,
                                                 int components, std::size_t most,
                                                 std::string_view place);

@@ -59,9 +59,9 @@ bool readFile(std::vector<unsigned char>* out, std::string* error, const std::st
     }
 }
 
-/// Returns all callbacks for file access, because tinygltf replaces missing ones by its own.
-/// FileExists accepts every path, so that tinygltf uses the first path that it considers, the URI
-/// itself.
+/// Returns a complete set of callbacks for file access, because tinygltf replaces a missing
+/// callback by its own. tinygltf asks FileExists about several paths for a URI. FileExists accepts
+/// the first of them, the URI itself.
 template <typename Callbacks>
 Callbacks callbacksFor(FolderAccess& access) {
     Callbacks out{};
@@ -81,8 +81,8 @@ Callbacks callbacksFor(FolderAccess& access) {
     return out;
 }
 
-/// tinygltf's callback for pictures. Copies the bytes of a picture in a data URI. Pictures in a
-/// bufferView stay there.
+/// tinygltf calls this function for each picture. Keeps the encoded bytes of a picture from a file
+/// or a data URI. A picture in a bufferView is not copied.
 bool keepImage(tinygltf::Image* image, int /*index*/, std::string* /*error*/,
                std::string* /*warning*/, int /*width*/, int /*height*/, const unsigned char* bytes,
                int size, void* /*user*/) {

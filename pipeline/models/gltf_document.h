@@ -16,7 +16,8 @@ namespace mfar {
 struct GltfDocument {
     tinygltf::Model gltf;
     std::string name;
-    /// Folder of the files to which the document may refer. If empty, it must not refer to files.
+    /// Folder of the files to which the document may refer. If `folder` is empty, the document must
+    /// not refer to files.
     std::filesystem::path folder;
     ModelLimits limits;
 

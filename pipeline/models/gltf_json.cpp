@@ -35,8 +35,9 @@ json parseBounded(std::string_view text, std::size_t most) {
     }
 }
 
-/// Returns the number of bytes (or the index) under `key`, or `missing` if the object has no such
-/// key. Refuses floating-point numbers, because they could be too large.
+/// Returns the whole number under `key`: a number of bytes or an index. Returns `missing` if the
+/// object has no such key. Refuses negative numbers. Refuses floating-point numbers, because they
+/// may exceed 64 bits.
 std::uint64_t bytesAt(const json& object, const char* key, std::uint64_t missing,
                       std::string_view place) {
     const auto it = object.find(key);

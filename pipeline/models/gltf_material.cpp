@@ -12,8 +12,8 @@
 namespace mfar {
 namespace {
 
-/// Returns `value`, which glTF limits to [least, most]. Tolerates rounding errors of the program
-/// that wrote the file.
+/// Returns `value`, limited to the range [least, most] that glTF allows. A small excess counts as a
+/// rounding error of the program that wrote the file. A larger excess is refused.
 float rangedFactor(const GltfDocument& document, double value, float least, float most,
                    const std::string& place) {
     constexpr double kRounding = 1e-3;

@@ -7,15 +7,16 @@
 
 namespace mfar {
 
-/// A primitive of a glTF mesh. readPrimitive() returns it in glTF's coordinates, with material 0.
-/// It has tangents if the material has a normal texture. The result is empty for points and lines.
-/// Invalid data, and more vertices or triangles than the limits allow, are refused.
+/// A primitive of a glTF mesh, and what readPrimitive() needs to know about its material.
 struct PrimitiveSource {
     const tinygltf::Primitive& primitive;
     TextureMapping mapping;
     bool textured = false, bumpy = false;  ///< bumpy: the material has a normal texture
     std::string place;
 };
+/// Returns the primitive in glTF's coordinates, with material 0. The mesh has tangents if the
+/// material has a normal texture. Returns nothing for points and lines. Refuses invalid data, and
+/// more vertices or triangles than the limits allow.
 [[nodiscard]] std::optional<Mesh> readPrimitive(const GltfDocument& document,
                                                 const PrimitiveSource& source);
 

@@ -50,11 +50,10 @@ Eigen::Affine3d transformOf(const GltfDocument& document, const tinygltf::Node& 
 
 constexpr std::size_t kMostParts = 16;  // also stated in the text of a note in placeOf()
 
-/// Pose of a node relative to the model. `joints` are those among the node and its ancestors that
-/// move, the outermost first. `T` maps the node's coordinates to the last joint, or to the model if
-/// there are no joints. A joint's pose has no scale. So after `T`, the coordinates must be
-/// multiplied by `scale`, the product of the scales of all nodes above the last joint. `part`: see
-/// Mesh::part.
+/// Pose of a node in the model. `joints` are the moving nodes among the node and its ancestors, the
+/// outermost first. `T` maps the node's coordinates to the frame of the last joint. Without joints,
+/// it maps them to the model. The frames of joints have no scale. So `scale`, the product of the
+/// scales of all nodes above the last joint, must be applied after `T`. `part`: see Mesh::part.
 struct NodePlace {
     Eigen::Affine3d T = upright();
     std::vector<RigidPath::Joint> joints;
@@ -62,8 +61,8 @@ struct NodePlace {
     int part = 0;
 };
 
-/// Splits T into a scaling by `scale` and a rigid transform, which is returned. Empty if T scales
-/// the axes unequally or mirrors.
+/// Splits T into a rigid transform, which is returned, and a factor, which is written to `scale`.
+/// Returns nothing if T scales the axes unequally or mirrors.
 std::optional<RigidTransform> rigidPart(const Eigen::Affine3d& T, double& scale) {
     constexpr double kUnequal = 1e-4;
     const Eigen::Matrix3d& M = T.linear();

@@ -33,8 +33,8 @@ struct ModelLimits {
     float farthest = 10'000;
 };
 
-/// Returns limits for reading a model with at most about `bytes` bytes of memory. They are never
-/// above the default limits. The finished model needs less memory.
+/// Returns limits with which reading a model takes at most about `bytes` bytes of memory. No limit
+/// is above its default. The finished model takes less memory.
 [[nodiscard]] ModelLimits limitsWithin(std::size_t bytes);
 
 [[nodiscard]] std::size_t memoryOf(const Model& model);
@@ -56,7 +56,7 @@ struct ModelLimits {
 [[nodiscard]] Model loadGltf(const std::filesystem::path& file, const ModelLimits& limits = {});
 
 /// Reads the bytes of a glTF file. `name` is its name in error messages. The model may refer to
-/// files in `folder`; if it is empty, references to files are refused.
+/// files in `folder`. If `folder` is empty, references to files are refused.
 [[nodiscard]] Model parseGltf(std::span<const std::uint8_t> bytes, const std::string& name,
                               const std::filesystem::path& folder = {},
                               const ModelLimits& limits = {});

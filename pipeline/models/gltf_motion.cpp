@@ -15,8 +15,8 @@ constexpr double kLeastQuaternion = 1e-6;
 constexpr float kLongest = 1e6F;   // upper limit of the times of an animation [s]
 constexpr float kFarthest = 1e6F;  // upper limit of translations [m] and of their tangents [m/s]
 
-/// Returns a sentence for each type of motion that is never shown, with its first position in the
-/// document.
+/// Returns a sentence for each kind of motion that is never played: further animations, skins,
+/// morph targets. The sentence states where the document first has this kind of motion.
 std::vector<std::string> stillParts(const GltfDocument& document) {
     std::vector<std::string> out;
     const tinygltf::Model& gltf = document.gltf;

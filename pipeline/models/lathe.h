@@ -20,13 +20,13 @@ struct LatheOptions {
     /// Texture coordinate v at the profile's ends. u increases from 0 to 1 around the axis.
     float vBottom = 1, vTop = 0;
     Eigen::Vector2f centre{0, 0};
-    /// Returns a factor of the radius at an angle [rad] and a height [m]. If empty, the factor is
-    /// 1.
+    /// Returns the factor by which the radius is multiplied at an angle [rad] and a height [m]. If
+    /// the function is empty, the factor is 1.
     std::function<float(float angle, float height)> shape{};
 };
 
-/// Adds the surface of a profile that turns about the vertical axis through options.centre. Its
-/// smooth normals point outwards.
+/// Adds the surface that the profile describes when it turns about the vertical axis through
+/// options.centre. The normals are smooth and point outwards.
 void addTurned(Mesh& mesh, const LatheProfile& profile, const LatheOptions& options);
 
 }  // namespace mfar

@@ -19,19 +19,20 @@ constexpr Size kMap{32, 16};
 
 constexpr float kY0 = 0.282095F, kY1 = 0.488603F;
 
-/// Returns the weights of the prior for the nine coefficients, of degrees 0, 1 and 2. Each weight
-/// is A / B. A is the variance of the seen light about a sum of nine harmonics (assumed: objects of
-/// about 0.25 sr with half or twice the brightness). B is the variance of the coefficient between
-/// scenes (assumed: standard deviations of 3, 1.5 and 0.7 times the mean light for the three
-/// degrees).
+/// Returns the weight of the prior in the ridge regression, for each of the nine coefficients. The
+/// weight is A / B. A is the variance of the seen light about a sum of nine harmonics. It is
+/// assumed that objects of about 0.25 sr are half or twice as bright as this sum. B is the variance
+/// of the coefficient between scenes. The assumed standard deviations are 3, 1.5 and 0.7 times the
+/// mean light for coefficients of degree 0, 1 and 2.
 Eigen::Vector<double, 9> priorInformation() {
     Eigen::Vector<double, 9> out;
     out << 0.007, 0.03, 0.03, 0.03, 0.13, 0.13, 0.13, 0.13, 0.13;
     return out;
 }
 
-/// Returns the coefficients of the prior. The lower half of all directions has the radiance `mean`.
-/// The light from above is so bright that a surface of this albedo has the radiance `mean`.
+/// Returns the coefficients of the prior. All directions below the horizon have the radiance
+/// `mean`. All directions above it have the radiance mean / albedo. A surface that faces up and has
+/// this albedo then has the radiance `mean`, too.
 Eigen::Matrix<double, 9, 3> priorLight(const Eigen::Vector3d& mean, double albedo) {
     constexpr double kPi = std::numbers::pi;
     Eigen::Matrix<double, 9, 3> out = Eigen::Matrix<double, 9, 3>::Zero();

@@ -28,15 +28,16 @@ struct LightEstimatorOptions {
     float surfaceAlbedo = 0.5F;
 };
 
-/// Estimates the light around the scene from the camera's pictures. The seen radiance is stored in
-/// a coarse map of all directions and smoothed over time, so that a flash or a hand in front of the
-/// lens has little effect. The nine coefficients of the light are fitted to the map by ridge
-/// regression, weighted by solid angle and age.
+/// Estimates the light around the scene from the camera's pictures. The radiance in the pictures is
+/// collected in a coarse map of all directions and smoothed over time, so that a flash or a hand in
+/// front of the lens has little effect. Nine coefficients of spherical harmonics are fitted to the
+/// map by ridge regression, weighted by solid angle and age.
 ///
-/// A camera mostly sees lit surfaces and rarely lamps. The prior is therefore light from above that
-/// gives the seen surfaces their brightness. Lamps that are clipped in the video are
-/// underestimated. Sources: Ramamoorthi, Hanrahan 2001 (nine coefficients); Sloan, Stupid Spherical
-/// Harmonics Tricks, GDC 2008 (main direction).
+/// A camera mostly sees lit surfaces and rarely lamps. Unless the pictures show otherwise, the
+/// light is therefore assumed to come from above, and to be as strong as the brightness of the seen
+/// surfaces requires. Lamps that are clipped in the video are underestimated. Sources: Ramamoorthi,
+/// Hanrahan 2001 (nine coefficients); Sloan, Stupid Spherical Harmonics Tricks, GDC 2008 (main
+/// direction).
 class LightEstimator {
 public:
     /// Throws std::invalid_argument if an option is out of range.
@@ -62,8 +63,8 @@ private:
     std::vector<SeenRadiance> frame_;
 };
 
-/// Converts the estimate to a scene's lighting. If much more light comes from one direction above
-/// the horizon than from others, a part of it becomes a sun with soft shadows. The rest becomes an
+/// Converts the estimate to a scene's lighting. If one direction above the horizon is much brighter
+/// than the others, a part of the light becomes a sun with soft shadows. The rest becomes an
 /// environment of low resolution.
 [[nodiscard]] Lighting lightingOf(const LightEstimate& estimate);
 

@@ -7,7 +7,8 @@ namespace {
 
 // Files, JSON, textures and meshes can each use a quarter of the memory for reading a model.
 constexpr std::size_t kParts = 4;
-// Memory for a JSON value, first in the tree of nlohmann::json and then in the tree of tinygltf.
+// Memory assumed for one JSON value [bytes]. It is enough for the value in the tree of
+// nlohmann::json, and later for the same value in tinygltf's tree.
 constexpr std::size_t kBytesPerJsonValue = 500;
 constexpr std::size_t kBytesPerTexel = 4;
 constexpr std::size_t kBytesPerVertex =

@@ -10,9 +10,9 @@ namespace mfar {
 /// std::runtime_error if the encoding is invalid.
 [[nodiscard]] std::string percentDecoded(std::string_view uri);
 
-/// Returns the path of the file `name`. It must be in `folder`, the folder of the document that
-/// names it, or below. Symbolic links are followed and must not lead outside. Throws
-/// std::runtime_error with the fault.
+/// Returns the path of the file `name`, to which a document in `folder` refers. The file must be in
+/// `folder` or in a folder below. Symbolic links are followed and must not lead outside `folder`.
+/// Throws std::runtime_error with the fault.
 [[nodiscard]] std::filesystem::path fileInFolder(const std::filesystem::path& folder,
                                                  const std::string& name);
 

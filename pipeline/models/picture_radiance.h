@@ -12,9 +12,9 @@ struct SeenRadiance {
     float solidAngle = 0;
 };
 
-/// Computes the radiance that a picture shows, in a grid of cells, from a few pixels of each. The
-/// picture must be valid (requireSound()); it may have any format and is treated as sRGB. The
-/// result replaces the content of `out`.
+/// Divides a picture into a grid of cells, and computes the radiance that each cell shows from a
+/// few of its pixels. The picture must be valid (requireSound()); it may have any format and is
+/// treated as sRGB. The result replaces the content of `out`.
 void seenRadiance(const ImageView& picture, const CameraModel& camera,
                   const RigidTransform& T_world_camera, std::vector<SeenRadiance>& out);
 

@@ -107,7 +107,7 @@ void readSplitRow(HdrBytes& in, std::span<Rgbe> row) {
 }
 
 /// Reads a row that is stored pixel by pixel. The code (1, 1, 1, n) repeats the last pixel n times.
-/// Consecutive codes give the bytes of n, the lowest first.
+/// If several codes follow each other, they repeat it n, then 256 n, then 65536 n times, and so on.
 void readOldRow(HdrBytes& in, std::span<Rgbe> row) {
     unsigned shift = 0;
     for (std::size_t x = 0; x < row.size();) {

@@ -14,7 +14,8 @@ std::uint8_t displayByte(float value) {
     return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0F, 1.0F) * 255));
 }
 
-/// Returns the checkerboard of a side. It has many texels per square, so that edges are sharp.
+/// Returns the checkerboard texture of one side of the object. A square is 4 to 32 texels wide, so
+/// that its edges are sharp.
 SurfaceTexture checkerboard(const VirtualObject& object) {
     constexpr int kMostTexels = 1024, kMostASquare = 32, kLeastASquare = 4;
     const int each = std::clamp(kMostTexels / object.squares, kLeastASquare, kMostASquare);
@@ -53,8 +54,9 @@ Model shapeModel(const VirtualObject& object) {
     const Eigen::Vector3f size = object.size.cast<float>();
     Mesh& mesh = model.meshes.emplace_back();
     mesh.triangles = shape.triangles;
-    // Textures repeat, which would mix the opposite border into the edges. So texture coordinates
-    // go only from the centre of the first texel to the centre of the last texel.
+    // Textures repeat, so interpolation at a border of the texture mixes in the opposite border. To
+    // avoid this, texture coordinates go only from the centre of the first texel to the centre of
+    // the last texel.
     const float texels = plain ? 1 : static_cast<float>(model.textures[0].size.width);
     for (const ShapeMesh::Vertex& v : shape.vertices) {
         mesh.positions.push_back(v.position.cwiseProduct(size));

@@ -11,9 +11,9 @@ namespace mfar {
 /// Light from an environment picture, interpolated between texels. The probability density of a
 /// sampled direction is constant on each texel (Pharr, Jakob, Humphreys, Physically Based
 /// Rendering, 12.5). It is proportional to the excess of the texel's luminance over the mean
-/// luminance of all directions. Directions below this mean are left to samples of the surface's
-/// reflection, which suit weak light better (MIS compensation, Karlik et al. 2019). A uniform
-/// picture is not sampled.
+/// luminance of all directions. Texels darker than the mean are not sampled here. Samples of the
+/// surface's reflection find their weak light better (MIS compensation, Karlik et al. 2019). A
+/// uniform picture is not sampled.
 class EnvironmentLight {
 public:
     explicit EnvironmentLight(std::shared_ptr<const Environment> environment);

@@ -12,17 +12,18 @@ namespace mfar {
 namespace {
 
 constexpr float kFullSphere = 4 * std::numbers::pi_v<float>;
-// Number of intervals per side of the finest pyramid level. At the poles, an interval is 0.45
-// degrees.
+// Number of steps between texels along one side of the finest pyramid level. At the poles, a step
+// is 0.45 degrees.
 constexpr int kFinest = 256;
 constexpr int kCoarsest = 8;
 constexpr int kDiffuseEdge = 16;
-// Number of intervals per side of the pyramid level from which irradiance is computed.
+// Number of steps between texels along one side of the pyramid level from which irradiance is
+// computed.
 constexpr int kIntegrated = 32;
 constexpr int kSamples = 64;
 
-/// Roughness and resolution of a table of mirrored light. Below the roughness of the first table,
-/// light is interpolated between this table and the unfiltered environment.
+/// Roughness and resolution of a table of mirrored light. For a roughness below that of the first
+/// table, light is interpolated between the first table and the unfiltered environment.
 struct MirrorLevel {
     float roughness;
     int edge;

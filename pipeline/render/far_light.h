@@ -38,7 +38,7 @@ private:
 /// Light that would reach a point if there were no objects. Light from above the horizon comes from
 /// the environment. If the scene has a shadow catcher, light from below the horizon (world z < 0)
 /// comes from a ground of uniform radiance. The sun's direct light is not included.
-/// Precomputed tables of integrals give this light without tracing a ray. Rays then only measure
+/// Precomputed tables of integrals give this light without tracing a ray. So rays need only measure
 /// how objects change the light.
 class FarLight {
 public:

@@ -110,7 +110,7 @@ Film::Pixel& Film::begun(std::size_t pixel) {
 }
 
 // Several threads may find at the same time that a block has no memory for this picture yet. Only
-// the first of them adds it.
+// the first of these threads adds the memory.
 void Film::addBlock(Block& block) {
     const std::scoped_lock lock(*mutex_);
     if (block.picture.load(std::memory_order_relaxed) == picture_) return;
@@ -178,8 +178,8 @@ void Film::add(std::size_t pixel, const FilmSample& sample) {
     ++p.objectHits;
     p.radiance += sample.radiance.cast<double>();
     p.radianceSquares += squared(luminanceOf<double>(sample.radiance.cast<double>()));
-    // At an edge, samples of other objects are ignored: their light would be shown on the object at
-    // the pixel's centre.
+    // At an edge, samples of objects other than the one at the pixel's centre are ignored.
+    // Otherwise, their light would be shown on the object at the centre.
     if (hasObjectAtCentre(p) && sample.hit.id != p.seen.hit.id) return;
     ++p.object.hits;
     const auto [diffuse, specular] = weightsOf(sample.paint);
@@ -240,8 +240,8 @@ SurfaceLight Film::farOf(const Pixel& p) {
                              ((sum.far + weight * centre.cast<double>()) / all).cast<float>())
                        : centre;
     };
-    // The far light at the pixel's centre has no noise, so it gets a larger weight while there are
-    // few samples.
+    // The far light at the pixel's centre has no noise. So it counts as up to nine samples while
+    // the pixel has few samples.
     const double fewer = std::max(0.0, 1 - p.object.hits / kManyHits);
     const double trust = 1 + kTrustedCentre * fewer;
     const auto [diffuse, specular] = weightsOf(p.seen.paint);
@@ -326,8 +326,8 @@ void Film::remember(std::size_t pixel, const LightPixel& light) {
     Pixel& p = begun(pixel);
     if (p.taken > 0 || p.carried.firstCount > 0) return;
     const Eigen::Vector3f first = light.first.matrix(), second = light.second.matrix();
-    // The filtered light of this pixel of the shadow catcher shows no change by objects, so the
-    // pixel counts as untouched.
+    // On the shadow catcher, `first` is the change of the light by objects. If it is zero, the
+    // pixel counts as untouched by objects.
     const bool untouched = light.id == kCatcherId && first.isZero(0);
     p.carried = {first,
                  second,

@@ -31,15 +31,14 @@ struct SeenSurface {
     Eigen::Vector3f normal{0, 0, 0};  ///< world frame, unit length, towards the camera's side
     Paint paint{};
     float roughness = 1;
-    /// Light on the surface computed without a ray (from FarLight and sun), above 0. Sampled light
-    /// is stored as a multiple of it.
+    /// Light on the surface that is known without tracing a ray (from FarLight and the sun). It is
+    /// above 0. Sampled light is stored as a multiple of it.
     SurfaceLight far{{1, 1, 1}, {1, 1, 1}};
 };
 
 struct FilmSample {
     FirstHit hit;
-    Eigen::Vector3f radiance{0, 0, 0};  ///< radiance of the object, or of the shadow catcher with
-                                        ///< objects
+    Eigen::Vector3f radiance{0, 0, 0};  ///< radiance of the object or catcher, with all objects
     Eigen::Vector3f without{0, 0, 0};   ///< radiance of the shadow catcher if no object existed
     SurfaceLight light{};               ///< light on the hit object
     SurfaceLight far{{1, 1, 1}, {1, 1, 1}};
@@ -56,7 +55,7 @@ struct KnownLight {
 };
 
 /// Sums of the samples of each pixel of one view. Pixels are numbered row-major. A block of pixels
-/// gets memory when one of them is first used, so unused parts cost neither time nor memory.
+/// gets memory when one of its pixels is first used, so unused parts cost neither time nor memory.
 /// Threads may process different pixels at the same time.
 class Film {
 public:
@@ -87,8 +86,9 @@ public:
     [[nodiscard]] std::uint64_t dropped() const;
 
     void add(std::size_t pixel, const FilmSample& sample);
-    /// Mean radiance over a pixel's samples that hit an object, and over its samples that hit the
-    /// shadow catcher (with and without objects). The shares are the numbers of these two kinds of
+    /// Mean radiance of a pixel's samples. `object` is the mean over the samples that hit an
+    /// object. `with` and `without` are means over the samples that hit the shadow catcher: its
+    /// radiance with objects, and its radiance if no object existed. A share is a number of such
     /// samples, divided by the number of all samples.
     struct Means {
         Eigen::Vector3f object{0, 0, 0};
@@ -102,7 +102,7 @@ public:
     [[nodiscard]] const SeenSurface& centre(std::size_t pixel) const { return at(pixel).seen; }
     [[nodiscard]] GlossWords gloss(std::size_t pixel) const;
     /// Stores light that an earlier picture measured on the surface at the pixel's centre. The
-    /// number of its samples is its weight.
+    /// light's number of samples is its weight.
     void carry(std::size_t pixel, const KnownLight& light) { begun(pixel).carried = light; }
     /// Returns the light of the surface at the pixel's centre, from this picture's samples and from
     /// carry(). Samples of other surfaces are ignored.
@@ -117,10 +117,11 @@ public:
     /// proportional to n^-3/4, as for jittered samples (Mitchell 1996).
     [[nodiscard]] float error(std::size_t pixel, const Exposure& exposure = {}) const;
 
-    /// One pixel of the picture. Shadow and bounced light multiply the real surface's value by the
-    /// ratio of modelled light with objects to light without objects (differential rendering,
-    /// Debevec 1998). The darkest channel gives a black layer of coverage 1 - ratio^(1/2.2). The
-    /// excess of the other channels is added as colour.
+    /// One pixel of the picture. Shadow and bounced light multiply the value of the real surface by
+    /// a ratio: modelled light with objects, divided by modelled light without objects
+    /// (differential rendering, Debevec 1998). The colour channel with the smallest ratio gives a
+    /// black layer of coverage 1 - ratio^(1/2.2). The excess of the other channels is added as
+    /// colour.
     struct Resolved {
         std::array<std::uint8_t, 4> colour{};
         FirstHit hit;
@@ -133,7 +134,9 @@ public:
     /// Stores filtered light as carried light in a pixel that has neither samples nor carried
     /// light.
     void remember(std::size_t pixel, const LightPixel& light);
-    /// If `layered` is true, the pixel shows only the surface of `light`, also at edges.
+    /// Returns a pixel of the picture from filtered light. At an edge, the pixel shows a mixture of
+    /// all its surfaces. If `layered` is true, it shows only the surface that has the filtered
+    /// light.
     [[nodiscard]] Resolved resolvedFrom(const LightPixel& light, std::size_t pixel,
                                         const Exposure& exposure, bool layered = false) const;
 
@@ -181,7 +184,8 @@ private:
     }
     [[nodiscard]] static KnownLight knownOf(const LightSums& sums, const KnownLight& carried);
     [[nodiscard]] static Paint paintOf(const Pixel& p);
-    /// Returns the mean far light over the object's samples and the pixel's centre.
+    /// Returns the pixel's far light (see SeenSurface::far): the weighted mean of the far light at
+    /// the samples on the object and of the far light at the pixel's centre.
     [[nodiscard]] static SurfaceLight farOf(const Pixel& p);
     [[nodiscard]] static SurfaceLight relativeOf(const KnownLight& light);
     [[nodiscard]] static float errorOfKnown(const Pixel& p, const Exposure& exposure);

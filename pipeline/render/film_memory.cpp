@@ -9,8 +9,8 @@ LargePages FilmMemory::newPages() const {
     return LargePages(std::max(blockBytes_, LargePages::kPage));
 }
 
-// The caller has locked mutex_. The first block becomes the last entry of free_, so that memory is
-// used in ascending order.
+// The caller has locked mutex_. take() returns the last entry of free_. So the blocks are added
+// from the last to the first, and memory is used in ascending order.
 void FilmMemory::add(LargePages pages) {
     for (std::size_t i = pages.size() / blockBytes_; i > 0; --i)
         free_.push_back(pages.data() + (i - 1) * blockBytes_);
@@ -40,7 +40,8 @@ void FilmMemory::provide(std::size_t blocks) {
         LargePages pages = newPages();
         pages.provide();
         const std::scoped_lock lock(mutex_);
-        // Blocks that were in use before are returned first.
+        // take() takes blocks from the end of free_. The new blocks are put before the free ones,
+        // so that blocks that were already used are taken first.
         std::vector<std::byte*> used = std::exchange(free_, {});
         add(std::move(pages));
         free_.insert(free_.end(), used.begin(), used.end());

@@ -20,10 +20,11 @@ public:
     [[nodiscard]] std::byte* take();
     void giveBack(std::span<std::byte* const> blocks);
 
-    /// Number of blocks that take() can return without new memory.
+    /// Number of blocks that take() can return without allocating memory.
     [[nodiscard]] std::size_t ready() const;
-    /// Makes at least this number of blocks ready, with all their pages, so that the use of new
-    /// blocks does not wait for the kernel. Throws std::bad_alloc.
+    /// Allocates memory until take() can return at least `blocks` blocks without allocating. The
+    /// kernel provides all pages of these blocks now, so that their first use does not wait for it.
+    /// Throws std::bad_alloc.
     void provide(std::size_t blocks);
 
 private:

@@ -10,13 +10,13 @@ namespace mfar {
 namespace {
 
 constexpr float kNearest = 1e-3F;
-// Limits for a pixel to show the same surface as a given point. kOffPlane is the largest distance
-// of the pixel's surface point from the tangent plane of the given point, relative to depth.
-// kSameBend is the smallest cosine of the angle between both normals.
+// A pixel shows the same surface as a given point if it keeps two limits. Its surface point is at
+// most kOffPlane times the depth away from the tangent plane of the given point. The cosine of the
+// angle between both normals is at least kSameBend.
 constexpr float kOffPlane = 0.01F, kSameBend = 0.9F;
 constexpr float kLeastWeight = 0.1F;
 // The weight of a specular lobe of width alpha falls to 1/e when the eye moves by the angle
-// kLobeTurn * alpha around the point. The reflection turns by twice that angle.
+// kLobeTurn * alpha around the point.
 constexpr float kLobeTurn = 0.5F;
 
 void addShare(KnownLight& sum, float share, const KnownLight& light) {
@@ -107,8 +107,10 @@ KnownLight LightHistory::found(const SeenSurface& seen, const Eigen::Vector3f& p
     const Size size = camera_.size;
     if (!(pixel.x() > -1 && pixel.y() > -1 && pixel.x() < size.width && pixel.y() < size.height))
         return {};
-    // Where only a quarter of the catcher's pixels was sampled, the samples are two pixels apart.
-    // Next to such an area, adjacent pixels may be missing, too.
+    // In a part of the shadow catcher, the earlier picture may have sampled only every second
+    // column and row. Samples 2 px apart are used there, and adjacent pixels elsewhere. At the
+    // border of such a part, samples may be missing at that distance, so the other distance is
+    // tried next.
     const bool catches = seen.hit.id == kCatcherId, isSparse = catches && isSparseAt(pixel);
     KnownLight out = between(pixel, isSparse ? 2 : 1, seen, point);
     if (catches && !(out.firstCount > 0)) out = between(pixel, isSparse ? 1 : 2, seen, point);

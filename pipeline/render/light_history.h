@@ -12,8 +12,9 @@
 
 namespace mfar {
 
-/// Finds light that an earlier picture measured on the surfaces of a new view. Threads may call it
-/// at the same time. The film must not change meanwhile and must outlive this object.
+/// Looks up light that an earlier picture measured on the surfaces that a new view shows. Threads
+/// may call it at the same time. The film of the earlier picture must not change meanwhile, and
+/// must outlive this object.
 class LightHistory {
 public:
     /// `film` and `view` are of the earlier picture; `lens` must belong to `view`. `mostSamples`

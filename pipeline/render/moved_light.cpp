@@ -13,8 +13,8 @@ namespace {
 constexpr double kLeastTurn = 1e-5, kLeastWay = 1e-6;
 // Assumed standard deviation of a single sample, relative to the light.
 constexpr float kNoise = 0.5F;
-// Light that a moved object itself receives changes by this share if the object moves by its radius
-// or turns by a radian.
+// The light that a moved object itself receives is assumed to change by this share if the object
+// moves by its radius or turns by a radian.
 constexpr float kOwnChange = 0.5F;
 // A shadow of the sun is expected up to this angle outside of the object's ball [rad].
 constexpr float kPenumbra = 0.03F;
@@ -95,7 +95,7 @@ float MovedLight::diffuseChange(const Eigen::Vector3f& point, const Eigen::Vecto
         const Ball& ball = moved.ball;
         const Sight before(point, ball.before, ball.radius), now(point, ball.now, ball.radius);
         const float way = (ball.now - ball.before).norm() / std::max(ball.radius, 1e-6F);
-        // The share of the ball's disc that becomes visible or hidden.
+        // Share of the ball's disc that becomes visible or hidden by the motion.
         const float fresh = std::min(1.0F, way + ball.turn);
         const float glow = ball.glow * std::max(before.sine * before.sine, now.sine * now.sine);
         sum += fresh * (std::max(blocked(before, normal), blocked(now, normal)) + glow);

@@ -13,18 +13,18 @@
 namespace mfar {
 namespace {
 
-// An unknown variance is estimated from neighbours kSpreadStep pixels apart, up to kSpreadReach
-// steps away. Sparse sampling covers one pixel in 16, so samples are 4 pixels apart. With fewer
-// than kSurely neighbours, the estimate is raised.
+// An unknown variance of a pixel is estimated from neighbours up to kSpreadReach steps of
+// kSpreadStep pixels away. Sparse sampling gives samples to one pixel in 16, at distances of 4
+// pixels. If fewer than kSurely neighbours have samples, the estimate is raised.
 constexpr int kSpreadReach = 2, kSpreadStep = 4;
 constexpr float kSurely = 4;
 // A difference of more than this many standard errors is not noise.
 constexpr float kTolerance = 2.5F;
-// The ray of a sample on the shadow catcher is blocked or not, so the sample shows full shadow or
-// no shadow. After few samples, adjacent pixels of a penumbra differ by more than kTolerance
-// allows. They would not be averaged, and the penumbra would have spots. So filter levels with
-// steps up to kSparseStep, the distance of sparse samples [px], use kSparseTolerance instead of
-// kTolerance on the shadow catcher.
+// A sample on the shadow catcher shows either full shadow or none, because its ray is either
+// blocked or not. After few samples, adjacent pixels of a penumbra therefore differ by more than
+// kTolerance allows. They would not be averaged, and the penumbra would have spots. So on the
+// shadow catcher, kSparseTolerance replaces kTolerance in all filter levels with a step of at most
+// kSparseStep, the distance of sparse samples [px].
 constexpr int kSparseStep = 4;
 constexpr float kSparseTolerance = 5;
 // From this number of samples on, a pixel's light is not limited to that of its neighbours.

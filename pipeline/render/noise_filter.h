@@ -18,7 +18,7 @@ namespace mfar {
 /// Variances are of the luminance; a negative variance is unknown. Counts are numbers of samples.
 struct LightPixel {
     Eigen::Array3f first{0, 0, 0}, second{0, 0, 0};
-    /// Lower limit of the number of samples. With fewer samples, the variance counts as unknown.
+    /// A variance from fewer samples than this counts as unknown.
     static constexpr float kFew = 4;
     float firstVariance = 0, secondVariance = 0;
     float firstCount = 0, secondCount = 0;
@@ -34,11 +34,11 @@ struct LightPixel {
 /// The filter works on light without the surface's paint, so that textures stay sharp. A pixel
 /// ignores neighbours across a depth edge or on another surface. Neighbours with another normal
 /// have less weight. Pixels without an id stay unchanged. A pixel without samples gets its
-/// neighbours' light. A few samples may hold a rare bright one, so the light of an object's pixel
-/// with few samples is limited to that of its neighbours, unless noise cannot explain the excess.
-/// Variances fall with the number of samples, so that the filter finally changes nothing. The
-/// filter runs in stages, one after the other. Several threads may filter rows of the same stage at
-/// the same time.
+/// neighbours' light. Few samples may include a rare bright one. So if an object's pixel has few
+/// samples, its light is limited to that of its neighbours, but only if noise can explain the
+/// excess. Variances fall with the number of samples, so that the filter finally changes nothing.
+/// The filter runs in stages, one after the other. Several threads may filter rows of the same
+/// stage at the same time.
 class NoiseFilter {
 public:
     static constexpr int kLevels = 4;
@@ -62,20 +62,20 @@ private:
         float first = std::numeric_limits<float>::infinity(), second = first;
     };
     [[nodiscard]] Limits limitsAt(int x, int y) const;
-    /// Sets the limits of a pixel, and its variances where they are unknown.
+    /// Sets the limits of a pixel. Estimates its variances if they are unknown.
     void estimateNoise(int x, int y);
     void meanVariance(int x, int y);
     void pack(std::size_t pixel);
     void unpack(std::size_t pixel, int set);
     void filterRow(int level, int y);
 
-    // The filter's levels work on arrays, one for each value. There are two sets of the arrays of
-    // light: a level reads one set and writes the other set.
+    // Numbers of the filter's arrays. Each array holds one value of every pixel. The arrays of
+    // light exist twice, in two sets: a level of the filter reads one set and writes the other.
     static constexpr int kFirst = 0, kSecond = 3, kFirstVariance = 6, kSecondVariance = 7,
                          kFirstCount = 8, kSecondCount = 9, kOfSet = 10;
     static constexpr int kNormal = 2 * kOfSet, kDepth = kNormal + 3, kId = kNormal + 4,
                          kFixed = kNormal + 5, kArrays = kNormal + 6;
-    /// Address of the value of pixel 0.
+    /// Address of the value of pixel 0 in the array `number`.
     [[nodiscard]] float* array(int number) {
         return values_.data() + static_cast<std::size_t>(number) * stride_ + simd::kNoiseMargin;
     }

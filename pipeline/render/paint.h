@@ -34,8 +34,8 @@ struct Paint {
             albedo};
 }
 
-/// Weights of one point where the light of a pixel's points is averaged: the luminances of the
-/// point's paint plus a small constant, so that they are above 0.
+/// Weights of a point when the light of several points of a pixel is averaged. A weight is the
+/// luminance of the point's paint plus a small constant, so it is above 0.
 struct PaintWeights {
     float diffuse, specular;
 };
@@ -60,8 +60,8 @@ struct SurfaceLight {
     return {a.diffuse.cwiseProduct(b.diffuse), a.specular.cwiseProduct(b.specular)};
 }
 
-/// Packs the light of a surface, multiplied by `exposure`. The reader has only Paint::diffuse and
-/// Paint::facing, so the words also contain the albedo.
+/// Packs the light of a surface, multiplied by `exposure`. Code that unpacks the words knows
+/// Paint::diffuse and Paint::facing but not Paint::albedo. So the words also contain the albedo.
 [[nodiscard]] inline LightWords packed(const SurfaceLight& light, const Paint& paint,
                                        float exposure) {
     const float full = paint.albedo.full();

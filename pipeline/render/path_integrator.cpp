@@ -13,8 +13,8 @@ namespace {
 constexpr std::uint32_t kSunPair = 0, kEnvironmentPair = 1, kScatterPair = 2, kRoulettePair = 3;
 constexpr std::uint32_t kPairsOfVertex = 4;
 constexpr std::uint32_t kPairsOfPath = kPairsOfVertex * 64;
-// Random pairs for emissive triangles have indices above those of both walks of a sample. So a
-// scene gets the same random numbers for everything else, with or without emissive triangles.
+// A sample makes two walks. The random pairs for emissive triangles are numbered after all pairs of
+// both walks. So everything else gets the same random numbers with and without emissive triangles.
 constexpr std::uint32_t kEmitterPair = 2 * kPairsOfPath, kFineEmitterPair = kEmitterPair + 1;
 constexpr float kLeastFarShare = 0.05F, kLeastFar = 1e-6F;
 // Largest angular radius [rad] of a sun whose light is computed without a ray.
@@ -164,8 +164,9 @@ bool PathIntegrator::survives(Carried& carried, int depth, const PixelSampler& s
 
 void PathIntegrator::addDirect(const Vertex& vertex, Lights& lights, Walk& walk) const {
     Parts& out = walk.out;
-    // The walk with Lobes::Broad already adds the first surface's own emission. Emission gets the
-    // depth of the surface before it, because it is direct light of that surface.
+    // A surface's own emission is direct light of the surface before it on the path, and so gets
+    // that surface's depth. At the first surface, only the walk with Lobes::Broad adds the
+    // emission, because the walk with Lobes::Mirrored begins at the same surface.
     if (!walk.isFirst() || walk.lobes != Lobes::Mirrored)
         out.rest += sent(walk.carried, vertex.point.emission, walk.depth - 1);
     const Arrived arrived = direct(vertex, walk.lobesHere(), lights, walk.world);
@@ -223,9 +224,10 @@ PathIntegrator::Parts PathIntegrator::walk(const Vertex& first, Lobes lobes, Lig
     return walk.out;
 }
 
-// Replaces the sampled unblocked light by known light, scaled by the share that objects do not
-// block (Heitz et al. 2018). Where nothing blocks light, the result has no noise. Known light has
-// an error of a few percent, so its weight falls after 16 samples.
+// Replaces sampled light by `known`, an approximation without noise of the direct light that would
+// arrive if nothing blocked it. If objects block a share of the light, only the rest is replaced
+// (Heitz et al. 2018). So the result has no noise where nothing blocks light. `known` has an error
+// of a few percent, so its weight falls after 16 samples.
 PathIntegrator::Sent PathIntegrator::sum(const Parts& parts, const Sent& known,
                                          std::uint32_t number) {
     constexpr std::uint32_t kTrusted = 16;

@@ -91,7 +91,8 @@ private:
         Arrived direct;
         Sent rest;
     };
-    /// `lights` are samples of the lights for `first`.
+    /// Follows a path from the point `first`. `lights` are samples of the sun and the environment
+    /// for this point.
     [[nodiscard]] Parts walk(const Vertex& first, Lobes lobes, Lights& lights,
                              const PixelSampler& sampler, World& world) const;
     /// Adds the light that arrives at a walk's vertex from the lights and from its own emission.

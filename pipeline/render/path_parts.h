@@ -39,9 +39,10 @@ struct PathIntegrator::World {
         return !scene.catcher().empty() && scene.catcher().blocked(ray);
     }
 
-    /// True if nothing hides the sampled point: the first hit of the ray must be the sampled
-    /// triangle. If two triangles coincide, only the one that first() returns gives light, as for
-    /// the rays of next(). Holes of an alpha mask give no light.
+    /// True if nothing hides the sampled point: the first triangle that the ray hits must be the
+    /// sampled one. Of two triangles that coincide, only one gives light: the one that
+    /// RayScene::first() returns. Rays of next() find the same one. Holes of an alpha mask give no
+    /// light.
     bool sees(const EmissiveTriangles::Sample& sample) {
         Ray ray = sample.ray;
         const RayHit hit = scene.objects().first(ray);
@@ -52,8 +53,9 @@ struct PathIntegrator::World {
         return true;
     }
 
-    /// Returns the point that a ray hits. `density` is the probability density of the ray's
-    /// direction. The point's emission is multiplied by its weight in multiple importance sampling.
+    /// Returns the point that a ray hits. `density` is the probability density with which the ray's
+    /// direction was sampled. The point's emission is multiplied by the weight of this sample in
+    /// multiple importance sampling.
     std::optional<SurfacePoint> next(Ray ray, float density) {
         RayHit object;
         if (objects && !scene.objects().empty()) object = scene.objects().first(ray);

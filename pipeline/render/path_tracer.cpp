@@ -210,8 +210,8 @@ PathTracer::PathTracer(std::shared_ptr<const Scene> scene, const PathTracerOptio
     validate(options);
     if (!scene) throw std::invalid_argument("path tracer: there is no scene");
     validate(*scene);
-    // Computes the albedo tables now. At first use, they would delay the first picture: they take
-    // as long as its first samples.
+    // Computes the albedo tables now. They take as long as the first samples of a picture, and
+    // would otherwise be computed at first use and delay the first picture.
     static_cast<void>(meanSpecularAlbedo(1));
     parts_ = std::make_unique<const Parts>(std::move(scene), options);
 }

@@ -24,7 +24,7 @@ public:
     /// Embree fails.
     explicit PathTracer(std::shared_ptr<const Scene> scene, const PathTracerOptions& options = {});
     /// Returns a tracer of the same scene with moving objects at other poses. It takes little time.
-    /// `scene` must be withPoses() of this tracer's scene.
+    /// `scene` must be a result of withPoses() for this tracer's scene.
     [[nodiscard]] std::unique_ptr<const PathTracer> posed(std::shared_ptr<const Scene> scene) const;
     ~PathTracer();
     PathTracer(const PathTracer&) = delete;
@@ -39,8 +39,9 @@ public:
     void trace(const RenderView& view, std::span<const std::uint32_t> pixels, int samples,
                Film& film, const LightHistory* history = nullptr) const;
 
-    /// Returns an argument for trace() with the light in the film of an earlier picture of the same
-    /// objects. `poses` are the objects' poses in that picture; empty if no object moves.
+    /// Returns the light of an earlier picture of the same objects, as an argument for trace().
+    /// `film`, `view` and `poses` belong to that picture. `poses` are its objects' poses, or empty
+    /// if no object moves.
     [[nodiscard]] LightHistory historyOf(const Film& film, const RenderView& view,
                                          float mostSamples,
                                          std::span<const RigidTransform> poses = {}) const;
@@ -55,10 +56,10 @@ public:
 
     /// Rectangle around the pixels that an object may cover. It may be too large, or empty.
     [[nodiscard]] PixelRect objectBounds(const RenderView& view) const;
-    /// Rectangle around the pixels that may show an object, or the part of the shadow catcher in a
-    /// cube around the objects. The cube's half side is shadowReach * glowReach() times half the
-    /// diagonal of the objects' common box. The rectangle may be empty. Light of objects on the
-    /// catcher outside the cube is ignored.
+    /// Rectangle around the pixels that may show an object, or the shadow catcher near the objects.
+    /// It may be empty. Near is the inside of a cube around the objects. Half the cube's side is
+    /// shadowReach * glowReach() times half the diagonal of the objects' common box. On the catcher
+    /// outside the cube, the light of objects is ignored.
     [[nodiscard]] PixelRect bounds(const RenderView& view) const;
 
 private:

@@ -19,13 +19,14 @@ class PictureResolver {
 public:
     static constexpr int kStages = NoiseFilter::kStages + 2;
 
-    /// Begins a picture. Pixels outside `traced` become empty. `film` and `out` must outlive the
-    /// work.
+    /// Begins a picture. Pixels outside `traced` become empty. `film` and `out` must exist until
+    /// the picture is complete.
     /// `layered` has an effect only if `filter` is true; see RenderedPicture.
-    /// `memory` must be null or the film. If it is the film and `filter` is true, the noise
-    /// filter's result is stored in the film (Film::remember()) for pixels that show a surface but
-    /// have neither samples nor carried light. Untraced pixels then show the mean of their
-    /// neighbours with even column and even row that show the shadow catcher.
+    /// `memory` must be null or the film. With the film, and if `filter` is true, two things
+    /// differ. First: if a pixel shows a surface but has neither samples nor carried light, the
+    /// filter's result is stored as its carried light (Film::remember()). Second: a pixel through
+    /// whose centre no ray was traced shows the mean of those neighbours that show the shadow
+    /// catcher and have an even column and an even row.
     void begin(const Film& film, const RenderView& view, const PixelRect& traced,
                const Exposure& exposure, bool filter, RenderedPicture& out, Film* memory = nullptr,
                bool layered = false);

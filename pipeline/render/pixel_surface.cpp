@@ -13,12 +13,13 @@ namespace {
 // The mean of normals that cancel each other has no useful direction. A mean is used only if it is
 // at least this long.
 constexpr float kLeastMean = 0.1F;
-// The pixel's centre and kFirst are three points. If the mirrored light that they send to the eye
-// deviates from its mean by more than kContrast times the brightness of the distant light, the six
-// points of kRest complete a grid of 3 x 3 points. Measured on the model "showpiece": nine points
-// in all pixels give no better pictures, because they leave less time for samples. One look-up with
-// a lobe that is widened by the spread of normals is worse: where normals differ by more than the
-// lobe's width, their mirrored light is no single lobe.
+// A pixel's surface is first examined at three points: the pixel's centre and kFirst. These points
+// send mirrored light to the eye. If this light deviates from its mean by more than kContrast times
+// the brightness of the distant light, the six points of kRest are added. All nine points form a
+// grid of 3 x 3. Measured on the model "showpiece": nine points in every pixel give no better
+// pictures, because less time is left for samples. The alternative of one look-up, with a lobe
+// widened by the spread of the normals, is worse: where normals differ by more than the lobe's
+// width, their mirrored light is no single lobe.
 constexpr float kContrast = 0.05F;
 constexpr float kThird = 1.0F / 3;
 constexpr std::array<PixelOffset, 2> kFirst = {{{-kThird, -kThird}, {kThird, kThird}}};

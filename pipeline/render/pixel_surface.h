@@ -44,7 +44,7 @@ struct PixelOffset {
 
 /// Computes the surface of an object that a pixel shows, and the distant light on it. On curved
 /// surfaces and on surfaces with relief, normal and light are means over several points of the
-/// pixel, because the light of a single point would be noise.
+/// pixel, because a single point would give noisy light.
 class PixelSurfaces {
 public:
     /// The arguments must outlive this object.

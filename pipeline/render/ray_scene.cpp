@@ -97,9 +97,9 @@ void setLane(Packet& query, std::size_t i, const Ray& ray) {
     query.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
 }
 
-/// True if the hit is on a triangle's edge. The adjacent triangle may be hit at the same distance,
-/// and the triangle tested first wins. A packet and a single ray may test triangles in different
-/// order.
+/// True if the hit is on a triangle's edge. The adjacent triangle may be hit at the same distance.
+/// Embree then returns the triangle that it tests first. A packet of rays may test the two
+/// triangles in another order than a single ray.
 bool onEdge(const RayHit& hit) {
     return hit.found() && !(std::min({hit.u, hit.v, 1 - hit.u - hit.v}) > kEdge);
 }

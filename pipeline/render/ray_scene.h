@@ -35,8 +35,8 @@ struct RayHit {
     [[nodiscard]] bool found() const { return mesh != kNone; }
 };
 
-/// isHole() must return true for points of a triangle that rays pass through. Any thread may call
-/// it.
+/// isHole() must return true for each point of a triangle at which rays pass through the triangle.
+/// Any thread may call it.
 struct HoleTest {
     bool (*isHole)(const void* context, std::uint32_t triangle, float u, float v) = nullptr;
     const void* context = nullptr;  ///< argument of isHole(); must outlive the RayScene
@@ -56,10 +56,10 @@ public:
     std::uint32_t add(std::span<const Eigen::Vector3f> positions,
                       std::span<const std::array<std::uint32_t, 3>> triangles,
                       const HoleTest& holes = {});
-    /// Adds all meshes of a committed scene at a pose, and returns the index of the first mesh.
-    /// Their search structure is used again, not built. `part` must have no placed parts and must
-    /// share the device of this scene, see beside(). After a call of place(), add() must not be
-    /// called any more.
+    /// Adds all meshes of `part`, another scene, at a pose. Returns the index of the first of these
+    /// meshes. `part` must be committed; its search structure is used as it is and not built again.
+    /// `part` must not itself contain placed parts, and must have the same Embree device, see
+    /// beside(). After place(), add() must not be called any more.
     std::uint32_t place(const RayScene& part, const RigidTransform& T_scene_part);
     void commit();
 

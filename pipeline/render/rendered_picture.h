@@ -28,10 +28,14 @@ struct RenderedPicture {
     /// Light on each pixel's object without the object's paint. Empty if the renderer does not
     /// provide it.
     std::vector<LightWords> light;
-    /// Reflection of distant light by each pixel's object. The distant light is `mirrors` times
-    /// `exposure`. Empty if the renderer does not provide it.
+    /// How each pixel's object mirrors distant light: its normal, roughness and reflectance. Empty
+    /// if the renderer does not provide it.
     std::vector<GlossWords> gloss;
+    /// Distant light that the objects mirror, as radiance. Null if the renderer does not provide
+    /// it.
     std::shared_ptr<const MirrorLight> mirrors;
+    /// Factor from radiance to linear display values (white is 1). `light` already contains it,
+    /// `mirrors` does not.
     float exposure = 1;
     /// True if each pixel shows only the surface at its centre, unmixed at edges. Such a picture
     /// must be warped before display.

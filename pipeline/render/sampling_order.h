@@ -2,8 +2,8 @@
 
 #include <cstdint>
 
-/// Order of the pixels in a tile. The class Slices lists the pixels to be traced in this order, and
-/// the class Film stores them in it.
+/// Order of the pixels in a tile. The class Slices lists the pixels to be traced in this order. The
+/// class Film stores pixels in this order.
 namespace mfar::sampling {
 
 inline constexpr int kTileEdge = 8;  ///< [px]
@@ -20,8 +20,9 @@ constexpr std::uint32_t mortonCode(int x, int y) {
     return spread(static_cast<std::uint32_t>(x)) | spread(static_cast<std::uint32_t>(y)) << 1;
 }
 
-/// Converts a pixel's rank in the sampling order to its Morton code in the tile. The first 4^n
-/// pixels lie in different squares of a regular grid. The function is its own inverse.
+/// Converts a pixel's rank in the sampling order to its Morton code in the tile. The ranks below
+/// 4^n are spread evenly: if the tile is divided into 4^n equal squares, each square has one of
+/// them. The function is its own inverse.
 constexpr std::uint32_t evenlySpread(std::uint32_t rank) {
     return (rank & 0x03) << 4 | (rank & 0x0c) | (rank & 0x30) >> 4;
 }

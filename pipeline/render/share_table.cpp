@@ -16,7 +16,8 @@ ShareTable::ShareTable(std::span<const double> weights) {
 }
 
 ShareTable::Drawn ShareTable::draw(double u) const {
-    // The last end is 1 because it is the sum divided by itself.
+    // The last end is exactly 1, so any `u` below 1 finds an end above it. The limit only guards
+    // against larger values of `u`.
     const auto end = std::min(std::ranges::upper_bound(ends_, u), ends_.end() - 1);
     const double low = end == ends_.begin() ? 0 : *(end - 1);
     return {static_cast<std::uint32_t>(end - ends_.begin()),

@@ -20,8 +20,9 @@ public:
         std::uint32_t index;
         float rest;
     };
-    /// Selects an index by the random number `u` in [0, 1), which needs many more bits than the
-    /// number of indices has. An index of weight 0 is never selected. The table must not be empty.
+    /// Selects an index by the random number `u` in [0, 1). `u` must have many more random bits
+    /// than the largest index has. An index of weight 0 is never selected. The table must not be
+    /// empty.
     [[nodiscard]] Drawn draw(double u) const;
 
 private:

@@ -54,8 +54,9 @@ SurfaceScatter::SurfaceScatter(const SurfaceLook& look, const Eigen::Vector3f& w
     const float specular = reflectance_.mirrored.mean();
     const float wide = manyfold.mean() * passedOut_.manyfold +
                        (1 - metallic) * look.baseColour.mean() * passedOut_.diffuse;
-    // If the mirrored lobe is hardly higher than the broad lobes, almost all samples are drawn from
-    // the broad lobes. A few samples of the mirrored lobe alone would be distributed unevenly.
+    // If the peak of the mirrored lobe is lower than the broad lobes, fewer samples are drawn from
+    // it, and more from the broad lobes. These also cover the mirrored directions. A few samples of
+    // the mirrored lobe alone would be distributed unevenly.
     const float height = fresnel(wo_.z()).mean() / (4 * alphaOf(roughness_) * alphaOf(roughness_));
     specularShare_ =
         std::min(specular / (specular + wide) * std::min(1.0F, height / wide), kMostSpecular);

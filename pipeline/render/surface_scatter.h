@@ -15,8 +15,7 @@ struct SurfaceLook {
 
 struct ScatterValue {
     Eigen::Vector3f value{0, 0, 0};  ///< BRDF times the cosine of wi [1/sr]
-    float white = 0;                 ///< diffuse part of `value` divided by the diffuse paint
-                                     ///< [1/sr]
+    float white = 0;                 ///< diffuse part of `value` / diffuse paint [1/sr]
     float density = 0;
 };
 

@@ -99,8 +99,8 @@ private:
 
     using MeshList = std::vector<std::shared_ptr<const TracedMesh>>;
     /// Meshes that do not move relative to each other, with a search structure that need not be
-    /// built again when objects move. If the part moves, `object` is its index in Scene::objects,
-    /// and its meshes are in coordinates of the object.
+    /// built again when objects move. If the meshes move, `object` is the index of their object in
+    /// Scene::objects, and they are in this object's coordinates.
     struct Part {
         std::optional<std::size_t> object;
         RayScene rays;

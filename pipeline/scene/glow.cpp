@@ -59,8 +59,8 @@ double glowReach(const Scene& scene) {
         intensity += intensityOf(object);
     if (!(intensity > 0)) return 1;
     const double seen = std::sqrt(intensity / (kVisible * irradianceOf(scene.lighting)));
-    // Shadows are expected up to half a diagonal outside the objects' box, which is about one
-    // diagonal from its centre.
+    // Shadows are expected up to about one diagonal of the objects' common box away from the box's
+    // centre.
     const double reach = seen / boundsOf(scene).diagonal().norm();
     return reach >= 1 ? std::min(reach, kMostGlowReach) : 1;
 }

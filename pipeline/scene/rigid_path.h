@@ -33,7 +33,7 @@ struct MotionTrack {
 struct RigidPath {
     struct Joint {
         RigidTransform T_parent_joint;  ///< constant offset from the joint before
-        RigidTransform rest;            ///< translation or rotation if its track has no keyframes
+        RigidTransform rest;            ///< replaces a track without keyframes
         MotionTrack translation, rotation;
     };
     std::vector<Joint> joints;

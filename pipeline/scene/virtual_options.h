@@ -20,8 +20,9 @@ struct PlacedObject {
     VirtualObject shape;
     float scale = 1;  ///< scale of the model, above 0; not used for `shape`
     RigidTransform T_anchor_object;
-    /// The anchor of T_anchor_object is this tag: origin in the tag's centre, x right and y up in
-    /// the tag's print, z out of the print. If not set, the anchor is the world of the tag map.
+    /// The tag to which T_anchor_object refers: its frame has the origin in the tag's centre, x
+    /// right and y up in the tag's print, and z out of the print. If not set, T_anchor_object
+    /// refers to the world of the tag map.
     std::optional<TagKey> tag;
 };
 

@@ -8,8 +8,8 @@
 namespace mfar {
 namespace {
 
-// Number of samples in the first portion of work, when the time per sample is still unknown. So few
-// samples take little time in any scene.
+// Number of samples in the first portion of work, when the time per sample is still unknown. It is
+// small, so that the portion takes little time in any scene.
 constexpr std::int64_t kFirstSamples = 64;
 // Least number of samples in a portion; fewer are not worth a call of the path tracer. If they take
 // longer than the rest of the budget, the next frame repays the excess.
@@ -19,8 +19,8 @@ constexpr double kPortionsPerFrame = 16;
 // unused if the threads get too little processor time.
 constexpr double kMostSaved = 0.08;
 // Converting a picture may exceed the budget of a frame. The excess becomes a debt of at most
-// kMostDebt budgets. Each frame repays the share kRepaid of the budget, or of the debt if that is
-// larger.
+// kMostDebt budgets. Each frame repays kRepaid times the budget. If the debt is larger than the
+// budget, the frame repays kRepaid times the debt instead.
 constexpr double kMostDebt = 10, kRepaid = 0.08;
 
 double valid(double ms) {

@@ -12,9 +12,9 @@ struct BudgetGrant {
     double reservedMs = 0;
 };
 
-/// Accuracy with which the last frames kept the time budget. `deviation` counts only frames that
-/// had work all the time and used up the budget. In other frames, the low-priority threads got too
-/// little processor time.
+/// Accuracy with which the last frames kept the time budget. `deviation` leaves out two kinds of
+/// frames: frames without enough work, and frames that did not use up the budget. In the latter,
+/// the threads got too little processor time, because their priority is low.
 struct BudgetKept {
     int frames = 0;
     /// Mean of used time / budget. It also counts frames whose threads got too little processor
@@ -36,9 +36,9 @@ public:
     /// Throws std::invalid_argument if the budget is not a finite number above 0.
     explicit BudgetController(double msPerFrame);
 
-    /// Begins a frame. `workWaits` must be true if work was left over in the last frame. Only then
-    /// kept() counts the last frame, and a small part of its unused time is added to the new frame.
-    /// `extraMs` is added to the budget of this frame alone.
+    /// Begins a frame. `workWaits` must be true if work was left over in the last frame. If it is
+    /// true, kept() counts the last frame, and a small part of the last frame's unused time is
+    /// added to the new frame. `extraMs` is added to the budget of the new frame alone.
     void beginFrame(bool workWaits, double extraMs = 0);
 
     [[nodiscard]] BudgetGrant grant();

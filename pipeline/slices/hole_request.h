@@ -19,8 +19,9 @@ struct HoleRequest {
     int samples = 4;
     std::uint64_t scene = 0;  ///< chosen by the caller, copied to the answer
     bool edges = false;       ///< true: the warp blurs these pixels; false: no picture shows them
-    /// Scene of the picture that does not show the pixels. The request is dropped if this scene is
-    /// neither shown nor traced any more. Null: the scene that is traced now.
+    /// Scene of the traced picture in which the pixels are missing or blurred. The request is
+    /// dropped if this scene is neither shown nor traced any more. Null: the scene that is traced
+    /// now.
     std::shared_ptr<const Scene> source{};
     std::vector<RigidTransform> poses{};  ///< T_world_object; empty if no object moves
 };

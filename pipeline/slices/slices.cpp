@@ -12,8 +12,9 @@ namespace {
 
 using sampling::evenlySpread, sampling::mortonCode, sampling::kTileEdge, sampling::kTilePixels;
 
-// Turns in Slicing::Time. Turn kLook traces a ray through each pixel's centre. The turns before
-// kFirstFull sample only some pixels. From turn kFirstFull on, all pixels are sampled.
+// Numbers of turns in Slicing::Time. In turn kLook, one ray is traced through each pixel's centre.
+// The turns between kLook and kFirstFull sample only some pixels. From turn kFirstFull on, all
+// pixels are sampled.
 constexpr int kLook = 1, kFirstFull = 4;
 
 int gathered(std::uint32_t v) {

@@ -11,10 +11,11 @@
 namespace mfar {
 namespace {
 
-// With TracedPolicy::soon, a new picture begins when the camera's motion reaches this share of
-// ViewLimits. The new picture reuses the light of the shown picture.
+// With TracedPolicy::soon, a new picture begins when the change of the view since the shown picture
+// reaches this share of ViewLimits. Otherwise, it begins at the full ViewLimits.
 constexpr double kSoon = 0.75;
-// The next picture is discarded if the view change falls below this share of the change that
+// While the next picture is traced, the camera may return towards the view of the shown picture.
+// The next picture is discarded if the change of the view falls below kBack times the change that
 // started it.
 constexpr double kBack = 0.5;
 // From this multiple of ViewLimits on, a noisy new picture is better than the shown picture.
@@ -22,22 +23,23 @@ constexpr double kHopeless = 3;
 // The shown picture is converted again when its number of samples has grown by this factor.
 constexpr int kSamplesRatio = 2;
 // The camera rests if it moves by less than kRestPixels in kRestLooks calls of look(). At rest, the
-// picture should not be warped. If the shown picture is off by more than kElsewherePixels, a new
-// picture begins.
+// shown picture should not need to be warped. So a new picture begins if the shown picture is off
+// by more than kElsewherePixels.
 constexpr double kRestPixels = 0.1, kElsewherePixels = 0.2;
 constexpr int kRestLooks = 10;
-// Upper limits of the weight [samples] of an earlier picture's light. The second limit applies
-// after a change of lighting. It is low, so that new samples soon outweigh the old light.
+// Upper limits of the weight with which the light of an earlier picture counts in a new one
+// [samples]. The second limit applies after a change of lighting. It is low, so that new samples
+// soon outweigh the old light.
 constexpr float kMostCarried = 64, kMostCarriedElsewhere = 4;
 constexpr int kLookTurn = 1;
-// Limit of an object's motion since the shown picture [px], see motionSince(). The object's shadow
-// moves about as far.
+// Tolerated motion of an object's shadow since the shown picture [px], see motionSince(). The
+// shadow is assumed to move as far as the object.
 constexpr double kShadowPixels = 1;
-// Number of turns of a picture before the next one begins while an object moves. By then, a quarter
-// of the pixels has a sample.
+// While an object moves, the next picture begins after this number of turns of the shown picture.
+// By then, a quarter of the pixels has a sample.
 constexpr int kMovingTurns = 3;
 // Light on the shadow catcher is traced again if moving objects may have changed it by more than
-// this (see MovedLight::diffuseChange()).
+// this share (see MovedLight::diffuseChange()).
 constexpr float kVisible = 0.003F;
 constexpr double kFarthestAhead = 0.5;  // longest prediction of the motion of objects [s]
 constexpr double kPeriodShare = 0.3;
@@ -59,9 +61,10 @@ TracedPictures::TracedPictures(const SliceOptions& slices, const TracedPolicy& p
     : slices_(slices), policy_(policy), memory_(std::move(memory)),
       pictures_{Picture(slices), Picture(slices)} {}
 
-// Returns the change of the view since a picture's view. Empty if the objects have changed or, for
-// the shown picture, the lighting. The next picture ignores changes of the lighting. Otherwise, it
-// might be begun again and again and never be finished.
+// Returns viewChange() from the picture's view to the present view. Returns nothing if the objects
+// have changed. For the shown picture, also returns nothing if the lighting has changed. For the
+// next picture, a change of the lighting does not count: the picture might otherwise be begun again
+// and again and never be finished.
 std::optional<double> TracedPictures::changeSince(const Picture& picture) const {
     const bool isShown = &picture == &pictures_[shown_];
     if (!picture.scene || picture.scene->objects != scene_->objects ||
@@ -70,15 +73,16 @@ std::optional<double> TracedPictures::changeSince(const Picture& picture) const 
     return viewChange(picture.view, now_, picture.scene->balls, policy_.limits);
 }
 
-/// Returns the motion of objects since a picture as a multiple of its limit. The limit of objects
-/// is ViewLimits, because the warp can move them in the picture. The limit of their shadows, which
-/// the warp cannot move, is kShadowPixels.
+/// Returns the largest motion of an object since a picture, divided by its limit. The warp can move
+/// objects in the picture, so the limit for an object is ViewLimits. The warp cannot move shadows,
+/// so the limit for the object's shadow is kShadowPixels.
 double TracedPictures::motionSince(const Picture& picture) const {
     double change = 0;
     for (const auto& [object, own] : scene_->moving) {
         const RigidTransform& T_world_then = picture.scene->poses[object];
         const ObjectBall ball{T_world_then * own.centre, own.radius};
-        // From this view, the object at its pose in the picture looks as it looks now.
+        // `view` shows the object at its pose in the picture exactly as the camera now sees the
+        // object at its present pose.
         const RenderView view{now_.camera,
                               T_world_then * posesNow_[object].inverse() * now_.T_world_camera};
         change = std::max({change, viewChange(picture.view, view, {&ball, 1}, policy_.limits),
@@ -114,8 +118,9 @@ TracedStep TracedPictures::chosenStep() const {
     const TracedStep step =
         nextStep(sinceShown, hasBegun ? changeSince(pictures_[1 - shown_]) : std::nullopt,
                  policy_.soon ? kSoon : 1);
-    // While the shown picture is still near enough to this view, it gets its first samples before a
-    // new picture begins. Without samples, the new picture could not reuse its light.
+    // A new picture reuses the light of the shown picture, which has none before its first samples.
+    // So the shown picture gets these samples first, if it still is near enough to the present
+    // view.
     const bool lacksSamples =
         scene_->moves() ? shown.slices.turns() < kMovingTurns : shown.slices.samples() == 0;
     if (step == TracedStep::Start && !hasBegun && serves && lacksSamples) return TracedStep::Refine;
@@ -191,8 +196,8 @@ void TracedPictures::provide(RenderedPicture& out) {
 }
 
 /// Returns the scene for a picture that begins now. The picture will be shown after one `period_`,
-/// and until the next picture replaces it after another one. Its objects are where they will be in
-/// the middle of this time.
+/// and be replaced after two. Moving objects get the poses that they will have in the middle of
+/// this time, after 1.5 periods.
 std::shared_ptr<const PictureScene> TracedPictures::sceneOfNext() const {
     if (!scene_->moves()) return scene_;
     const double ahead = std::min(1.5 * period_, kFarthestAhead);
@@ -240,8 +245,9 @@ void TracedPictures::trace(const Portion& portion) {
                                  *picture.film, picture.history ? &*picture.history : nullptr);
 }
 
-// At rest, only the pixel's own samples count, because light from earlier pictures (known()) has no
-// sharp edges and textures.
+// Returns the state by which Slices decides if the pixel gets more samples. At rest, only the
+// pixel's own samples count. Light of earlier pictures does not count, because it gives no sharp
+// edges and textures.
 PixelState TracedPictures::Picture::state(std::uint32_t pixel, const Exposure& exposure) const {
     const KnownLight known = rests ? KnownLight{} : film->known(pixel);
     return {film->error(pixel, exposure),
@@ -276,8 +282,8 @@ bool TracedPictures::toShow() const {
     return picture.slices.samples() >= leastSamples(picture);
 }
 
-// While the camera moves, a picture with few samples and filtered light is better than none or one
-// from another view.
+// True if the picture may be shown before every pixel has a sample. While the camera moves,
+// filtered light of few samples is better than no picture or a picture of another view.
 bool TracedPictures::isSparse(const Picture& picture) const {
     if (picture.rests || !policy_.filter || picture.slices.samples() > 0) return false;
     const Picture& shown = pictures_[shown_];

@@ -16,9 +16,9 @@ struct PredictionLimits {
     bool operator==(const PredictionLimits&) const = default;
 };
 
-/// Predicts the pose of a camera with constant angular and linear velocity. They are measured in
-/// the camera's frame over the last tenth of a second. One thread at a time may call this class. It
-/// allocates no memory.
+/// Predicts the pose of a camera that keeps its angular and linear velocity. Both velocities are
+/// measured in the camera's frame over the last tenth of a second. One thread at a time may call
+/// this class. It allocates no memory.
 class ViewPredictor {
 public:
     explicit ViewPredictor(const PredictionLimits& limits = {});
