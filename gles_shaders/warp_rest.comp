@@ -4,10 +4,10 @@
 // A pixel is composed of an object and, below it, the shadow catcher.
 // In: list[] of warp_rest_list.comp. Out: colour, z and state of the pixels; holes[];
 // holeCommands[].
-// State: x: number of the surface whose colour is unknown. y: share of the pixel whose colour is
-// unknown. z: 1 if the surface in x fills the pixel and no picture shows it. w: number of the
-// surface that fills the pixel, if the whole colour is known. A number is 0 if there is no such
-// surface.
+// Components of the state. x: number of the surface whose colour is unknown. y: share of the pixel
+// whose colour is unknown. z: 1 if the surface in x fills the pixel and no picture shows it. w:
+// number of the surface that fills the pixel, if the whole colour is known. A number is 0 if there
+// is no such surface.
 // holes[] = pixels without a known colour: pixel index, colour so far (RGBA8). Bit 31 of the index:
 // z of the state is 1. Bit 30: the pixel is at an edge.
 // holeCommands[0] = number of groups of 64 entries of holes[] (x), number of entries (w).
