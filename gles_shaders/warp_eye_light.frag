@@ -30,8 +30,9 @@ vec3 xyz(Row4 row) {
     return vec3(row.x, row.y, row.z);
 }
 
-// Octahedral map: directions with z < 0 are in the corners of the square. For z < 0, maps |x| + |y|
-// <= 1 to the corners, or the corners back. For other z, returns p unchanged.
+// Octahedral map: directions with z < 0 lie in the corners of the square, where |x| + |y| > 1. For
+// z < 0, moves p from the inner part (|x| + |y| <= 1) to the corners, or from the corners to the
+// inner part. For other z, returns p unchanged.
 vec2 folded(float z, vec2 p) {
     vec2 other = (1.0 - abs(p.yx)) * mix(vec2(-1.0), vec2(1.0), greaterThanEqual(p, vec2(0.0)));
     return z < 0.0 ? other : p;

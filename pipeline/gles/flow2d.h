@@ -62,8 +62,9 @@ public:
     [[nodiscard]] int seed() const { return seed_; }
 
 private:
-    /// The memory in cells_ for the flow in one direction at one pyramid level. It has two areas
-    /// (indices of their first cells), because propagation reads one and writes the other.
+    /// The memory in cells_ for the flow in one direction at one pyramid level. `area`: indices of
+    /// the first cells of two areas. There are two, because propagation reads one and writes the
+    /// other.
     struct Stage {
         Size cells;
         int area[2];

@@ -33,8 +33,8 @@ public:
     /// Commands of the indirect dispatches: 16 bytes for each pyramid level, finest level first.
     [[nodiscard]] const gpu::Buffer& commands() const { return commands_; }
 
-    /// Length of the previous list of tiles, which the last find() or clear() replaced. Does not
-    /// wait for the GPU.
+    /// Length of the list of tiles that the last find() or clear() replaced. Does not wait for the
+    /// GPU.
     [[nodiscard]] int countBefore() const { return countBefore_; }
     [[nodiscard]] int count() const;
     /// Returns a flag for each tile, row-major: true if the tile is listed. Waits for the GPU.

@@ -15,10 +15,10 @@ namespace mfar {
 /// the newest still's view or occluded in the newest still.
 class SecondTiles {
 public:
-    /// Smallest mean of (1 - weight) * TrustCell::signal over a tile's cells at which the newest
-    /// still counts as not showing the tile. In the synthetic office scene, a second still gained
-    /// 0.14 dB with a limit of 0.2, 0.18 dB with 0.1 and 0.19 dB with 0.05. With 0.05, 1.5 times as
-    /// many tiles are matched as with 0.1.
+    /// The newest still counts as not showing a tile if the mean of (1 - weight) *
+    /// TrustCell::signal over the tile's cells is at least this limit. In the synthetic office
+    /// scene, a second still gained 0.14 dB with a limit of 0.2, 0.18 dB with 0.1 and 0.19 dB with
+    /// 0.05. With 0.05, 1.5 times as many tiles are matched as with 0.1.
     static constexpr float kLack = 0.1F;
     /// Smallest gain in mean weight that is worth the time of matching with the second still.
     static constexpr float kGain = 0.05F;

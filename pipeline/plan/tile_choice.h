@@ -32,10 +32,10 @@ TileEnergy markDrifted(std::span<TileMeasure> tiles, int columns, double grain, 
 /// The tile must be drawn again, because enlarging it reads two pixels of the adjacent tile.
 void markBeside(std::span<TileMeasure> tiles, int columns);
 
-/// Chooses the tiles that are matched with the still: tiles whose structure exceeds the noise, and
-/// their neighbours, because the weight of a cell depends on pixels beyond its tile. If there are
-/// more tiles than `most`, the tiles with the most structure are chosen. Tiles of the last choice
-/// are preferred, so that noise does not make detail appear and vanish.
+/// Chooses the tiles that are matched with the still. These are the tiles whose structure exceeds
+/// the noise, and the neighbours of such tiles. (The weight of a cell depends on pixels beyond its
+/// tile.) If there are more of them than `most`, the tiles with the most structure are chosen.
+/// Tiles of the last choice are preferred, so that noise does not make detail appear and vanish.
 class StructuredTiles {
 public:
     /// `none` is the largest structure that noise alone causes. If it is negative, every tile has

@@ -16,9 +16,9 @@ constexpr double kMaxNoise = 4.0;
 // The whole frame is drawn at once if at least this share of the tiles changed, because drawing
 // tile by tile costs 2.2 times as much per area (measured with llvmpipe).
 constexpr double kWholeShare = 0.45;
-// A frame that is enlarged as a whole gets its detail tile by tile if at most this share of the
-// tiles in detailTiles has structure. Otherwise, detail is drawn in all tiles of the rectangle at
-// once. Enlarging costs 0.4 times as much as drawing detail.
+// When a whole frame is enlarged, detail is drawn tile by tile if at most this share of the tiles
+// in detailTiles has structure. Otherwise, detail is drawn in all tiles of detailTiles at once.
+// Enlarging costs 0.4 times as much as drawing detail.
 constexpr double kListedShare = 0.27;
 // Smallest structure of a matched tile, in units of the noise variance of a 2x2 mean. First term:
 // noise alone gives 13, from 16 means minus three degrees of freedom of the plane. Second term: the

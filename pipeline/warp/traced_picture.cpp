@@ -113,7 +113,7 @@ bool takeFromNeighbours(const PictureGrid& grid, std::span<const LightWords> lig
     return true;
 }
 
-/// Returns the difference of z to the two neighbours along one axis, the smaller of the two. Only
+/// Returns the smaller of the two differences of z to the neighbours along one axis. Only
 /// neighbours on the same surface count. If there is none, the result is kUnknownSlope * z.
 float slopeAlong(std::span<const WarpSurface> surface, Size size, int x, int y, int dx, int dy) {
     const auto at = [&](int i, int j) -> const WarpSurface& {
@@ -190,8 +190,8 @@ void requireAllPixels(const RenderedPicture& picture, std::size_t count) {
                                     "pixel or for none");
 }
 
-/// Marks the gloss of moving objects as unknown, so that their reflections are shown as traced.
-/// Gloss has normals in the world frame, which the warp does not rotate with the object.
+/// Marks the gloss of moving objects as unknown, so that their reflections are shown as traced. The
+/// normals in the gloss are in the world frame, and the warp does not rotate them with the object.
 void forgetGlossOfMoving(const RenderedPicture& picture, std::vector<GlossWords>& gloss) {
     if (gloss.empty() || picture.poses.empty() || !picture.scene) return;
     const std::vector<SceneObject>& objects = picture.scene->objects;
