@@ -2,8 +2,9 @@
 // where up() enlarges to the output's size.
 // LEARNED: also adds the learned enlarger's residual times max(1 - weight, 0). Where the weight is
 // large, the still is the better source of detail.
-// SECOND (includes LEARNED): draws the second still's detail over the picture with the first
-// still's detail. The opacity rises with the second still's weight minus the first still's weight.
+// SECOND (includes LEARNED): the picture already contains the first still's detail. `out` is
+// computed with the second still and blended over the picture. The opacity rises with the
+// difference between the second still's weight and the first still's weight; see kSecondFrom.
 // Variant: #define PLAIN_TILE
 // Variant: #define LEARNED
 // Variant: #define SECOND
@@ -24,7 +25,7 @@ layout(binding = 1) uniform sampler2D still;
 #ifdef SECOND
 layout(binding = 5) uniform sampler2D newestField;
 
-// Weight of the first still's detail, which the picture already contains.
+// Returns the weight that the first still has at this pixel.
 float newestShare() {
     return textureLod(newestField, gl_FragCoord.xy * vec2(params.scaleX, params.scaleY) / vec2(4 * cellCount()), 0.0).z;
 }

@@ -47,9 +47,9 @@ void main() {
             float x = first.x + float(2 * i);
             vec2 wx = overlap(x, lo.x, hi.x);
             float weightX = wx.x + wx.y;
-            // weightX or weightY is zero if both of its texels are outside the footprint. The
-            // sampling position then does not matter; the limit 1.0e-6 only avoids a division by
-            // zero.
+            // If both texels of an axis are outside the footprint, their sum of weights (weightX or
+            // weightY) is zero, and the sampling position does not matter. The limit 1.0e-6 then
+            // avoids a division by zero.
             vec2 between = vec2(wx.y, wy.y) / max(vec2(weightX, weightY), 1.0e-6);
             vec2 at = (vec2(x, y) + 0.5 + between) * texel;
             sum += weightX * weightY * textureLod(picture, at, 0.0).rgb;

@@ -1,10 +1,10 @@
-// Finds the classes of a pixel by its gradient and by its curvature, for the learned enlarger.
-// Class indices are those of GradientClasses and CurvatureClasses in
+// Finds the two classes of a pixel for the learned enlarger: one by its gradient, one by its
+// curvature. Classes are numbered as in GradientClasses and CurvatureClasses in
 // pipeline/enlarge/filter_layout.h. Needs pipeline/engine/params/enlarge.h.
 
-// Returns the bin of an angle; see Symmetry in pipeline/enlarge/filter_layout.h. `cosine`, `sine`:
-// cosine and sine of twice the angle, times the same positive factor. `inQuadrant`: the bin, in the
-// first quadrant, of the angle with |cosine| and |sine|.
+// Returns the bin of an angle a; see Symmetry in pipeline/enlarge/filter_layout.h. `cosine`,
+// `sine`: cosine and sine of 2a, times the same positive factor. `inQuadrant`: number of whole bins
+// between 2a = 0 and the angle that has the cosine |cosine| and the sine |sine|.
 int angleBin(float cosine, float sine, int inQuadrant, int bins) {
     bool left = cosine < 0.0, lower = sine < 0.0;
     int bin = left != lower ? bins / 2 - 1 - inQuadrant : inQuadrant;
@@ -17,8 +17,9 @@ int gradientClass(vec3 sums) {
     float spread = sqrt(cosine * cosine + sine * sine);
     vec3 strengths = scale * vec3(kWeakFrom * kWeakFrom, kMediumFrom * kMediumFrom, kStrongFrom * kStrongFrom);
     vec2 roots = vec2(kPartlyCoherentFrom, kCoherentFrom);
-    // Thresholds of the coherence (s1 - s2) / (s1 + s2), converted to thresholds of s1^2 - s2^2
-    // (`spread`). The structure tensor has the eigenvalues s1^2 and s2^2.
+    // The structure tensor has the eigenvalues s1^2 and s2^2. Their sum is `sum`, their difference
+    // is `spread`. The thresholds `roots` of the coherence (s1 - s2) / (s1 + s2) are converted to
+    // thresholds of `spread`.
     vec2 coherences = sum * 2.0 * roots / (1.0 + roots * roots);
     int kind = int(dot(step(strengths, vec3(sum + spread)), vec3(3.0)) + dot(step(coherences, vec2(spread)), vec2(1.0)));
     float c = abs(cosine), s = abs(sine);

@@ -4,7 +4,7 @@
 // A channel has the weights of both taps as half floats.
 layout(binding = 1) uniform usampler2D filters;
 
-// Half floats represent differences of luma exactly, because these have at most eleven bits. They
+// Differences of luma have at most eleven bits, so half floats represent them exactly. Half floats
 // need half as many registers as floats.
 uvec2 halvesOf(vec4 v) {
     return uvec2(packHalf2x16(v.xy), packHalf2x16(v.zw));
@@ -24,8 +24,9 @@ vec4 pairOf(ivec2 classes, int at, uint taps) {
                 dot(unpackHalf2x16(a.w) + unpackHalf2x16(b.w), steps));
 }
 
-// Returns the four sub-pixels in a row of the pixel, enlarged by Keys' cubic (along columns first),
-// minus the pixel's value. The taps are in the order of kTapAt in pipeline/enlarge/filter_layout.h.
+// Returns four of the pixel's 4x4 sub-pixels, those of the given row: enlarged by Keys' cubic
+// (along columns first), minus the pixel's value. The taps are in the order of kTapAt in
+// pipeline/enlarge/filter_layout.h.
 vec4 cubicOf(int row, uvec4 above, uvec4 below, uvec4 beside) {
     vec4 w = cubicWeights(fract(0.625 + 0.25 * float(row)));
     vec4 upper = row < 2 ? w : vec4(0.0, w.xyz);

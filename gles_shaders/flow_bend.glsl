@@ -1,5 +1,5 @@
-// Reads a flow field in the x and y of a texture. The shader must declare the sampler displacement
-// and params (columns, rows).
+// Reads a flow field from x and y of the texture `displacement`. The shader must declare this
+// sampler and params (columns, rows).
 #include "pipeline/engine/params/weigh.h"
 
 ivec2 lastCell() {

@@ -36,7 +36,7 @@ vec2 medianAround(ivec2 cell) {
         order(a, b);
         low = max(low, a);
         high = min(high, c);
-        // In the last iteration, this is the median of the columns' middle values.
+        // In the last iteration, `middle` becomes the median of the columns' middle values.
         middle = max(least, min(most, b));
         least = min(least, b);
         most = max(most, b);

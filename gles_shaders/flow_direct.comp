@@ -1,8 +1,9 @@
-// Compares doubtful cells with the still itself instead of its reduction, see kPatchSamples. If the
-// still fits clearly better at the flow along a cell's epipolar line, this flow replaces the cell's
-// flow. If the correlation with the still itself exceeds 1 - cost, the cell's ErrorCell gets the
-// sums of this comparison. The two-way error in the ErrorCell is then at most the error that
-// kErrorPerCost gives for the cost 1 - correlation.
+// The search compares the video with a still that is reduced to the video's resolution. This shader
+// compares doubtful cells with the still itself; see kPatchSamples.
+// If the still fits clearly better at the flow along a cell's epipolar line, this flow replaces the
+// cell's flow. If the correlation exceeds 1 - cost of the search, the cell's ErrorCell gets the
+// sums of the new comparison. The ErrorCell's two-way error is then reduced to the error that
+// kErrorPerCost gives for the cost 1 - correlation, unless it is smaller already.
 // In: states of the tiles, video, luma of the still with amplified finest detail; in cells[], the
 // flow along epipolar lines. In, out: cells[], the filtered forward field and its ErrorCells.
 // One workgroup per tile, one invocation per cell. Most loops count from cell.x or cell.y, so that
@@ -36,7 +37,8 @@ bool isInside(ivec2 c) {
     return all(greaterThanEqual(c, ivec2(0))) && all(lessThan(c, ivec2(params.columns, params.rows)));
 }
 
-// Returns the flow along the epipolar line, see kPairReach.
+// Returns the flow that the search along epipolar lines found, smoothed around the cell; see
+// kPairReach.
 vec2 lineOf(ivec2 cell) {
     vec2 middle = medianAround(cell), sum = vec2(0.0);
     float weight = 1.0;
@@ -59,8 +61,8 @@ vec2 lineOf(ivec2 cell) {
 // if `u` ends outside the still.
 vec4 compared(ivec2 cell, vec2 u, vec2 dx, vec2 dy) {
     vec2 size = vec2(1.0) / vec2(params.texelX, params.texelY);
-    // Positions in the still of the patch's centre and of the points one cell to the right of it and
-    // below it.
+    // Positions in the still. `at`: the patch's centre. `right` and `below`: the points one cell to
+    // the right of the centre and one cell below it.
     vec2 at = vec2(0.0), right = vec2(0.0), below = vec2(0.0);
     for (int i = cell.x; i < cell.x + 3; ++i) {
         below = right;

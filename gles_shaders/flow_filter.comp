@@ -25,7 +25,7 @@ struct Plane {
     vec2 value, dx, dy;  // flow at the cell [px], change of the flow per cell
 };
 
-// Fits a plane to the flow vectors of the neighbours. `about` is the plane of the round before.
+// Fits a plane to the flow vectors of the neighbours. `about` is the plane of the previous round.
 // Neighbours that are less reliable or differ more from `about` have smaller weights. From a
 // difference of `reach` [px] on, the weight is zero, so that the other side of a depth edge has no
 // influence.

@@ -1,5 +1,5 @@
-// Evaluates the flow vectors of each cell's four neighbours. If one of them costs less than the
-// cell's own vector, refines the best one.
+// Evaluates the flow vectors of each cell's four neighbours. If the best of them costs less than
+// the cell's own vector, the cell gets this vector, refined.
 // In, out: two fields in cells[], in the format of flow_search.comp. One invocation per cell.
 // Range: cells -2e4..2e4, -2e4..2e4, 0..2.02, 0..4.2e6
 #include "luma.glsl"

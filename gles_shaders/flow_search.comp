@@ -1,7 +1,7 @@
 // Computes the flow of every cell at one pyramid level: refines the best candidate by Gauss-Newton
 // steps. Candidates are the last frame's vector and the vectors of the next coarser pyramid level
-// around the cell. At the coarsest pyramid level, they are the last frame's vector and all
-// whole-pixel displacements within a square.
+// around the cell. At the coarsest pyramid level, the candidates are the last frame's vector and
+// all whole-pixel displacements within a square.
 // Out: cells[] = flow (x, y) [px of this pyramid level], cost, texture (sum of the squared
 // deviations of the patch from its mean). One invocation per cell.
 // Source: Kroeger et al., Fast optical flow using dense inverse search, ECCV 2016, section 2.

@@ -1,5 +1,5 @@
-// Computes the next coarser pyramid level by the means of 2x2 pixels. One invocation per word of
-// four pixels, including margins.
+// Computes the next coarser pyramid level. Each of its pixels is the mean of 2x2 pixels. One
+// invocation per word of four pixels, including margins.
 #include "luma.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;

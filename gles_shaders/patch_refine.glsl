@@ -3,9 +3,9 @@
 
 // Takes Gauss-Newton steps from `best` as long as they lower the cost, or none if `steps` is -1.
 // The comparison of the patches needs all registers of a V3D (the GPU of a Raspberry Pi). Values
-// that are needed after it are therefore stored behind the template in templateWords[]. The indices
-// `none` and `later` are always 0, but the compiler does not know this. So it can neither keep the
-// values in registers nor read them early.
+// that are needed after the comparison are therefore stored behind the template in templateWords[].
+// The indices `none` and `later` are always 0, but the compiler does not know this. So it can
+// neither keep the values in registers nor read them early.
 void refine(vec2 known, LumaLevel l, ivec2 cell, int steps, inout vec2 best, inout float cost) {
     prepareSteps(known, cell);
     vec2 u = best;

@@ -1,11 +1,11 @@
 // Computes statistics of the match between still and video in each cell, for superres_weigh.comp.
-// In: the forward field (from video to still) in cells[]; also in cells[] either the backward
-// field, which may be of a coarser pyramid level, or ErrorCells; the finest luma pyramid level
-// of both pictures.
+// In: luma[]: the finest pyramid level of both pictures. cells[]: the forward field (from video to
+// still), and either ErrorCells or the backward field, which may be of a coarser pyramid level.
 // Out: displacement image = flow (x, y) [video px], and the end of the flow vector in the still
 // minus the scaled cell centre (x, y) [still px]. Statistics image = covariance, variance of the
-// video and of the still in the patch, confidence; the first three are 0 in tiles that are not
-// matched, and are those of the ErrorCell where the cell was compared with the still itself.
+// video, variance of the still, confidence. The first three are sums over the patch. They are 0 in
+// tiles that are not matched. Where the cell was compared with the still itself, they are copied
+// from its ErrorCell.
 // Source: paper, eq. 2 with lambda(x) = min(x, 1).
 // Range: displacement -2e4..2e4, -2e4..2e4, -4e3..4e3, -4e3..4e3
 // Range: statistics -4.2e6..4.2e6, 0..4.2e6, 0..4.2e6, 0..1
@@ -69,8 +69,8 @@ void main() {
     vec2 scale = vec2(params.scaleX, params.scaleY);
     vec2 offset = clamp(inStill - (centre + 0.5) * scale + 0.5, vec2(-kFarthestOffset), vec2(kFarthestOffset));
     vec3 direct = params.errorsGiven != 0 ? cells[params.backward + index].yzw : vec3(0.0);
-    // This loop must come last. If it precedes the rest, the compiler of Mesa 22.3 for V3D does not
-    // terminate.
+    // The call of spreadOf() must come last, because it contains a loop. If the loop precedes the
+    // rest, the compiler of Mesa 22.3 for V3D does not terminate.
     vec3 alike = vec3(0.0);
     if (tiles[gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x].y != 0u)
         alike = spreadOf(params.video, params.still, cell, u);

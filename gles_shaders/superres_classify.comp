@@ -1,9 +1,9 @@
 // Finds the class of every tile and makes the frame's draw lists. One invocation per tile.
 // In: change flags; cell fields of one or two stills.
 // Out: lists[] = five lists of changed tiles: 0 all, 1 upscaled (only enlarged), 2 trusted, 3
-// blended, 4 tiles that show some of the second still. Lists 0 to 3 are empty if header.x is 1.
-// Only lists 0 and 1 are empty if header.x is 2. List 0 also contains neighbours of tiles that show
-// detail or are enlarged by filters, because such tiles read their neighbours.
+// blended, 4 tiles that show some of the second still. If header.x is 1, lists 0 to 3 are left
+// empty. If header.x is 2, lists 0 and 1 are left empty. List 0 also contains unchanged neighbours
+// of tiles that show detail or are enlarged by filters, because such tiles read their neighbours.
 // draws[] = indirect draw commands, one per list; before this shader runs, only the number of
 // vertices in each is set. counts[] = counters of the frame, initially 0. classes[] = class of each
 // tile.

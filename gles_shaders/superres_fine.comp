@@ -1,9 +1,9 @@
 // Compares the finest detail of video and still in each cell; see kFineRoom. The finest detail
 // consists of the differences between neighbouring pixels.
 // In: states of the tiles, look-ups, luma of the still with amplified finest detail, video.
-// Out: half of the mean of three products of finest detail [grey levels^2]: video * video, video *
-// still and still * still. Each mean is over the middle two rows of the cell. It is zero in tiles
-// that are not matched and in cells that are only partly inside the frame.
+// Out: the means of three products of such differences [grey levels^2]: video * video, video *
+// still and still * still. Each mean is over the middle two rows of the cell, and is halved. All
+// are zero in tiles that are not matched and in cells that are only partly inside the frame.
 // One workgroup per tile, one invocation per cell.
 // Range: fineField 0..32513, -32513..32513, 0..32513, 0
 #include "luma.glsl"

@@ -1,7 +1,7 @@
 // Sharpens the video where the still does not supply detail. This restores high frequencies that
 // the area of a sensor pixel and the enlargement by Keys' cubic weaken. The filter is the sum of a
-// horizontal and a vertical filter, plus a diagonal part: the products of their taps at a distance
-// of one pixel.
+// horizontal filter, a vertical filter and the product of their near parts. A near part has only
+// the taps at the centre and next to it.
 // In: video, weights, look-ups, luma of the still with amplified finest detail.
 // Out: sharpened video, to be enlarged; alpha: mean luma of the still over the pixel, which
 // composite_detail.frag subtracts.

@@ -6,7 +6,8 @@
 // not noise (for the sharpening), 1 if the cell has no reliable match.
 // The weight of the detail is the product of the photometric gain between the sensors, the trust in
 // the match and the confidence. The gain is covariance / (variance of the still + noise). It is
-// also measured at half resolution; where the contrast suffices there, the larger gain is used.
+// also measured at half resolution. If the contrast at half resolution suffices, the larger of the
+// two gains is used.
 // Where the flow is uniform, both sensors see the surface from the same direction. Their
 // correlation at the video's resolution says little about detail that aliases in the video. A match
 // that is probably correct is therefore trusted fully.

@@ -3,8 +3,8 @@
 // a unit cube, unit cylinder or unit sphere.
 
 struct Solid {
-    // Rows of the matrix from camera directions to scaled coordinates. w: camera position in scaled
-    // coordinates.
+    // Transform from camera to scaled coordinates, one row per component. xyz of a row multiply a
+    // direction; w is the camera's position in scaled coordinates.
     vec4 x, y, z;
 };
 struct Surface {

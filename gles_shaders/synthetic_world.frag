@@ -32,8 +32,8 @@ vec2 distort(vec2 p, out mat2 jacobian) {
                              t.x * (r2 + 2.0 * p.y * p.y) + 2.0 * t.y * p.x * p.y);
 }
 
-// Returns the normalised ray of a pixel. The columns of `perPixel` are its derivatives by x and y
-// of the pixel.
+// Returns the normalised ray of a pixel. The columns of `perPixel` are the derivatives of the ray
+// by x and by y of the pixel.
 vec2 unproject(vec2 pixel, out mat2 perPixel) {
     Lens lens = params.lens;
     vec2 target = (pixel - vec2(lens.cx, lens.cy)) / vec2(lens.fx, lens.fy);

@@ -1,6 +1,7 @@
-// Finds the range of inverse depths of virtual surfaces for which visibility_sample.frag must weigh
-// samples of the real depth. Pixel (x, y) of the result holds the range for the 4x4 samples at the
-// video pixels from (x - 1, y - 1) to (x + 2, y + 2).
+// A virtual surface in front of all nearby samples of the real depth is visible. A surface behind
+// all of them is occluded. Finds the inverse depths between these two cases, for which
+// visibility_sample.frag must weigh the samples. Pixel (x, y) of the result is for the 4x4 samples
+// at the video pixels from (x - 1, y - 1) to (x + 2, y + 2).
 // In: inverse depth and sigma of the real scene [1/m], Rg32F.
 // Out: x: virtual surfaces with at least this inverse depth are in front of every sample. y:
 // virtual surfaces with at most this inverse depth are occluded by every sample; 0: there are no

@@ -1,6 +1,7 @@
-// Computes the light of a traced picture's objects as the present eye sees it. Distant light that
-// objects mirror is computed again from each pixel's normal and roughness, so that mirror images and
-// highlights move as in the scene. Must give the same results as pipeline/simd/mirror_rows.cpp.
+// Computes how the light on the traced picture's objects looks from the current position of the
+// camera (the eye). Mirrored light of the sky and the sun depends on the eye. So it is computed
+// again from each pixel's normal and roughness, and mirror images and highlights move as in
+// reality. Must give the same results as pipeline/simd/mirror_rows.cpp.
 // In: the traced picture's LightWords, packed surfaces and GlossWords; the layer's rays.
 // Out: see struct Light in warp_light.glsl.
 // Range: diffuse 0..65280, 0..65280, 0..65280, 1..1
@@ -18,9 +19,9 @@ layout(binding = 2) uniform usampler2D glosses;
 layout(binding = 3) uniform sampler2D rays;
 // The tables of MirrorLight, one below the other.
 layout(binding = 4) uniform sampler2D tables;
-// Row i: how a surface of roughness i / 255 mirrors light. Texel 0: first row and edge of the first
-// table in `tables`, weight of the second table, GGX parameter alpha. Texel 1: first row and edge of
-// the second table.
+// Row i describes how a surface of roughness i / 255 mirrors light: by a mixture of two tables.
+// Texel 0: first row of the first table in `tables`, edge length of this table, weight of the
+// second table, GGX parameter alpha. Texel 1: first row and edge length of the second table.
 layout(binding = 5) uniform sampler2D looks;
 layout(location = 0) out vec4 diffuse;
 layout(location = 1) out vec4 specular;
@@ -29,7 +30,9 @@ vec3 xyz(Row4 row) {
     return vec3(row.x, row.y, row.z);
 }
 
-// Folds the lower half of the octahedral map over the upper half, or back.
+// Octahedral map: directions with z < 0 lie in the corners of the square, where |x| + |y| > 1. For
+// z < 0, moves p from the inner part (|x| + |y| <= 1) to the corners, or from the corners to the
+// inner part. For other z, returns p unchanged.
 vec2 folded(float z, vec2 p) {
     vec2 other = (1.0 - abs(p.yx)) * mix(vec2(-1.0), vec2(1.0), greaterThanEqual(p, vec2(0.0)));
     return z < 0.0 ? other : p;
@@ -52,7 +55,8 @@ float fresnel(float facing, float cosine) {
     return facing + (1.0 - facing) * square * square * rest;
 }
 
-// A pixel's surface: unit normal, reflectance along it, SpecularAlbedo::full(), and row of `looks`.
+// How a pixel's surface mirrors light. `facing`: reflectance for light along the normal. `full`:
+// SpecularAlbedo::full(). `first`, `second`: the two texels of its row in `looks`.
 struct Mirror {
     vec3 normal;
     float facing, full;
@@ -91,8 +95,10 @@ float luminance(vec3 light) {
     return dot(light, vec3(0.2126, 0.7152, 0.0722));
 }
 
-// Splits the specular light `all`, which the traced picture's camera sees, into shares of sky and
-// sun and the rest. Returns what another eye sees of these.
+// Converts specular light from the traced picture's camera to the eye. `all` is the light that the
+// camera sees. `before` and `now` are the far light that camera and eye would see if nothing hid
+// it. Estimates which shares of `before` are contained in `all`. Returns the same shares of `now`,
+// plus the part of `all` that is not far light.
 vec3 seenFrom(vec3 all, FarLight before, FarLight now) {
     vec3 share = clamp(all / max(before.sky, vec3(1e-9)), 0.0, 1.0);
     float ofSky = luminance(before.sky), ofSun = luminance(before.sun);

@@ -1,4 +1,5 @@
-// Light on objects, as LightWords of base/light_word.h, and the colour of objects in this light.
+// Unpacks the light on objects (LightWords of base/light_word.h), and computes the colour of
+// objects in this light.
 
 vec3 unpackLight(uint word) {
     // 127 is the bias of a float's exponent; 15 and 8 are kLightBias and kLightBits.
@@ -6,7 +7,8 @@ vec3 unpackLight(uint word) {
     return scale * vec3(word & 255u, (word >> 8) & 255u, (word >> 16) & 255u);
 }
 
-// The alpha of `specular` is UnpackedLight::veil. The alpha of `diffuse` is 1.
+// Alpha of `specular`: UnpackedLight::veil, the share of the specular light that does not depend on
+// the surface's colour. Alpha of `diffuse`: 1.
 struct Light {
     vec4 diffuse, specular;
 };
@@ -20,7 +22,7 @@ struct Paint {
     vec3 diffuse, facing;  // linear, see base/paint_words.h
 };
 
-// Returns the colour of an object [sRGB], which is opaque.
+// Returns the colour of an opaque object [sRGB].
 vec4 litColour(Paint paint, Light light) {
     vec3 mirrored = mix(paint.facing, vec3(1.0), light.specular.a) * light.specular.rgb;
     vec3 sent = clamp(paint.diffuse * light.diffuse.rgb + mirrored, 0.0, 1.0);

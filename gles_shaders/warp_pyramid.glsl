@@ -1,9 +1,10 @@
-// The pyramid of push-pull filling (Gortler et al. 1996, section 3.5). Objects and the shadow
-// catcher have separate colours, so that these do not mix. Needs warp_hole_params.glsl.
+// The pyramid of push-pull filling (Gortler et al. 1996, section 3.5). The colours of objects and
+// of the shadow catcher are stored separately, so that they do not mix. Needs
+// warp_hole_params.glsl.
 
-// A texel of the pyramid, which stands for an area of the picture: colour of the object that covers
-// most of the area, and colour of the shadow catcher (both premultiplied; packed as RGBA8); number
-// of the object; weights of both colours [0, 1] (packed as bytes).
+// A texel of the pyramid. It stands for an area of the picture. `object`: colour of the object that
+// covers most of the area. `id`: number of this object. `catcher`: colour of the shadow catcher.
+// `weights`: weights [0, 1] of both colours. Colours are premultiplied.
 struct Area {
     vec4 object, catcher;
     uint id;

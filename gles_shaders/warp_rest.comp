@@ -4,11 +4,12 @@
 // A pixel is composed of an object and, below it, the shadow catcher.
 // In: list[] of warp_rest_list.comp. Out: colour, z and state of the pixels; holes[];
 // holeCommands[].
-// State, four components: number of the surface with unknown colour; share of the pixel with
-// unknown colour; 1 if this surface fills the pixel and no picture shows it; number of the surface
-// that fills the whole pixel with a known colour.
+// Components of the state. x: number of the surface whose colour is unknown. y: share of the pixel
+// whose colour is unknown. z: 1 if the surface in x fills the pixel and no picture shows it. w:
+// number of the surface that fills the pixel, if the whole colour is known. A number is 0 if there
+// is no such surface.
 // holes[] = pixels without a known colour: pixel index, colour so far (RGBA8). Bit 31 of the index:
-// the third component of the state is 1. Bit 30: the pixel is at an edge.
+// z of the state is 1. Bit 30: the pixel is at an edge.
 // holeCommands[0] = number of groups of 64 entries of holes[] (x), number of entries (w).
 // holeCommands[l] = dispatch command for pyramid level l, written with the first entry of holes[].
 // Range: depth 0..1e6

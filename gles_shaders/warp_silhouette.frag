@@ -12,8 +12,8 @@ layout(binding = 1) uniform sampler2D facingTexture;
 layout(binding = 2) uniform sampler2D alpha;
 #endif
 in vec2 texel;
-// Added to the mipmap level. Paint may be sharper than a single sample would need it, because the
-// mean of four samples is shown.
+// Added to the mipmap level, to make the paint sharper. This causes no aliasing, because a pixel
+// shows the mean of four samples.
 const float kSharper = -0.5;
 layout(location = 0) out uint surface;
 layout(location = 1) out vec4 diffuse;

@@ -2,8 +2,9 @@
 #include "lens_projection.glsl"
 
 #ifdef MOVING
-// Rows of the transforms from the layer's camera to each view, for each surface number: an object
-// may have moved since the view's picture was traced.
+// The rows of the transform from the layer's camera to each view, for each surface number. The
+// transform depends on the surface, because an object may have moved since the view's picture was
+// traced.
 layout(binding = 6) uniform sampler2D motions;
 
 vec3 placeIn(int v, uint id, vec3 point) {

@@ -17,11 +17,11 @@ struct SurfaceExtent {
     double nearest = std::numeric_limits<double>::max();
     double farthest = 0;
 
-    /// Extends the bounds to a point beyond the near plane, given as (w u, w v, w), see
-    /// LensProjection.
+    /// Extends the bounds so that they contain a point. The point lies beyond the near plane and is
+    /// given as (w u, w v, w), see LensProjection.
     void extend(const Eigen::Vector3d& point);
-    /// Extends the bounds to the part of the line from a to b that is beyond the near plane. Both
-    /// ends are given as (w u, w v, w).
+    /// Extends the bounds so that they contain the part of the line from a to b that lies beyond
+    /// the near plane. Both ends are given as (w u, w v, w).
     void extendBySegment(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
 };
 
@@ -31,10 +31,10 @@ class ObjectProjection {
 public:
     explicit ObjectProjection(const CameraModel& camera);
 
-    /// Returns the extents of all triangles that lie at least partly beyond the near plane, also
-    /// outside the picture. The depth ranges allow for a GPU that rounds corners to 1/256 px.
-    /// Returns no extents if pose or size is not finite or exceeds 100 km, or if a size is
-    /// negative. The result is valid until the next call.
+    /// Returns the extents of all triangles that lie at least partly beyond the near plane.
+    /// Triangles outside the picture are included. The depth ranges allow for a GPU that rounds
+    /// corners to 1/256 px. Returns no extents if pose or size is not finite or exceeds 100 km, or
+    /// if a size is negative. The result is valid until the next call.
     const std::vector<SurfaceExtent>& operator()(const VirtualObject& object,
                                                  const RigidTransform& T_world_video);
 

@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-// Parameters of the preview's shaders, some of which the warp's shaders use too.
+// Parameters of the preview's shaders. The warp's shaders use some of them too.
 // params_to_glsl.cmake translates this header to GLSL.
 namespace mfar::params {
 

@@ -11,11 +11,12 @@
 
 namespace mfar {
 
-/// Rule for measuring the shadow catcher. At first, it consists of the plane of the tag map and of
-/// the planes of other tags on which objects stand. After `settling` frames, a measured surface
-/// replaces the planes as soon as depth is known at a share of at least `leastKnown` of the pixels
-/// around the objects. The surface is measured again if at least `leastInterval` [s] have passed
-/// and the camera has moved around the objects by the angle `turn` [rad].
+/// Says when the shadow catcher (the invisible surface that receives the shadows of virtual
+/// objects) is measured. At first, the catcher consists of the plane of the tag map and of the
+/// planes of other tags on which objects stand. After `settling` frames, a measured surface
+/// replaces these planes as soon as depth is known at a share of at least `leastKnown` of the
+/// pixels around the objects. The surface is measured again if at least `leastInterval` [s] have
+/// passed and the camera has moved around the objects by the angle `turn` [rad].
 struct CatcherRule {
     int settling = 12;
     double leastKnown = 0.7;
@@ -23,14 +24,14 @@ struct CatcherRule {
     double leastInterval = 4;
 };
 
-/// Replaces the planes of tags, onto which shadows of virtual objects fall at first, by the
-/// measured surface of the real scene.
+/// Gives a scene its shadow catcher. Shadows of virtual objects fall onto the planes of tags at
+/// first, later onto the measured surface of the real scene.
 class SceneFollower {
 public:
     explicit SceneFollower(const CatcherRule& rule = {}) : rule_(rule) {}
 
-    /// Replaces the scene and starts again with the planes of tags as shadow catcher. Returns
-    /// the scene that must be shown.
+    /// Replaces the scene. Its shadow catcher consists of the planes of tags until the surface is
+    /// measured again. Returns the scene that must be shown.
     std::shared_ptr<const Scene> set(Scene scene);
 
     /// Changes the light. Returns the scene with the new light, which must be shown.

@@ -112,8 +112,8 @@ private:
     std::vector<Plane> planes_;
 };
 
-/// True if the ground hardly differs from the plane below and around `objects`, which are bounds in
-/// the ground's frame.
+/// True if the ground hardly differs from the plane below and around the objects. `objects` are the
+/// objects' bounds in the ground's frame.
 bool isSamePlane(const RigidTransform& T_plane_ground, const Eigen::AlignedBox3d& objects) {
     const double reach = kShadowReach * radiusOf(objects);
     for (const auto corner : {objects.BottomLeftFloor, objects.BottomRightFloor,

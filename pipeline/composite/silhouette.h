@@ -14,9 +14,9 @@ struct SurfaceRange {
     float nearest = 0, farthest = 0;
 };
 
-/// Finds the tiles of the video that contain virtual objects and the range of their z, on the CPU.
-/// The result can contain too many tiles and too wide ranges, but never too few tiles or too narrow
-/// ranges. Only the constructor allocates memory.
+/// Finds on the CPU the tiles of the video that contain virtual objects, and the range of the
+/// objects' z in each tile. The result can contain too many tiles and too wide ranges, but never
+/// too few tiles or too narrow ranges. Only the constructor allocates memory.
 class Silhouette {
 public:
     /// The range of a tile includes all surfaces within `margin` [video px] of its pixels.

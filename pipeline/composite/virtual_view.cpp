@@ -141,8 +141,9 @@ bool VirtualView::mayHide(const PixelRect& tile, float farthest,
 }
 
 // The real surface under a shadow always has nearly the same depth as the shadow. So its depth is
-// measured only if the known depth shows a real thing in front of the shadow at more than kMostGaps
-// pixels, or if its relative error is at least kShadowLift at more than kMostUnknown pixels.
+// measured in only two cases: the known depth shows a real thing in front of the shadow at more
+// than kMostGaps pixels, or the known depth has a relative error of at least kShadowLift at more
+// than kMostUnknown pixels.
 bool VirtualView::mayHideShadow(const PixelRect& tile, float nearest,
                                 const InverseDepthField& known) const {
     const float before = 1 / nearest;
@@ -154,8 +155,9 @@ bool VirtualView::mayHideShadow(const PixelRect& tile, float nearest,
     });
 }
 
-// True if at each pixel of the tile, except at most kMostGaps pixels with unknown depth, the real
-// surface is certainly nearer than `nearest`, the smallest z of the objects in and around the tile.
+// True if the real surface certainly hides all objects in and around the tile, whose smallest z is
+// `nearest`. At most kMostGaps pixels of the tile may have unknown depth. At all others, the real
+// surface must certainly be nearer than `nearest`.
 bool VirtualView::isHidden(const PixelRect& tile, float nearest,
                            const InverseDepthField& known) const {
     const TileBounds most{.findings = 0, .unknown = kMostGaps};

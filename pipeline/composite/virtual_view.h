@@ -35,21 +35,21 @@ public:
     void setScene(std::shared_ptr<const Scene> scene);
     [[nodiscard]] TracedLayer* traced() { return traced_.get(); }
 
-    /// Places the objects for a camera at this pose. Without a pose, no object is shown. Returns
-    /// the rectangle of the video pixels whose real depth must be measured to find which parts of
-    /// the objects are visible. It is empty if no object is in the picture, or if `known` shows
-    /// that the real scene lies behind all objects; even then, depth is measured in one of
-    /// kMostRelied + 1 frames. `known` is the approximate depth of the real scene as the camera
-    /// sees it.
+    /// Places the objects for a camera at this pose. Without a pose, no object is shown. `known` is
+    /// the approximate depth of the real scene as the camera sees it. Returns the rectangle of the
+    /// video pixels whose real depth must be measured to find which parts of the objects are
+    /// visible. The rectangle is empty if no object is in the picture. It is also empty in up to
+    /// kMostRelied frames in a row if `known` shows that the real scene lies behind all objects.
     PixelRect place(const std::optional<RigidTransform>& T_world_video, Timestamp time,
                     const InverseDepthField& known);
     [[nodiscard]] const PixelRect& region() const { return region_; }
     /// True if the real scene completely hides all placed objects. Shadows are ignored.
     [[nodiscard]] bool isHidden() const { return hidden_; }
     /// Returns which changes of the video require that the objects are drawn again. Always: they
-    /// are drawn even without a change, because objects changed, appeared or disappeared (or
-    /// SkipOptions::objectsAtRest is off). WithOthers: the camera has moved, so they are drawn if
-    /// any tile changed. WithThem: they are drawn only if a tile near them changed.
+    /// are drawn even if the video did not change, because objects changed, appeared or
+    /// disappeared, or because SkipOptions::objectsAtRest is off. WithOthers: they are drawn if any
+    /// tile changed, because the camera has moved. WithThem: they are drawn only if a tile near
+    /// them changed.
     [[nodiscard]] WorkPlan::Redraw redraw() const;
     /// Tiles of the video that must be drawn again before draw().
     [[nodiscard]] PixelRect staleTiles() const;

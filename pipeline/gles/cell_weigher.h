@@ -21,8 +21,8 @@ struct WeighInput {
     bool errorsGiven;  ///< true: `cells` has two-way errors (ErrorCell) instead of a backward field
 };
 
-/// Computes the weight of the still's detail in each cell. It depends on how well the still matches
-/// there and on the photometric gain between the sensors, which is measured as well.
+/// Computes the weight of the still's detail in each cell. The weight depends on how well the still
+/// matches there, and on the photometric gain between the sensors. The gain is measured as well.
 class CellWeigher {
 public:
     explicit CellWeigher(const StereoRig& rig);

@@ -85,7 +85,7 @@ DetailPainter::TileParams DetailPainter::tileParams() const {
 }
 
 // Sharpens the tiles that are drawn. Drawing a tile also reads sharpened pixels of neighbouring
-// tiles. So if the last frame was not sharpened, all tiles are sharpened.
+// tiles. So if the last frame was not sharpened, this frame is sharpened in all tiles.
 void DetailPainter::sharpen(const TileParams& params, const gpu::Texture& video,
                             const Matched& matched, const TileWork& work) {
     sharpen_.run(work.drawsWhole() || sharpenedIsOld_, params,
@@ -189,8 +189,8 @@ void DetailPainter::draw(const gpu::Texture& video, const Matched* matched, cons
         drawSecond(p, video, *matched, *filtersOf(options));
 }
 
-// Blends the detail of the second still over that of the first one, in the tiles where the second
-// still has more weight.
+// In tiles where the second still has more weight than the first one, blends the second still's
+// detail over the first still's.
 void DetailPainter::drawSecond(const TileParams& params, const gpu::Texture& video,
                                const Matched& matched, const FilterBank& filters) {
     const Matched& second = *matched.second;

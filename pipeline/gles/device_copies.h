@@ -13,7 +13,8 @@ namespace mfar {
 /// The GPU's copy of a field that has a single row, as a storage buffer.
 class BufferCopy final : public DeviceCopy {
 public:
-    /// Refers to `count` entries of `entryBytes` bytes of a step's buffer, from entry `first` on.
+    /// Refers to a part of a step's buffer: `count` entries of `entryBytes` bytes, beginning with
+    /// entry `first`.
     BufferCopy(const gpu::Buffer& buffer, int first, std::size_t count, std::size_t entryBytes)
         : buffer_(&buffer), first_(first), count_(count), entryBytes_(entryBytes) {}
     BufferCopy(std::size_t count, std::size_t entryBytes)

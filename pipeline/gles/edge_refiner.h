@@ -13,8 +13,8 @@
 namespace mfar {
 
 /// Sharpens a warped picture while the camera rests. The warp blurs edges and detail as fine as a
-/// pixel. Pixels there have a high contrast to their neighbours. They are listed and rendered
-/// individually; the rendered colours are shown until the camera moves.
+/// pixel. The blurred pixels are found by their high contrast to their neighbours, listed, and
+/// rendered individually. The rendered colours are shown until the camera moves.
 class EdgeRefiner {
 public:
     static constexpr int kLevels = params::kContrastLevels;

@@ -9,8 +9,9 @@
 
 namespace mfar {
 
-/// The light of a traced picture's objects as seen from another position: distant light that they
-/// mirror is computed again. GPU version of the SIMD engine's MovingMirrors.
+/// Computes how the light on a traced picture's objects looks from another camera position (the
+/// eye). Distant light that the objects mirror depends on this position, so it is computed again.
+/// GPU version of the SIMD engine's MovingMirrors.
 class EyeLight {
 public:
     explicit EyeLight(const CameraModel& layer);
@@ -19,7 +20,7 @@ public:
     void setTracedPicture(const TracedPicture& traced, const TracedTextures& textures);
     /// False if only the traced picture's colours are known.
     [[nodiscard]] bool isLit() const { return traced_ != nullptr && !traced_->light.empty(); }
-    /// Computes the textures for the position `eye` in the world. `rays`: see rayTexture(), of the
+    /// Computes the textures for the position `eye` in the world. `rays` is the rayTexture() of the
     /// layer's camera. Does nothing if isLit() is false. Mirrored light is unchanged if the pixels'
     /// gloss is unknown, or if the traced picture has another camera model than the layer.
     void run(const Eigen::Vector3d& eye, const gpu::Texture& rays);

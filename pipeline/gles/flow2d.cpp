@@ -79,9 +79,9 @@ void Flow2d::refine(const LumaOnGpu& luma, const TileBuffer& tiles, Cells forwar
 }
 
 // Searches the listed groups of cells from coarse to fine. There is no propagation, because the
-// neighbours of a listed group need not be listed. The flow along epipolar lines is a candidate at
-// every pyramid level. At the finest level, another vector replaces it only if it fits clearly
-// better (params::kClearlyLess).
+// neighbours of a listed group need not be listed. At every pyramid level, the flow along epipolar
+// lines is one of the candidates. At the finest level, another vector replaces this flow only if it
+// fits clearly better (params::kClearlyLess).
 void Flow2d::searchListed(const LumaOnGpu& luma) {
     const Direction way{luma.video, luma.still, forwardStages_, 0, 0, false};
     for (int level = static_cast<int>(way.stages.size()) - 1; level >= 0; --level) {
@@ -119,8 +119,8 @@ void Flow2d::search(const Direction& way, int level, int area, const LumaOnGpu& 
                 way.stages[level].groups);
 }
 
-// `prior`: index of the first cell of a field at the finest pyramid level, whose vectors are
-// candidates, or -1.
+// `prior`: index of the first cell of a field at the finest pyramid level. The vectors of this
+// field are candidates. -1: there is no such field.
 params::SearchFlow Flow2d::searchParams(const Direction& way, int level, int area, int radius,
                                         int prior) const {
     const Stage& stage = way.stages[level];

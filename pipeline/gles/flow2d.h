@@ -28,13 +28,13 @@ public:
     /// Throws std::invalid_argument if an option is out of range.
     explicit Flow2d(Size video, const Flow2dOptions& options = {});
 
-    /// Sets the options that can change between frames (see changed() in flow_options.h) for the
-    /// next run. Throws std::invalid_argument if an option is out of range.
+    /// Sets options for the next run. Only the options that can change between frames are set (see
+    /// changed() in flow_options.h). Throws std::invalid_argument if an option is out of range.
     void setOptions(const Flow2dOptions& options) { options_ = changed(options_, options); }
 
-    /// Computes the forward and the backward field. Does nothing if no tile is matched. With
-    /// `usePrior`, the last frame's flow vectors are candidates in all cells. It must be false
-    /// after a new still.
+    /// Computes the forward and the backward field. Does nothing if no tile is matched. If
+    /// `usePrior` is true, the last frame's flow vectors are candidates in all cells. `usePrior`
+    /// must be false after a new still.
     void run(const LumaOnGpu& luma, const TileBuffer& tiles, bool usePrior);
 
     /// Computes the forward field by refining `forward`: one flow vector per cell with an error of
@@ -58,12 +58,13 @@ public:
     /// vectors. False after run().
     [[nodiscard]] bool errorsGiven() const { return errorsGiven_; }
     [[nodiscard]] const Field& backward() const { return backward_; }
-    /// Index in cells() of the first vector of refine().
+    /// Index in cells() of the first of the vectors that refine() was given.
     [[nodiscard]] int seed() const { return seed_; }
 
 private:
-    /// The memory in cells_ for the flow in one direction at one pyramid level. It has two areas
-    /// (indices of their first cells), because propagation reads one and writes the other.
+    /// The memory in cells_ for the flow in one direction at one pyramid level. `area`: indices of
+    /// the first cells of two areas. There are two, because propagation reads one and writes the
+    /// other.
     struct Stage {
         Size cells;
         int area[2];

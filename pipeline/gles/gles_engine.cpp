@@ -12,8 +12,8 @@ public:
         : setup_(setup), stillRig_(stillFor(setup.output, setup.rig)),
           frame_(setup.rig.video.size) {}
 
-    // A frame is matched with up to two stills, which have steps of their own. `programs_` lets the
-    // steps of both use the same compiled programs.
+    // A frame is matched with up to two stills. Each still has steps of its own. `programs_` lets
+    // the steps of both stills use the same compiled programs.
     std::unique_ptr<StillStep> still() override {
         const gpu::ProgramCache::Use use(programs_);
         return gles::makeStillStep(setup_, frame_);

@@ -17,7 +17,7 @@ namespace mfar::gles {
 namespace {
 
 /// Returns the still's luma with amplified finest detail. If the SIMD engine prepared the still,
-/// the texture's second channel is the pixel below.
+/// the texture has a second channel: the luma of the pixel below.
 const gpu::Texture& raisedOf(const StillPictures& still) {
     const auto linear = gpu::Filter::Linear;
     return still.raised.isEmpty() ? textureOf(still.pairs, gpu::TexelFormat::Rg8, linear).texture()
@@ -109,8 +109,8 @@ public:
             return std::make_unique<TextureCopy>(still.luma.size(), gpu::TexelFormat::R8,
                                                  gpu::Filter::Linear);
         });
-        // If the SIMD engine prepared the still, the copy is a texture of its luma with the tone
-        // curve. The shaders read it as a grey picture.
+        // If the SIMD engine prepared the still, `copy` is a texture of the still's luma, to which
+        // the tone curve is already applied. The shaders read this texture as a grey picture.
         if (const auto* own = dynamic_cast<const StillLumaCopy*>(&copy))
             pyramids_.buildStill(own->texture(), own->tone(), rig_);
         else

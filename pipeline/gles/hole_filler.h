@@ -15,9 +15,9 @@
 namespace mfar {
 
 /// Lists pixels that the warp left without a known colour, and fills them from their surroundings.
-/// The CPU can read the list one or two frames later. Cracks of one pixel are always filled,
-/// because most neighbours of their pixels show the same surface. Larger areas are filled by
-/// push-pull on request.
+/// The CPU can read the list one or two frames later. Pixels in cracks of one pixel width are
+/// always filled, because most of their neighbours show the same surface. Larger areas are filled
+/// by push-pull on request.
 class HoleFiller {
 public:
     static constexpr int kLevels = 6;

@@ -60,8 +60,8 @@ LearnedEnlarger::LearnedEnlarger(Size video, Size output)
                             "#define AROUND\n#define LEARNED\n"),
       second_("tile_rect.vert", "composite_detail.frag", "#define SECOND\n") {}
 
-// Uploads the filters as half floats, because shaders unpack two of them in one instruction. They
-// keep only 11 of the 14 bits of a weight near 1.
+// Uploads the filters as half floats, because shaders unpack two half floats in one instruction. Of
+// the 14 bits of a weight near 1, a half float keeps only 11.
 void LearnedEnlarger::takeFilters(const FilterBank& filters) {
     if (number_ == filters.number()) return;
     std::vector<std::uint32_t> words;
@@ -99,8 +99,8 @@ void LearnedEnlarger::fillGrid(const gpu::Texture& video, const TileBuffer& tile
                   static_cast<GLuint>(2 * (where.y1 - where.y0)), 1});
 }
 
-// Each pass also reads neighbouring tiles of the results of the pass before. So if a pass did not
-// run in the last frame, it draws all tiles.
+// In a tile, each pass also reads results of the previous pass in neighbouring tiles. So if a pass
+// did not run in the last frame, it draws all tiles.
 void LearnedEnlarger::run(const gpu::Texture& video, const Seen* seen, const TileBuffer& tiles,
                           const FilterBank& filters, params::DrawTiles params,
                           const gpu::InstanceList& list) {

@@ -20,8 +20,9 @@ public:
     struct Seen {
         const gpu::Texture &still, &lookUps;
     };
-    /// Computes the inputs of composite_*.frag in the tiles of `list`, or in all tiles if the whole
-    /// frame is drawn or the last inputs are out of date. `seen` is null if there is no still.
+    /// Computes the inputs of composite_*.frag in the tiles of `list`. Computes them in all tiles
+    /// if the whole frame is drawn or the last inputs are out of date. `seen` is null if there is
+    /// no still.
     void run(const gpu::Texture& video, const Seen* seen, const TileBuffer& tiles,
              const FilterBank& filters, params::DrawTiles params, const gpu::InstanceList& list);
     /// Computes the inputs of composite_*.frag for a second still, in and around the tiles of

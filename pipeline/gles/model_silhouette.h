@@ -24,8 +24,9 @@ public:
     /// implementation cannot draw into R32UI.
     explicit ModelSilhouette(const CameraModel& layer);
 
-    /// Uploads the scene's meshes, which are simplified if the scene has more than 20000 triangles.
-    /// Surfaces with an alpha mask are not drawn where their alpha is below the mask's threshold.
+    /// Uploads the scene's meshes. If the scene has more than 20000 triangles, the meshes are
+    /// simplified. Surfaces with an alpha mask are not drawn where their alpha is below the mask's
+    /// threshold.
     void setScene(const Scene& scene);
     void setPoses(std::span<const RigidTransform> T_world_objects) {
         models_.setPoses(T_world_objects);

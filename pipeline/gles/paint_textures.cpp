@@ -12,7 +12,8 @@ namespace {
 
 using Texel = std::array<std::uint8_t, 4>;
 
-/// Returns the sRGB byte for each byte of PaintPicture.
+/// Returns a table from the bytes of PaintPicture, which are square roots of linear values, to sRGB
+/// bytes.
 const std::array<std::uint8_t, 256>& srgbOfRoot() {
     static const auto kBytes = [] {
         std::array<std::uint8_t, 256> out{};

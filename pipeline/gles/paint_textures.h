@@ -8,7 +8,8 @@
 
 namespace mfar::gles {
 
-/// A part's paint (see PaintWords): repeating sRGB textures with all mipmap levels.
+/// The paint of one part of a model (see PaintWords): repeating sRGB textures with all mipmap
+/// levels.
 struct PaintTextures {
     /// Pictures that are larger than the GPU's largest texture are reduced to that size.
     explicit PaintTextures(const PaintSource& source);
@@ -16,13 +17,13 @@ struct PaintTextures {
     gpu::Texture diffuse, facing;
 };
 
-/// Paint textures by their source. Parts with equal sources share textures.
+/// Finds the paint textures of a part by its source. Parts with equal sources share textures.
 class PaintStore {
 public:
     [[nodiscard]] std::shared_ptr<const PaintTextures> of(const PaintSource& source);
 
 private:
-    // Textures live as long as a part that uses them. Such a part also keeps the source's pictures
+    // Textures live as long as a part uses them. Such a part also keeps the pictures of the source
     // alive, so that no other picture gets their address.
     std::map<PaintSource, std::weak_ptr<const PaintTextures>> textures_;
 };

@@ -16,7 +16,7 @@ public:
     [[nodiscard]] const gpu::Texture& colour() const { return colour_; }
     [[nodiscard]] const gpu::Texture& surface() const { return surface_; }
     [[nodiscard]] const gpu::Texture& light() const { return light_; }
-    /// True if light was stored. Then it is valid for all objects.
+    /// True if the pictures contain light. The light of all objects is then valid.
     [[nodiscard]] bool isLit() const { return isLit_; }
 
 private:

@@ -12,8 +12,8 @@
 
 namespace mfar {
 
-/// The newest still, and the picture and luma that are computed from it once. Both are reduced if
-/// the output has a much lower resolution than the still.
+/// Stores the newest still as a picture and as luma, both computed once per still. Picture and luma
+/// are reduced if the output has a much lower resolution than the still.
 class StillReference {
 public:
     /// `output` is the size of the output picture, which shows the whole video picture. Stills are

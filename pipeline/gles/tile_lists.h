@@ -13,7 +13,8 @@ namespace mfar {
 /// pyramid level, lists the groups of 4x4 cells that the 2-D search must process.
 class TileLists {
 public:
-    /// Indices in `cells` of the first flow vector and of the first two-way error.
+    /// `vectors`: index in `cells` of the first flow vector. `errors`: index of the first two-way
+    /// error.
     struct Field {
         const gpu::Buffer& cells;
         int vectors, errors;
@@ -32,8 +33,8 @@ public:
     /// Commands of the indirect dispatches: 16 bytes for each pyramid level, finest level first.
     [[nodiscard]] const gpu::Buffer& commands() const { return commands_; }
 
-    /// Number of tiles that were listed until the last find() or clear() replaced the lists. Does
-    /// not wait for the GPU.
+    /// Length of the list of tiles that the last find() or clear() replaced. Does not wait for the
+    /// GPU.
     [[nodiscard]] int countBefore() const { return countBefore_; }
     [[nodiscard]] int count() const;
     /// Returns a flag for each tile, row-major: true if the tile is listed. Waits for the GPU.

@@ -18,10 +18,11 @@
 namespace mfar {
 
 /// Looks up the colours of a warped picture (eq. 5 of the paper in docs/paper.md). ModelSilhouette
-/// has drawn the surfaces that are visible at the current pose. The light on them comes from the
-/// traced picture or, if that does not show the surface, from the re-rendered pictures. Pictures
-/// without light give finished colours instead. A draw call processes simple pixels. A compute
-/// shader processes a list of all other pixels, for example at edges.
+/// has drawn the surfaces that are visible at the current pose. The light on a surface comes from
+/// the traced picture. If the traced picture does not show the surface, the light comes from the
+/// re-rendered pictures. Pictures without light give finished colours instead. A draw call
+/// processes simple pixels. A compute shader processes a list of all other pixels, for example at
+/// edges.
 class ViewLookUp {
 public:
     explicit ViewLookUp(const LensProjection& layer);
@@ -40,7 +41,7 @@ public:
     void run(const Input& input, const RigidTransform& T_world_camera, const PixelRect& where,
              const HoleFiller& holes);
     void clear(const PixelRect& where) const;
-    /// Must be called after each upload to the textures that run() gets.
+    /// Must be called after a traced picture was uploaded to the textures that run() gets.
     void setTracedPicture(const TracedPicture& traced, const TracedTextures& textures) {
         light_.setTracedPicture(traced, textures);
     }

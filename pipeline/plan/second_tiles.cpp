@@ -6,8 +6,8 @@ namespace mfar {
 namespace {
 
 constexpr int kCells = 4;
-// Raises the priority of tiles that the second still showed before. Without it, noise would change
-// the choice of tiles in every frame.
+// The priority of tiles that the second still showed before is multiplied by this. Otherwise, noise
+// would change the choice of tiles in every frame.
 constexpr float kRather = 1.5F;
 
 template <class Body>

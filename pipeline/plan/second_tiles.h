@@ -16,13 +16,14 @@ namespace mfar {
 class SecondTiles {
 public:
     /// The newest still counts as not showing a tile if the mean of (1 - weight) *
-    /// TrustCell::signal over the tile's cells is at least this. In the synthetic office scene, a
-    /// second still gained 0.14 dB with a value of 0.2, 0.18 dB with 0.1 and 0.19 dB with 0.05. A
-    /// value of 0.05 matches 1.5 times as many tiles as 0.1.
+    /// TrustCell::signal over the tile's cells is at least this limit. In the synthetic office
+    /// scene, a second still gained 0.14 dB with a limit of 0.2, 0.18 dB with 0.1 and 0.19 dB with
+    /// 0.05. With 0.05, 1.5 times as many tiles are matched as with 0.1.
     static constexpr float kLack = 0.1F;
     /// Smallest gain in mean weight that is worth the time of matching with the second still.
     static constexpr float kGain = 0.05F;
-    /// A tile that the second still does not show is not matched with it for this number of frames.
+    /// If the second still does not show a tile, the tile is not matched with it again for this
+    /// number of frames.
     static constexpr int kRest = 8;
 
     struct Match {
@@ -32,10 +33,10 @@ public:
 
     explicit SecondTiles(Size tiles);
 
-    /// Chooses at most `most` of the tiles that are drawn and matched in this frame, but that the
-    /// newest still does not show. Tiles with much structure, and tiles that the second still
-    /// showed before, are preferred. `measured` must belong to the same frame. The result is valid
-    /// until the next call.
+    /// Candidates are the tiles that are drawn and matched in this frame, but that the newest still
+    /// does not show. Chooses at most `most` of them. Tiles with much structure, and tiles that the
+    /// second still showed before, are preferred. `measured` must belong to the same frame. The
+    /// result is valid until the next call.
     const TileWork& choose(const TileWork& work, std::span<const TileMeasure> measured,
                            const Match& newest, int most);
     void judge(const Match& newest, Rows<const WeighedCell> second);

@@ -8,13 +8,13 @@ namespace mfar {
 namespace {
 
 constexpr int kTileBlock = 8;
-// kSpread: standard deviation of the mean square of noise in one tile, as a fraction of its
-// expected value. An excess of TileEnergy::means is significant above kSignificant standard
-// deviations.
+// kSpread: standard deviation of the mean square of noise in one tile, as a fraction of the
+// expected mean square. TileEnergy::means is significantly too large if it exceeds its expected
+// value by more than kSignificant standard deviations.
 constexpr double kSpread = 0.27;
 constexpr double kSignificant = 5;
-// Lower limit of the excess that counts as a drift, as a fraction of the noise. Rounding to 8 bits
-// is not white noise and can cause smaller excesses.
+// An excess of TileEnergy::means below this fraction of its value for noise never counts as a
+// change. Rounding to 8 bits is not white noise and can cause such excesses.
 constexpr double kLeast = 0.03;
 
 constexpr int kStructureBins = 84;  // a bin is a quarter of an octave

@@ -16,25 +16,26 @@ struct TileEnergy {
     double pixels = 0, means = 0, bends = 0;
 
     void add(const TileMeasure& tile);
-    /// True if `means` exceeds `grain` * `pixels`, its value for noise alone, by a significant
-    /// amount. This finds changes that are too weak to be found in one tile, such as a moving
+    /// For noise alone, `means` is about `grain` * `pixels`. Returns true if it is significantly
+    /// larger. This finds changes that are too weak to be found in one tile, such as a moving
     /// smooth slope of brightness.
     [[nodiscard]] bool drifted(double grain) const;
 };
 
-/// Marks all tiles of each block of 8x8 tiles that has drifted. Marks all tiles if the whole
-/// picture has drifted or `all` is true. `tiles` is row-major with `columns` tiles per row. Returns
-/// the sums over the tiles that were not marked before the call.
+/// Marks all tiles of a block of 8x8 tiles as changed if TileEnergy::drifted() is true for the
+/// block. Marks all tiles if it is true for the whole picture, or if `all` is true. `tiles` is
+/// row-major with `columns` tiles per row. Returns the sums over the tiles that were not marked
+/// before the call.
 TileEnergy markDrifted(std::span<TileMeasure> tiles, int columns, double grain, bool all);
 
-/// Marks a tile as changed if an adjacent tile certainly changed in a cell at their common border:
-/// enlarging a tile reads two pixels of the adjacent tile.
+/// Marks a tile as changed if, in an adjacent tile, a cell at the common border certainly changed.
+/// The tile must be drawn again, because enlarging it reads two pixels of the adjacent tile.
 void markBeside(std::span<TileMeasure> tiles, int columns);
 
-/// Chooses the tiles that are matched with the still: tiles whose structure exceeds the noise, and
-/// their neighbours, because the weight of a cell depends on pixels beyond its tile. If there are
-/// more tiles than `most`, the tiles with the most structure are chosen. Tiles of the last choice
-/// are preferred, so that noise does not make detail appear and vanish.
+/// Chooses the tiles that are matched with the still. These are the tiles whose structure exceeds
+/// the noise, and the neighbours of such tiles. (The weight of a cell depends on pixels beyond its
+/// tile.) If there are more of them than `most`, the tiles with the most structure are chosen.
+/// Tiles of the last choice are preferred, so that noise does not make detail appear and vanish.
 class StructuredTiles {
 public:
     /// `none` is the largest structure that noise alone causes. If it is negative, every tile has

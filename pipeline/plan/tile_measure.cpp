@@ -10,9 +10,9 @@
 namespace mfar {
 namespace {
 
-/// Reads a row of tiles from both pictures. Pixels outside the picture repeat the border pixels,
-/// and a repeated difference would look like a change. So these pixels are made equal in both
-/// pictures.
+/// Gives the pixels of a row of tiles in both pictures. Tiles at the right and lower border can
+/// extend beyond the picture. There, the border pixels would be repeated, and a repeated difference
+/// would look like a change. So the pixels outside are made equal in both pictures.
 class TileRow {
 public:
     TileRow(const RgbPlanes& now, const RgbPlanes& drawn, int row)

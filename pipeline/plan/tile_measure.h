@@ -10,24 +10,25 @@ namespace mfar {
 
 /// Measurements that decide whether a tile differs from the video with which it was last drawn.
 struct TileMeasure {
-    /// True if the tile certainly changed: the mean difference or the mean absolute difference of a
-    /// cell exceeds the noise, or mean and slopes of the difference over the whole tile exceed the
-    /// noise. The colour channel with the largest difference counts. markDrifted() can set
-    /// `changed` later.
+    /// True if the tile certainly changed. This is so if the mean difference or the mean absolute
+    /// difference of one of its cells exceeds the noise, or if the mean and the slopes of the whole
+    /// tile's difference together exceed it. The colour channel with the largest difference counts.
+    /// markDrifted() can set `changed` later.
     bool changed = false;
-    /// One bit for each cell, row-major: 1 if the cell's own differences exceed the thresholds of
-    /// ChangeBounds.
+    /// One bit for each cell, row-major: 1 if the cell certainly changed. Its mean absolute
+    /// difference then exceeds ChangeBounds::absolute, or its mean difference exceeds
+    /// ChangeBounds::mean and the noise in the tile.
     std::uint16_t changedCells = 0;
     float noise = 0;  ///< standard deviation of the video's noise [grey levels]
-    /// Structure of the luma that can be matched. The luma is averaged over 2x2 pixels, and a plane
-    /// fitted to 8x8 pixels is subtracted, because a plane cannot be matched. The result is the sum
-    /// of squares, averaged over 9 positions in the tile.
+    /// How much structure the luma has that a match can use. The luma is averaged over 2x2 pixels,
+    /// and a plane fitted to 8x8 pixels is subtracted, because a plane cannot be matched. The
+    /// result is the sum of squares of the rest, averaged over 9 positions in the tile.
     float structure = 0;
-    /// Three mean squares of the difference between both lumas, scaled so that white noise makes
-    /// them equal. Four values a b above c d have the twist (a - b - c + d) / 2; slopes do not
-    /// change it (after Immerkaer, Fast noise variance estimation, 1996). `pixels`: mean square of
-    /// the twists of 2x2 pixels. `means`: mean square of the means of 2x2 pixels. `bends`: mean
-    /// square of the twists of 2x2 such means.
+    /// Three mean squares, computed from the change of luma since the tile was last drawn. They are
+    /// scaled so that white noise makes them equal. `pixels`: of the twists of 2x2 pixels. `means`:
+    /// of the means of 2x2 pixels. `bends`: of the twists of 2x2 such means. Four values a b above
+    /// c d have the twist (a - b - c + d) / 2. Slopes do not change it (after Immerkaer, Fast noise
+    /// variance estimation, 1996).
     float pixels = 0, means = 0, bends = 0;
 };
 
@@ -35,7 +36,8 @@ struct ChangeBounds {
     /// Largest mean difference and largest mean absolute difference of an unchanged cell [grey
     /// levels].
     float mean, absolute;
-    /// Noise variance of 2x2 means, divided by a quarter of a pixel's noise variance.
+    /// Variance of the noise in the means of 2x2 pixels, divided by a quarter of the variance in
+    /// single pixels. It is 1 for white noise.
     float grain;
 };
 

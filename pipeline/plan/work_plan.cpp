@@ -10,33 +10,33 @@ namespace mfar {
 namespace {
 
 constexpr double kInitialNoise = 0.29;
-// Upper limit of the noise estimate [grey levels]. For a picture without any smooth tile, the
-// measured noise is too high.
+// Upper limit of the noise estimate [grey levels]. It is needed for pictures without any smooth
+// tile, in which texture is measured as noise.
 constexpr double kMaxNoise = 4.0;
 // The whole frame is drawn at once if at least this share of the tiles changed, because drawing
 // tile by tile costs 2.2 times as much per area (measured with llvmpipe).
 constexpr double kWholeShare = 0.45;
-// A frame that is enlarged as a whole gets its detail tile by tile if at most this share of the
-// tiles in detailTiles has structure. Otherwise, detail is drawn in all tiles of the rectangle at
-// once. Enlarging costs 0.4 times as much as drawing detail.
+// When a whole frame is enlarged, detail is drawn tile by tile if at most this share of the tiles
+// in detailTiles has structure. Otherwise, detail is drawn in all tiles of detailTiles at once.
+// Enlarging costs 0.4 times as much as drawing detail.
 constexpr double kListedShare = 0.27;
-// Smallest structure of a matched tile, as a multiple of the noise variance of a 2x2 mean. Noise
-// alone gives 13 (16 means minus three degrees of freedom of the plane). The second term is the
-// signal for which superres_weigh.comp gives detail a tenth of its weight. The variance of this
-// signal is 0.44 times the noise variance of a pixel, that is, 4 * 0.44 times the noise variance of
-// a 2x2 mean. It is summed over 16 means.
+// Smallest structure of a matched tile, in units of the noise variance of a 2x2 mean. First term:
+// noise alone gives 13, from 16 means minus three degrees of freedom of the plane. Second term: the
+// weakest useful signal. superres_weigh.comp gives its detail a tenth of the weight. The variance
+// of this signal is 0.44 times the noise variance of a pixel, that is, 4 * 0.44 times the noise
+// variance of a 2x2 mean. It is summed over 16 means.
 constexpr double kStructure = 13 + 16 * 4 * 0.44;
 constexpr double kRoundingVariance = 1.0 / 12;  // variance of 8-bit rounding [grey levels^2]
-// The grain estimate moves in each frame by one of these fractions of its difference to the
-// measured value. kGrainFalls applies if the measured value is lower. If it is higher, kGrainAtRest
-// applies to a picture at rest and kGrainMoving to a moving one.
+// In each frame, the grain estimate moves towards the measured value by a fraction of their
+// difference. The fraction is kGrainFalls if the measured value is lower. If it is higher, the
+// fraction is kGrainAtRest for a picture at rest and kGrainMoving for a moving picture.
 constexpr double kGrainFalls = 0.2, kGrainAtRest = 0.05, kGrainMoving = 1.0 / 256;
 // The picture counts as at rest if more than this share of the tiles is unchanged. Noise may mark
 // some tiles as changed.
 constexpr double kRestingShare = 0.75;
 constexpr double kMaxGrain = 8;
-// Largest grain that is accepted from one frame. The grain is a ratio, and without noise its
-// divisor is almost 0.
+// Largest grain that is accepted from one frame. The grain is a ratio. Without noise, its divisor
+// is almost 0.
 constexpr double kMostRatio = 64;
 constexpr int kNoiseBins = 64;  // number of bins of 1/16 grey level
 
@@ -60,9 +60,9 @@ void WorkPlan::drawnOver(const PixelRect& tiles, Redraw redraw) {
 
 void WorkPlan::update(const RgbPlanes& now, const RgbPlanes& drawn, bool force) {
     // Thresholds for noise of standard deviation s. The mean of 16 differences in a cell has a
-    // standard deviation of 0.35 s. Their mean absolute value is 1.13 s with a standard deviation
-    // of 0.21 s. Both thresholds are higher, because noise is stronger in bright regions and up to
-    // 1.5 times as strong in one colour channel as in luma.
+    // standard deviation of 0.35 s. The mean of their absolute values is 1.13 s, with a standard
+    // deviation of 0.21 s. Both thresholds are higher, because noise is stronger in bright regions,
+    // and up to 1.5 times as strong in one colour channel as in luma.
     const double noise = noise_ * std::sqrt(grain_);
     measureTiles(now, drawn,
                  {static_cast<float>(1.0 + 2.0 * noise), static_cast<float>(1.5 + 4.0 * noise),

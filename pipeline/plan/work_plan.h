@@ -18,38 +18,40 @@ namespace mfar {
 /// video from which the tile was last drawn. A frame without any changed tile costs only this
 /// comparison.
 ///
-/// A tile is drawn again when noise does not explain the difference. In addition, the differences
+/// A tile is drawn again when noise does not explain its difference. In addition, the differences
 /// are summed over the unchanged tiles of each block of 8x8 tiles, and of the whole picture. If a
-/// sum exceeds the noise, the whole block or picture is drawn again. The accumulated mean squared
-/// error stays below 3 % of the noise's variance, however slowly the scene changes. While nothing
-/// moves, nothing is drawn.
+/// sum exceeds what noise explains, the whole block or picture is drawn again. However slowly the
+/// scene changes, the accumulated mean squared error stays below 3 % of the noise's variance. While
+/// nothing moves, nothing is drawn.
 class WorkPlan {
 public:
-    /// `workers` are the threads that compare the tiles. Null: only the caller's thread does.
+    /// `workers` are the threads that compare the tiles. If it is null, the caller's thread
+    /// compares them.
     explicit WorkPlan(Size video, std::shared_ptr<Workers> workers = nullptr);
 
     /// Compares `now` with `drawn`, both of the video's size. If `force` is true, every tile counts
     /// as changed.
     void update(const RgbPlanes& now, const RgbPlanes& drawn, bool force);
-    /// Changes of the video after which an overlay (the virtual objects) is drawn again. WithThem:
-    /// a change of one of the overlay's tiles or of an adjacent tile. WithOthers: a change of any
-    /// tile. Always: it is drawn again even without a change.
+    /// Changes of the video that make it necessary to draw an overlay (the virtual objects) again.
+    /// WithThem: a change of one of the overlay's tiles or of an adjacent tile. WithOthers: a
+    /// change of any tile. Always: none; the overlay is drawn again in any case.
     enum class Redraw : std::uint8_t {
         WithThem,
         WithOthers,
         Always,
     };
-    /// Must be called after an overlay was drawn over these tiles of the output picture. If the
-    /// next update() finds that the overlay must be drawn again, all of these tiles count as
-    /// changed. update() resets `redraw` to WithThem.
+    /// Must be called after an overlay was drawn over these tiles of the output picture. `redraw`
+    /// says after which changes the overlay must be drawn again, and applies to the next update()
+    /// only. If that update() finds such a change, all of these tiles count as changed. Without a
+    /// new call, WithThem applies.
     void drawnOver(const PixelRect& tiles, Redraw redraw);
     /// Sets the smallest share of changed tiles, [0, 1], for which the whole frame is drawn at
     /// once. With 0, any changed tile is enough.
     void drawWholeFrom(double share) { wholeShare_ = share; }
-    /// From now on, only tiles with structure above the noise, and their neighbours, are matched
-    /// with the still; all other tiles are only enlarged. `mostShare`, (0, 1], limits the share of
-    /// matched tiles; tiles with the most structure are preferred. By default, all tiles are
-    /// matched.
+    /// From now on, only tiles with structure above the noise, and the neighbours of such tiles,
+    /// are matched with the still. All other tiles are only enlarged. `mostShare`, (0, 1], limits
+    /// the share of matched tiles; tiles with the most structure are preferred. By default, all
+    /// tiles are matched.
     void matchStructured(double mostShare) { matchedShare_ = mostShare; }
     void matchEverything() { matchedShare_ = 0; }
     [[nodiscard]] const TileWork& work() const { return work_; }
@@ -59,9 +61,9 @@ public:
     /// Standard deviation of the video's noise [grey levels], measured in the quietest tiles of
     /// earlier frames. Before the first frame it is the standard deviation of 8-bit rounding.
     [[nodiscard]] double noise() const { return noise_; }
-    /// Noise variance of 2x2 means, divided by a quarter of a pixel's noise variance. It is 1 for
-    /// white noise, and larger if the sensor has smoothed the noise. It is measured in unchanged
-    /// tiles of earlier frames.
+    /// Variance of the noise in the means of 2x2 pixels, divided by a quarter of the variance in
+    /// single pixels. It is 1 for white noise, and larger if the sensor has smoothed the noise. It
+    /// is measured in unchanged tiles of earlier frames.
     [[nodiscard]] double grain() const { return grain_; }
 
 private:

@@ -7,10 +7,10 @@
 
 namespace mfar {
 
-/// Returns for each object number the transform from the layer's camera to a picture's camera. It
-/// maps a point of the object at its present pose to the same point at the pose in the picture.
-/// Entry 0 is for surfaces that do not move. Empty if no object moves.
-/// `poses` are the objects' poses in the picture, T_world_object. `objects` have their present
+/// Returns one transform for each object number, from the layer's camera to the camera of an
+/// earlier picture. It maps a point of the object from where it is now to where it was in the
+/// picture. Entry 0 is for surfaces that do not move. Empty if no object moves.
+/// `poses` are the objects' poses T_world_object in the picture. `objects` have their present
 /// poses.
 [[nodiscard]] std::vector<RigidTransform>
 viewsOfObjects(const RigidTransform& T_world_view, std::span<const RigidTransform> poses,

@@ -59,8 +59,9 @@ std::uint32_t rootsOf(const std::array<float, 3>& linear) {
     return rootByte(linear[0]) | rootByte(linear[1]) << 8 | rootByte(linear[2]) << 16;
 }
 
-/// Converts base colour and metallic (the fourth value) to paint. The colour is clamped to [0, 1]
-/// as in TracedScene, so that a surface never reflects more light than it receives.
+/// Converts base colour (three values) and metallic (the fourth value) to paint. The colour is
+/// clamped to [0, 1] as in TracedScene, so that a surface never reflects more light than it
+/// receives.
 PaintWords wordsOf(const Values& base) {
     std::array<float, 3> diffuse{}, facing{};
     for (std::size_t c = 0; c < 3; ++c) {
@@ -78,8 +79,8 @@ void addSquares(std::uint32_t roots, float weight, std::array<float, 3>& sum) {
     }
 }
 
-/// Computes the next smaller pyramid level: means of 2x2 texels, or of up to three texels along a
-/// side of odd length.
+/// Computes the next smaller pyramid level. A texel is the mean of 2x2 texels. Along a side of odd
+/// length, it is a weighted mean of up to three texels.
 PaintPicture halved(const PaintPicture& picture) {
     const Size size = picture.size;
     const Size half{std::max(size.width / 2, 1), std::max(size.height / 2, 1)};

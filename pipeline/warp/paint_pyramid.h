@@ -9,8 +9,8 @@
 
 namespace mfar {
 
-/// The textures and factors that determine the paint of a part. Parts with equal sources have the
-/// same paint.
+/// The textures and factors that determine the paint of one part of a model. Parts with equal
+/// sources have the same paint.
 struct PaintSource {
     const SurfaceTexture *colour = nullptr, *metallic = nullptr;
     std::array<float, 4> factor{};  ///< base colour and metallic
@@ -26,9 +26,9 @@ struct PaintPicture {
     Size size;
     std::vector<PaintWords> texels;
 };
-/// Combines a material's textures of base colour and metallic into one picture of the larger size,
-/// with all smaller levels down to one texel; the largest level is the first. No side is longer
-/// than `longestSide` texels. Takes 4 ns per texel.
+/// Combines a material's textures of base colour and metallic into one picture. The picture has the
+/// size of the larger texture, but no side is longer than `longestSide` texels. Returns it and all
+/// smaller pyramid levels down to one texel, largest first. Takes 4 ns per texel.
 [[nodiscard]] std::vector<PaintPicture> paintPyramid(const PaintSource& source, int longestSide);
 
 }  // namespace mfar

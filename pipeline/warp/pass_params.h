@@ -45,7 +45,7 @@ struct alignas(16) Plane {
     float offset;
 };
 
-/// Number of workgroups of an indirect dispatch over the entries of a list.
+/// Indirect dispatch over the entries of a list. x, y, z: number of workgroups.
 struct alignas(16) DispatchGroups {
     std::uint32_t x, y, z;
     std::uint32_t count;  ///< length of the list
@@ -68,7 +68,8 @@ struct alignas(16) LookUpViews {
     std::int32_t texels;  ///< always 4, see warp_known.glsl
 };
 
-/// Light of a traced picture's objects, and the eye that sees it.
+/// Parameters of warp_eye_light.frag, which computes how the light on a traced picture's objects
+/// looks from a new position of the camera (the eye).
 struct alignas(16) EyeLight {
     Row4 axes[3];  ///< rows of the traced picture's R_world_camera
     Row4 eye;      ///< vector from the traced picture's camera to the eye, in the world [m]
@@ -77,8 +78,8 @@ struct alignas(16) EyeLight {
     std::int32_t mirrors;  ///< 1: mirrored light is computed for `eye`; 0: it stays unchanged
 };
 
-/// Position of one pyramid level in memory and in the picture. Missing pixels are filled from the
-/// pyramid.
+/// One level of the pyramid from which missing pixels are filled: its position in memory and in the
+/// picture.
 struct alignas(16) HoleLevel {
     std::int32_t first;  ///< index of this level's first texel in the array of all levels
     std::int32_t columns;
@@ -92,8 +93,8 @@ struct alignas(16) FillHoles {
     std::int32_t fillsAll;  ///< 1: fills all missing pixels; 0: only cracks
     std::int32_t level;
     std::int32_t levelCount;
-    std::int32_t rows, rowsBelow;  ///< rows of this pyramid level and of the level below
-    std::int32_t texels;  ///< always 4, see warp_known.glsl
+    std::int32_t rows, rowsBelow;  ///< rows of this pyramid level and of the next finer level
+    std::int32_t texels;
 };
 
 struct alignas(16) RefineEdges {

@@ -10,9 +10,9 @@
 
 namespace mfar {
 
-/// The last kPictures re-rendered pictures. Each consists of the pixels of one HoleAnswer, which
-/// were traced for the answer's camera pose. The warp looks up colours in them as in the traced
-/// picture. A new picture replaces the oldest.
+/// The last kPictures re-rendered pictures. Each consists of the pixels of one HoleAnswer. These
+/// were traced for the camera pose in the answer. The warp looks up colours in these pictures as in
+/// the traced picture. A new picture replaces the oldest.
 class RerenderedPictures {
 public:
     static constexpr int kPictures = 4;
@@ -37,8 +37,8 @@ public:
     /// frame.
     void age();
 
-    /// A picture's pose, and its weight `share` in the displayed colour [0, 1]. If `share` is 0,
-    /// there is no picture.
+    /// A stored picture: its camera pose, and its weight `share` in the displayed colour [0, 1]. If
+    /// `share` is 0, there is no picture.
     struct Picture {
         int slot = 0;
         RigidTransform T_world_camera;

@@ -13,10 +13,10 @@
 namespace mfar {
 namespace {
 
-// If the lens distorts the picture, triangle edges are cut into pieces. The longest piece is the
-// diagonal of the model's largest mesh or of the shadow catcher, divided by these numbers. At a
-// width of 640 px, straight pieces then differ from the distorted curves by less than a third of a
-// pixel.
+// If the lens distorts the picture, triangle edges are cut into pieces. The longest allowed piece
+// is the diagonal of the model's largest mesh divided by kModelPieces, or the diagonal of the
+// shadow catcher divided by kCatcherPieces. At a width of 640 px, straight pieces then differ from
+// the distorted curves by less than a third of a pixel.
 constexpr float kModelPieces = 16, kCatcherPieces = 32;
 // A software renderer needs 0.2 us per triangle. If a scene has n > kMostTriangles triangles, each
 // mesh keeps at most (its triangles) * kMostTriangles / n + kLeastTriangles of them.

@@ -68,8 +68,8 @@ bool cut(SurfaceMesh& mesh, float longest, std::size_t most) {
     return true;
 }
 
-/// A grid cell with vertices, which become one point. Points are relative to the centre of the
-/// mesh's bounding box, so that their differences are exact.
+/// A grid cell whose vertices are replaced by one point. Coordinates are relative to the centre of
+/// the mesh's bounding box, so that their differences are exact.
 class Cell {
 public:
     void add(const Eigen::Vector3f& vertex) {
@@ -82,9 +82,9 @@ public:
         offsets_ += area * offset * normal;
     }
     /// Returns the point with the smallest sum of squared distances from the planes, weighted with
-    /// the areas. In directions in which the planes hardly determine it, the point is the mean of
-    /// the vertices (Lindstrom 2000). Returns the mean if the point is farther than `farthest` from
-    /// it.
+    /// the areas. In directions in which the planes hardly determine this point, the mean of the
+    /// vertices is used (Lindstrom 2000). Returns the mean of the vertices if the point is farther
+    /// than `farthest` from this mean.
     [[nodiscard]] Eigen::Vector3f point(float farthest) const;
 
 private:
@@ -94,7 +94,8 @@ private:
 };
 
 Eigen::Vector3f Cell::point(float farthest) const {
-    // The planes determine a direction if its eigenvalue is at least this share of the largest.
+    // The planes determine the point along an eigenvector if its eigenvalue is at least this share
+    // of the largest eigenvalue.
     constexpr float kDetermined = 0.1F;
     const Eigen::Vector3f mean = sum_ / count_;
     Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> axes;

@@ -22,16 +22,17 @@ struct SurfaceMesh {
 
 /// Halves edges until no edge is longer than `longest` [m]. Triangles with a common edge cut it at
 /// the same points, so that no gap appears. `longest` is doubled until at most `mostTriangles`
-/// triangles result. A mesh with more triangles than this stays uncut. `uvs` has one entry per
-/// vertex or is empty. Triangles are omitted if a corner is not finite or an index is out of range.
+/// triangles result. A mesh that already has more triangles than `mostTriangles` stays uncut. `uvs`
+/// has one entry per vertex or is empty. Triangles are omitted if a corner is not finite or an
+/// index is out of range.
 [[nodiscard]] SurfaceMesh surfaceMesh(std::span<const Eigen::Vector3f> positions,
                                       std::span<const Eigen::Vector2f> uvs,
                                       std::span<const std::array<std::uint32_t, 3>> triangles,
                                       float longest, std::size_t mostTriangles = 50000);
 
-/// Reduces a mesh to at most `mostTriangles`. All corners in a grid cell are replaced by one point
-/// (Rossignac and Borrel 1993), which is near the planes of their triangles. So curved surfaces do
-/// not shrink, and sharp edges stay sharp.
+/// Reduces a mesh to at most `mostTriangles`. All vertices in a grid cell are replaced by one point
+/// (Rossignac and Borrel 1993). The point is near the planes of the triangles that meet in the
+/// cell, so curved surfaces do not shrink, and sharp edges stay sharp.
 [[nodiscard]] SurfaceMesh simplified(SurfaceMesh mesh, std::size_t mostTriangles);
 
 }  // namespace mfar

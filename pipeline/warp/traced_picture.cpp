@@ -17,8 +17,8 @@ using Rgba = std::array<std::uint8_t, 4>;
 
 constexpr int kMostSide = 16384;
 constexpr int kTracedTile = 16;
-// Object pixels with at least this alpha count as fully covered. A few missing samples are
-// invisible.
+// Object pixels with at least this alpha (of 255) count as fully covered. The missing samples are
+// so few that they are invisible.
 constexpr int kWhole = 250;
 // WarpSurface::tolerance is kDepthShare * z + kSlopes * (differences of z to neighbouring pixels),
 // but at most kMostShare * z. If no neighbour shows the surface, kUnknownSlope * z replaces the
@@ -76,8 +76,8 @@ private:
     Size size_;
 };
 
-/// Sets a pixel's colour and light to the mean of adjacent pixels on the same surface with an
-/// unmixed colour (isPlain()). Returns false if there are none.
+/// Replaces a pixel's colour and light by the mean of adjacent pixels that show the same surface
+/// and have an unmixed colour (isPlain()). Returns false if there are none.
 bool takeFromNeighbours(const PictureGrid& grid, std::span<const LightWords> light,
                         TracedPicture& r, int x, int y) {
     const int own = grid.id(x, y);
@@ -113,8 +113,8 @@ bool takeFromNeighbours(const PictureGrid& grid, std::span<const LightWords> lig
     return true;
 }
 
-/// Returns the smaller difference of z to the two neighbours along one axis. Only neighbours on the
-/// same surface count. Without any, the result is kUnknownSlope * z.
+/// Returns the smaller of the two differences of z to the neighbours along one axis. Only
+/// neighbours on the same surface count. If there is none, the result is kUnknownSlope * z.
 float slopeAlong(std::span<const WarpSurface> surface, Size size, int x, int y, int dx, int dy) {
     const auto at = [&](int i, int j) -> const WarpSurface& {
         return surface[static_cast<std::size_t>(j) * static_cast<std::size_t>(size.width) +
@@ -190,8 +190,8 @@ void requireAllPixels(const RenderedPicture& picture, std::size_t count) {
                                     "pixel or for none");
 }
 
-/// Marks the gloss of moving objects as unknown, so that their reflections are shown as traced.
-/// Gloss has normals in the world frame, which the warp does not rotate with the object.
+/// Marks the gloss of moving objects as unknown, so that their reflections are shown as traced. The
+/// normals in the gloss are in the world frame, and the warp does not rotate them with the object.
 void forgetGlossOfMoving(const RenderedPicture& picture, std::vector<GlossWords>& gloss) {
     if (gloss.empty() || picture.poses.empty() || !picture.scene) return;
     const std::vector<SceneObject>& objects = picture.scene->objects;

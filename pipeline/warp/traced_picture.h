@@ -33,15 +33,16 @@ struct TracedPicture {
     /// z with which the layer is drawn [m]; 0: no surface. On the shadow catcher it is smaller than
     /// the true z (see kShadowLift).
     std::vector<float> depth;
-    /// Colours for look-ups. In `picture`, the colour of an edge pixel is a mixture of surfaces,
-    /// unless the picture is layered (see RenderedPicture::layered). Here, such a pixel has the
-    /// mean colour of adjacent unmixed pixels of its own surface, if there are any. Colours of
-    /// objects are opaque; colours of the shadow catcher are premultiplied.
+    /// Colours for look-ups. At edges, a colour in `picture` is a mixture of surfaces, unless the
+    /// picture is layered (see RenderedPicture::layered). In `colour`, an edge pixel has the mean
+    /// colour of adjacent unmixed pixels of its own surface, if there are any. Colours of objects
+    /// are opaque. Colours of the shadow catcher are premultiplied.
     std::vector<std::array<std::uint8_t, 4>> colour;
     /// Light on each pixel's object, for look-ups. Empty if only colours are known.
     std::vector<LightWords> light;
-    /// Reflection of distant light by each pixel's object; unknown for moving objects. Empty if it
-    /// is unknown for all. The distant light is `mirrors` times `exposure`.
+    /// How the surface in each pixel mirrors distant light (sky and sun). Unknown for moving
+    /// objects; empty if unknown for all pixels. The distant light is stored in `mirrors` and must
+    /// be multiplied by the factor `exposure`.
     std::vector<GlossWords> gloss;
     std::shared_ptr<const MirrorLight> mirrors;
     float exposure = 1;
@@ -51,8 +52,8 @@ struct TracedPicture {
     std::vector<WarpSurface> surface;
     /// z and object number in one word, in the format of warp_surface.glsl.
     std::vector<std::uint32_t> packed;
-    /// A square part of the picture that shows a surface. If the view changes, no point of the tile
-    /// moves farther in the picture than the corner that moves farthest.
+    /// A square part of the picture that shows a surface. When the view changes, the tile's point
+    /// that moves farthest in the picture is one of its corners.
     struct Tile {
         PixelRect pixels;
         std::array<Eigen::Vector2d, 4> rays;  ///< normalised rays of the outer corners

@@ -11,8 +11,8 @@
 
 namespace mfar {
 
-/// Totals since the start. Only `openHoles` and `cracks` are of a single frame, the last one whose
-/// missing pixels were counted.
+/// Counters. `openHoles` and `cracks` are of the last frame whose missing pixels were counted. All
+/// others are totals since the start.
 struct WarpCounters {
     std::uint64_t warped = 0;     ///< frames that were warped
     std::uint64_t unmoved = 0;    ///< frames that show the traced picture without a warp
@@ -54,12 +54,13 @@ public:
 
     /// Returns the pixels to render individually: missing pixels of a recent frame, or edge pixels
     /// if camera and objects rest. At most mostRequested pixels are returned, evenly spread. Empty
-    /// if no pixels are known, or an earlier request for this scene is unanswered. Must be called
-    /// once per frame, also if the frame is not drawn because the camera rests. Never waits.
+    /// if no such pixels are known, or if an earlier request for this scene is not answered yet.
+    /// Must be called once per frame, even if the frame is not drawn because the camera rests.
+    /// Never waits.
     [[nodiscard]] std::optional<HoleRequest> takeRequest();
-    /// Adds the requested pixels; they are shown from the next run() on. Answers for another scene
-    /// are ignored. Throws std::invalid_argument if the answer's vectors have different lengths, a
-    /// pixel is outside the layer, or the pose is not finite.
+    /// Adds the rendered pixels of a request. They are shown from the next run() on. Answers for
+    /// another scene are ignored. Throws std::invalid_argument if the answer's vectors have
+    /// different lengths, a pixel is outside the layer, or the pose is not finite.
     void answer(const HoleAnswer& answer);
 
     [[nodiscard]] const WarpCounters& counters() const { return counters_; }

@@ -16,16 +16,16 @@ struct WarpOptions {
     /// Upper limit of the pixels in one request, at least 1. The default is 5 % of 640x480.
     int mostRequested = 15360;
     int holeSamples = 4;  ///< samples per pixel, [1, 4096]
-    /// Upper limit of the number of edge pixels that are rendered individually, as a share of the
-    /// objects' pixels, [0, 1]; 0: none. The warp blurs edges. While the camera rests, the rendered
-    /// pixels replace them.
+    /// The warp blurs edges. While the camera rests, edge pixels are rendered individually and
+    /// replace the warped ones. This is the upper limit of their number, as a share of the objects'
+    /// pixels, [0, 1]; 0: none.
     double sharpenShare = 0.4;
     int sharpenSamples = 40;  ///< samples per edge pixel, [1, 4096]
     /// Number of frames over which rendered pixels fade in, [0, 100]. Used only with
     /// HoleFilling::Both.
     int fadeFrames = 4;
-    /// If the pose moves all points by less than this distance, the traced picture is shown
-    /// unchanged [px], [0, 10].
+    /// If a new pose moves all points by less than this distance [px], [0, 10], the traced picture
+    /// is shown unchanged.
     double leastMotion = 0.1;
     bool operator==(const WarpOptions&) const = default;
 };

@@ -51,8 +51,8 @@ public:
     /// and not empty.
     virtual void addRerendered(const HoleAnswer& answer) = 0;
 
-    /// Lists the edge pixels of the last run() that have the most contrast, because the warp blurs
-    /// them. Discards the previous list and its rendered colours.
+    /// Lists those edge pixels of the last run() that have the most contrast, because the warp
+    /// blurs edges. Discards the previous list and its rendered colours.
     virtual void listEdges() = 0;
     /// Row-major indices of the listed pixels, ascending. Empty until the list is known. Never
     /// waits.
@@ -62,9 +62,10 @@ public:
     virtual void answerEdges(const HoleAnswer& answer) = 0;
     virtual void dropEdges() = 0;
 
-    /// State of each pixel as RGBA8, for tests. R: number of the surface with unknown colour. G:
-    /// share of the pixel with unknown colour. B: 255 if this surface fills the pixel and no
-    /// picture shows it. A: number of the surface that fills the whole pixel with a known colour.
+    /// State of each pixel as RGBA8, for tests. R: number of the surface whose colour is unknown.
+    /// G: share of the pixel whose colour is unknown. B: 255 if the surface in R fills the pixel
+    /// and no picture shows it. A: number of the surface that fills the pixel, if the whole colour
+    /// is known.
     [[nodiscard]] virtual const Field<std::uint32_t>& state() const = 0;
 };
 
