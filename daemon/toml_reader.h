@@ -16,7 +16,8 @@
 namespace mfar {
 
 /// Reads typed values from a TOML text. Collects all faults with their positions, so that one
-/// message reports all faults of a file. finish() reports keys that were not read as unknown.
+/// message reports all faults of a file. finish() reports all keys that were not read, because they
+/// are unknown.
 class TomlReader {
 public:
     /// Returns the fault of a text, or nothing if the text is valid.

@@ -12,9 +12,9 @@ namespace mfar::calibration {
 
 enum class TargetKind { AprilGrid, Checkerboard };
 
-/// A flat target whose corners can be identified. The first corner is the origin of its frame, and
-/// the x axis is along a row. The y axis points up (AprilGrid, as Kalibr defines it) or along a
-/// column (checkerboard). z is 0 for all corners.
+/// A flat target whose corners can be identified. The origin of its frame is the first corner, and
+/// the x axis is along a row. The y axis of an AprilGrid points up, as Kalibr defines it. The y
+/// axis of a checkerboard is along a column. z is 0 for all corners.
 struct Target {
     TargetKind kind = TargetKind::AprilGrid;
     int columns = 0, rows = 0;  ///< numbers of tags, or of a checkerboard's inner corners
