@@ -12,8 +12,8 @@
 
 namespace mfar {
 
-/// A queue of function calls that other threads request and the thread of a Target object executes.
-/// Thread-safe.
+/// A queue of function calls. Other threads request the calls, and the thread of a Target object
+/// executes them. Thread-safe.
 template <class Target>
 class CallQueue {
 public:

@@ -9,8 +9,8 @@
 namespace mfar {
 namespace {
 
-/// Longest time that a working camera needs for stop(). A camera that hangs must not delay the end
-/// of the process much longer.
+/// A working camera needs at most this time for stop(). The end of the process must not wait much
+/// longer for a camera that hangs.
 constexpr std::chrono::milliseconds kStopTime{100};
 
 }  // namespace

@@ -42,8 +42,8 @@ struct StatusConfig {
 };
 
 struct RecordConfig {
-    /// At each start, mfard records all frames and stills into a new folder inside this one. The
-    /// new folder's name is the time. Empty: nothing is recorded.
+    /// At each start, mfard creates a new folder in this directory, named after the current time.
+    /// It records all frames and stills into the new folder. Empty: nothing is recorded.
     std::filesystem::path directory;
     double leastFreeMb = 512;
     double mostMb = 0;  ///< largest size of one recording; 0: no limit

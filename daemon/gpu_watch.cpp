@@ -5,7 +5,7 @@
 namespace mfar {
 namespace {
 
-// Largest number of unfinished pictures on the GPU. It is the number of a display's buffers.
+// Largest number of unfinished pictures on the GPU. A display has the same number of buffers.
 constexpr std::size_t kMostInWork = 3;
 constexpr const char* kLate = "the GPU does not finish a picture";
 

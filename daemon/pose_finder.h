@@ -39,7 +39,7 @@ public:
     /// Returns the pose of a frame, or nothing if it is unknown. Frames must come in the order of
     /// their times.
     [[nodiscard]] std::optional<Pose> ofVideo(const Frame& video);
-    /// Searches tags in a still. This takes long, so a second thread may call this function while
+    /// Searches a still for tags. This takes long, so a second thread may call this function while
     /// the first thread calls the others.
     [[nodiscard]] StillMeasurement measure(const Frame& still);
     /// Returns the video camera's pose at the time of a still. `time` must not be later than the

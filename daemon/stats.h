@@ -105,7 +105,7 @@ struct Counted {
     std::optional<std::string> displayFault{};
     std::optional<std::string> gpuFault{};
     std::uint64_t gpuFailures = 0;
-    std::optional<Rendering> rendering{};  ///< the current rendering; not set: as at the start
+    std::optional<Rendering> rendering{};  ///< set if it has changed since the start
     ValidationCounts validation{};         ///< all 0 if shader outputs are not validated
     std::optional<ProcessUse> atFirstPicture;
     std::optional<LearningCounts> learning{};

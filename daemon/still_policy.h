@@ -47,8 +47,8 @@ public:
 
     void ask() { asked_ = true; }
 
-    /// Reports that the trigger could not fire, because its last pulse has not ended. The next call
-    /// of decide() fires it again.
+    /// Must be called if the trigger could not fire, because the previous pulse had not ended. The
+    /// next call of decide() requests the trigger again.
     void busy();
 
     /// Reports that a still is the reference from the next frame on. If the still was exposed

@@ -30,8 +30,8 @@ struct Target {
 [[nodiscard]] Target aprilGrid(int columns, int rows, double tagSize, double spacing,
                                int firstId = 0);
 /// Returns a checkerboard with `columns` x `rows` inner corners and squares of edge `square` [m].
-/// One number must be odd and the other even, because otherwise the checkerboard would look the
-/// same upside down. Throws std::runtime_error.
+/// One of the two numbers must be odd and the other even. Otherwise, the checkerboard would look
+/// the same upside down. Throws std::runtime_error.
 [[nodiscard]] Target checkerboard(int columns, int rows, double square);
 /// `corners` are the numbers of inner corners, such as "9x6". Throws std::runtime_error.
 [[nodiscard]] Target checkerboard(std::string_view corners, double square);
