@@ -20,9 +20,9 @@ constexpr milliseconds kPicture{2000};
 constexpr milliseconds kControl{500};
 constexpr milliseconds kMain{500};
 
-/// If systemd's watchdog is not fed for this time, systemd restarts mfard: WatchdogSec= of
-/// systemd/mfard.service.in. The threads whose budgets are added below may wait for each other,
-/// so the sum must be less than half of this time.
+/// systemd restarts mfard if the watchdog is not fed for this time, see WatchdogSec= in
+/// systemd/mfard.service.in. The threads whose budgets are added below may wait for each other, so
+/// the sum must be less than half of this time.
 constexpr milliseconds kWatchdog{10'000};
 static_assert(kCapture + kPicture + kControl + kMain < kWatchdog / 2);
 

@@ -21,10 +21,10 @@ public:
     /// must call runAll() regularly.
     explicit CallQueue(std::function<void()> wake = {}) : wake_(std::move(wake)) {}
 
-    /// Waits until the Target's thread has called `work`. Returns its result or throws its
-    /// exception. Throws std::runtime_error if the queue is already closed, and std::future_error
-    /// if it is closed during the wait. Also throws std::runtime_error if the wait is longer than
-    /// `limit`; `work` may still be called after that.
+    /// Waits until the Target's thread has called `work`. Returns the result of `work` or throws
+    /// its exception. Throws std::runtime_error if the queue is already closed, and
+    /// std::future_error if it is closed during the wait. Also throws std::runtime_error if the
+    /// wait is longer than `limit`; `work` may still be called after that.
     template <class Work>
     std::invoke_result_t<Work, Target&> call(Work work, std::chrono::milliseconds limit) {
         using Result = std::invoke_result_t<Work, Target&>;

@@ -160,8 +160,8 @@ bool ControlSocket::accept(std::vector<Client>& clients) {
         clients.push_back({OwnedFd(fd), Timestamp::now() + std::chrono::milliseconds(kRequestMs),
                            roleOfPeer(fd, operators_)});
     else if (errno == EMFILE || errno == ENFILE || errno == ENOBUFS || errno == ENOMEM)
-        // No descriptor or memory is left for the client. It stays in the socket's queue, so the
-        // next poll() returns at once. The pause prevents a busy loop.
+        // No descriptor or memory is left for a new client. The client stays in the socket's queue,
+        // so the next poll() returns at once. The pause prevents a busy loop.
         return !isReady(stop_.get(), POLLIN, kPauseMs);
     return true;
 }

@@ -13,9 +13,9 @@ namespace {
 constexpr double kRoom = 0.85;
 constexpr double kDownRoom = 0.95;
 // A faster level is chosen when more than kMostLate of the last kLateWindow counted frames are
-// late. Frames with a new still are not counted. While they are late, only one in kStillEvery
-// frames gets a new still. So at most one frame in twenty is late: one in 40 with a new still, and
-// one in 40 of the others.
+// late. Frames with a new still are not counted. If the last frame with a new still was late, only
+// one in kStillEvery frames gets a new still. So at most one frame in twenty is late: one in 40
+// with a new still, and one in 40 of the others.
 constexpr std::size_t kMostLate = 1;
 constexpr std::uint64_t kLateWindow = 40;
 // Smallest number of counted frames between a change of level and a change to a better level.
@@ -24,7 +24,7 @@ constexpr std::uint64_t kSettle = 8;
 // doubles with each further failure of the level, up to kLongestWait.
 constexpr std::uint64_t kFirstWait = 20, kLongestWait = 960;
 // If a level misses the deadline only after at least kHeld counted frames, the scene has changed.
-// The level is then not used for kFirstWait frames again, instead of the doubled number.
+// The level is then not used for the next kFirstWait frames, as after its first failure.
 constexpr std::uint64_t kHeld = 100;
 constexpr int kAtRest = 3;
 constexpr std::uint64_t kStillEvery = 40;

@@ -35,7 +35,7 @@ void requireMemory(const LimitsConfig& limits, Size video, Size still, std::stri
 
 /// The memory that is left for the models and environment pictures of one configuration. It begins
 /// with a sixth of the whole memory budget, and each file takes a part. A reload reads the new
-/// files before it releases the old ones, so together they may need two sixths.
+/// files before it releases the old ones, so old and new files together may need two sixths.
 class FileMemory {
 public:
     explicit FileMemory(const LimitsConfig& limits);

@@ -20,8 +20,8 @@ enum class HandOver {
 };
 
 /// Holds one item on its way from a sending to a receiving thread. If T has the member `void
-/// supersede(T&& older)`, it is called on a newer item that replaces an older one. So the newer
-/// item can keep parts of the older one. Thread-safe.
+/// supersede(T&& older)`, this function is called on a newer item that replaces an older one. So
+/// the newer item can keep parts of the older one. Thread-safe.
 template <class T>
 class Mailbox {
 public:

@@ -45,8 +45,8 @@ RigidTransform transformOf(const cv::Vec3d& rotation, const cv::Vec3d& translati
             {translation[0], translation[1], translation[2]}};
 }
 
-/// Six numbers by which views are compared. They describe where the target is in the view: its
-/// position in the picture (two numbers), distance, tilt (two numbers) and rotation.
+/// Six numbers by which views are compared. They describe the target in the view: its position in
+/// the picture (two numbers), distance, tilt (two numbers) and rotation.
 using Features = Eigen::Matrix<double, 6, 1>;
 
 Features featuresOf(const TargetView& view, const RigidTransform& T, Size picture) {
