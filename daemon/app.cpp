@@ -22,7 +22,8 @@ using Seconds = std::chrono::duration<double>;
 
 constexpr Seconds kLookTime{1};
 constexpr double kOpeningTime = 0.5;  // [s]
-/// All time limits are kFirstPatience times as long until this number of pictures was shown.
+/// The normal time limits apply after this number of pictures. Before that, all time limits are
+/// longer by the factor kFirstPatience.
 constexpr std::uint64_t kFirstPictures = 10;
 
 std::ofstream openSummary(const Options& options, const Config& config) {
@@ -35,7 +36,8 @@ std::ofstream openSummary(const Options& options, const Config& config) {
                           "of them a file");
         return file;
     }
-    // The file is opened now, because a failure after a long run would lose the summary.
+    // The file is opened at the start of the run. Otherwise, a wrong path would be noticed only
+    // after a long run, and the summary would be lost.
     file.open(*options.summary);
     if (!file)
         throw Failure(ExitCode::OutputFailed,
@@ -54,8 +56,8 @@ App::App(const Options& options, Log& log)
     signal(SIGPIPE, SIG_IGN);
     if (options_.report) {
         stats_.keepHistory();
-        // The report is written at the start too. So a file that cannot be written is noticed
-        // before a long run.
+        // A first report is written at the start of the run. If the file cannot be written, this is
+        // noticed before a long run.
         orFail(ExitCode::OutputFailed,
                [this] { writeReport(results("the run has not ended", 0)); });
     }
@@ -89,8 +91,8 @@ ExitCode App::run() {
         }
         return finish(end);
     } catch (const std::exception& error) {
-        // glThread's destructor waits for the end of its thread. So the thread gets a request to
-        // stop first.
+        // The destructor of `glThread` waits until the thread has ended, so the thread must be
+        // asked to stop first.
         input_.request_stop();
         cancel_.request_stop();
         if (isReading()) {
@@ -201,8 +203,8 @@ void App::onRead() {
     if (reload_) readAgain();
 }
 
-// Applies the settings that can change while mfard runs. Returns a message that names the settings
-// that need a restart.
+// Applies the settings that can change while mfard runs. Returns a message that names the changed
+// settings that take effect only after a restart.
 std::string App::take(const Config& wanted) {
     const std::string restart = needRestart(config_, wanted);
     config_.superres = wanted.superres;
@@ -275,7 +277,7 @@ void App::feedWatchdog(const Health& health) {
 
 void App::logHealth(const Health& health) {
     if (health.state == told_.state && health.cause == told_.cause) return;
-    // During a shutdown, no new pictures are expected, so this state is not a fault.
+    // During a shutdown, no new pictures are expected, so the state Stalled is not a fault.
     if (stopReason_ && health.state == HealthState::Stalled) return;
     // One camera may be opened later than the other, so a short fault at the start is not logged.
     if (health.isDevice && !isProven_ && health.sinceS < kOpeningTime) return;

@@ -30,19 +30,21 @@
 
 namespace mfar {
 
-/// The main thread, which handles signals, timers, status and shutdown. It waits only for its
-/// events, so that it can end the program even if a device or a driver hangs.
+/// The main thread of mfard. It handles signals, timers, status and shutdown. The main thread waits
+/// for events and never for a device or a driver, so it can end the program even if one of them
+/// hangs.
 ///
-/// After a signal, no more frames are fetched and the trigger line is set inactive. Frames that are
-/// being processed are still shown and written, within these limits:
-///   - If nothing is being written, the process ends after 0.2 s, even in the middle of a picture.
-///   - Otherwise, writing to slow readers of the display's pipe is cancelled after 0.4 s. The
-///     process ends 0.5 s later.
+/// After SIGINT or SIGTERM, no more frames are fetched and the trigger line is set inactive. Frames
+/// that are being processed are still shown and written, within these limits:
+///   - If nothing is being written, the process ends at most 0.2 s after the signal, even in the
+///     middle of a picture.
+///   - Otherwise, writing to slow readers of the display's pipe is cancelled 0.4 s after the
+///     signal, and the process ends at most 0.5 s later.
 /// A second signal ends the process at once. If the main thread itself hangs during the shutdown,
-/// LastResort ends the process 2.5 s after the signal.
+/// LastResort ends the process 2.5 s after the first signal.
 ///
-/// A run that ends without a signal waits for its output without a limit. Then it waits for its
-/// devices, for at most 2.5 s.
+/// If a run ends without a signal, it waits without a limit until its output is written. After
+/// that, it waits at most 2.5 s for its devices.
 class App {
 public:
     /// Throws ConfigError, Failure.
@@ -87,8 +89,9 @@ private:
     void removeControl() const;
     [[noreturn]] void leaveFailed(const std::exception_ptr& error);
     void onHangUp();
-    /// Starts a reload of the configuration. The future becomes ready when the file was read.
-    /// Throws std::runtime_error if mfard has no configuration file.
+    /// Starts a reload of the configuration. The returned future becomes ready when the file has
+    /// been read; it then has the answer for the user. Throws std::runtime_error if mfard has no
+    /// configuration file.
     std::shared_future<std::string> reload();
     void readAgain();
     [[nodiscard]] bool isReading() const;
@@ -100,7 +103,7 @@ private:
     std::filesystem::path startRecording(const std::string& name);
     [[nodiscard]] nlohmann::ordered_json stopRecording();
     void onTick();
-    /// Warns about each part of the objects' models that is not shown.
+    /// Warns about each part of the virtual objects' models that mfard does not show.
     void logNotes();
     void setTicks();
     [[nodiscard]] Health health(const Counted& counted);
@@ -133,14 +136,14 @@ private:
     std::optional<int> stopSignal_;
     std::optional<Ready> running_;
     std::optional<Over> ended_;
-    /// True after kFirstPictures pictures, because all shaders are compiled by then. Before that,
-    /// all time limits are kFirstPatience times as long.
+    /// True after kFirstPictures pictures. All shaders have been compiled by then. While this is
+    /// false, all time limits are longer by the factor kFirstPatience.
     bool isProven_ = false;
     bool patienceEnded_ = false;  ///< true: systemd's watchdog has its normal timeout again
     HealthRecord health_;
     Timestamp statusShown_;
-    /// `nextReload_` was requested while `reload_` was running. It starts after `reload_`, because
-    /// the file may have changed in the meantime.
+    /// A reload that is requested while `reload_` runs becomes `nextReload_`. It starts after
+    /// `reload_`, because the file may have changed since `reload_` read it.
     std::optional<Reload> reload_, nextReload_;
     Health told_;
     bool firstPictureShown_ = false;

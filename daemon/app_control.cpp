@@ -1,4 +1,5 @@
-// The commands of mfarctl. Each part of a command runs on the thread that owns the data it uses.
+// The commands of mfarctl. Only the thread that owns some data may use it. So a command may have
+// several parts that run on different threads.
 
 #include "daemon/app.h"
 
@@ -13,8 +14,8 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// Longest wait for the answer to a command of mfarctl. It exceeds the time that one picture takes
-/// on the slowest board.
+/// Longest wait for the answer to a command of mfarctl. Even on the slowest board, one picture
+/// takes less time.
 constexpr std::chrono::milliseconds kAnswerTime{10'000};
 
 }  // namespace
@@ -83,8 +84,8 @@ ordered_json App::statsNow() {
     return out;
 }
 
-// Runs on an answer thread of the control socket. It creates the recording's folder, so that the
-// session does not wait for the disk.
+// Runs on an answer thread of the control socket. The recording's folder is created on this thread,
+// so that the picture thread does not wait for the disk.
 std::filesystem::path App::startRecording(const std::string& name) {
     const auto make =
         sessionCalls_.call([name](Session& s) { return s.makeRecording(name); }, kAnswerTime);
@@ -93,8 +94,8 @@ std::filesystem::path App::startRecording(const std::string& name) {
     return std::filesystem::absolute(recorder->folder());
 }
 
-// Runs on an answer thread of the control socket. It completes the recording, so that the session
-// does not wait for the disk.
+// Runs on an answer thread of the control socket. The recording is completed on this thread, so
+// that the picture thread does not wait for the disk.
 ordered_json App::stopRecording() {
     const auto finish =
         sessionCalls_.call([](Session& s) { return s.stopRecording(); }, kAnswerTime);

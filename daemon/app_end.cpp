@@ -23,8 +23,9 @@ namespace {
 
 using Seconds = std::chrono::duration<double>;
 
-// Time limits after a signal. If no pictures are written, the process ends after kLeaveTime.
-// Otherwise, writing is cancelled after kFlushTime, and the process ends kCancelTime later.
+// Time limits after a signal. If no pictures are being written, the process ends kLeaveTime after
+// the signal. Otherwise, writing is cancelled kFlushTime after the signal, and the process ends
+// kCancelTime later.
 constexpr Seconds kLeaveTime{0.2};
 constexpr Seconds kFlushTime{0.4};
 constexpr Seconds kCancelTime{0.5};
@@ -45,7 +46,7 @@ void App::onSignal(int signal) {
         std::_Exit(128 + signal);
     }
     stopSignal_ = signal;
-    // No message is logged here, because writing to the log may be what hangs.
+    // No message is logged here: even if the log itself hangs, the signal must end the process.
     lastResort_.arm(kLastResort, [] { std::_Exit(static_cast<int>(ExitCode::Ok)); });
     stop(signalName(signal));
     events_.deadlineIn(writes() ? kFlushTime : kLeaveTime);
@@ -70,7 +71,7 @@ void App::onOver() {
 }
 
 // Ends the process if the run is ending and the picture thread hangs, e.g. in a driver of the GPU.
-// There is no limit for a run that only waits for its output.
+// A picture thread that waits for a slow output does not count as hanging.
 void App::leaveIfHanging() {
     if (!stopReason_ || stopSignal_ || ended_) return;
     for (const Heartbeats::Late& late : stats_.heartbeats().late(isProven_ ? 1 : kFirstPatience))
@@ -100,7 +101,7 @@ void App::removeControl() const {
     if (options_.control) std::filesystem::remove(*options_.control, ignored);
 }
 
-// Reports the failure and ends the process. main() would do the same, but run() cannot return to
+// Reports the failure and ends the process. Normally, main() does this, but run() cannot return to
 // main() while a thread hangs.
 void App::leaveFailed(const std::exception_ptr& error) {
     try {
@@ -140,12 +141,14 @@ ExitCode App::finish(std::future<std::string>& end) {
         const ExitCode code = writeResults(stopReason_.value_or(reason), ExitCode::Ok)
                                   ? ExitCode::Ok
                                   : ExitCode::OutputFailed;
-        // Reading a configuration cannot be interrupted, so the process does not wait for it.
+        // A thread that reads a configuration cannot be interrupted. So the process ends without
+        // waiting for that thread.
         if (isReading()) std::_Exit(static_cast<int>(code));
         return code;
     } catch (const std::exception& error) {
-        // If the reader of the display's pipe had stopped reading before the signal, the missing
-        // output is not a failure of mfard.
+        // After a signal, missing output is not a failure of mfard if the reader of the display's
+        // pipe was too slow. Either mfard cancelled the writing, or the reader had stopped reading
+        // before the signal.
         if (cancel_.stop_requested() || (stopSignal_ && counted.displayFault)) {
             log_.warning(fmt::format("not all output was written: {}", error.what()), {},
                          {message::kEnded});
@@ -154,8 +157,9 @@ ExitCode App::finish(std::future<std::string>& end) {
         }
         (void)writeResults(fmt::format("error: {}", error.what()), exitCode(error));
         if (!stopSignal_) throw;
-        // The error is not thrown, because main() would then wait for systemd's restart. After a
-        // signal, systemd does not restart mfard.
+        // The error is logged here and not thrown. For a thrown error, main() would pause before
+        // the process ends, to delay systemd's restart. After a signal, the process must end
+        // without that pause.
         log_.error(error.what());
         return exitCode(error);
     }

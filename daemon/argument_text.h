@@ -16,8 +16,8 @@ struct ArgumentText {
     [[nodiscard]] bool isPositional() const { return !names.starts_with('-'); }
 };
 
-/// Returns the arguments of a parser, without those of its subcommands. ArgumentText::meaning
-/// includes the valid values, range and default that the parser knows.
+/// Returns the arguments of a parser, without those of its subcommands. ArgumentText::meaning also
+/// tells the valid values, range and default, if the parser knows them.
 [[nodiscard]] std::vector<ArgumentText> argumentTexts(const CLI::App& app);
 
 }  // namespace mfar

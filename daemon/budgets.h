@@ -20,23 +20,25 @@ constexpr milliseconds kPicture{2000};
 constexpr milliseconds kControl{500};
 constexpr milliseconds kMain{500};
 
-/// WatchdogSec= of systemd/mfard.service.in. The threads above may wait for each other, so the sum
-/// of their budgets must be less than half of this time.
+/// systemd restarts mfard if the watchdog is not fed for this time, see WatchdogSec= in
+/// systemd/mfard.service.in. The threads whose budgets are added below may wait for each other, so
+/// the sum must be less than half of this time.
 constexpr milliseconds kWatchdog{10'000};
 static_assert(kCapture + kPicture + kControl + kMain < kWatchdog / 2);
 
-/// Thread of a camera: opening, stopping or closing the camera once. The driver of USB cameras
-/// waits 5 s for an answer, several times in a row. Meanwhile, other threads show a banner.
+/// Thread of a camera: opening, stopping or closing the camera once. This may take long, because
+/// the driver of a USB camera may wait 5 s for an answer, several times in a row. Pictures with a
+/// banner are shown meanwhile.
 constexpr milliseconds kOpener{20'000};
 
 // If one of the following threads hangs, pictures can still be made.
 /// Reload thread: reading the configuration and models from files.
 constexpr milliseconds kReload{60'000};
-/// Answer thread: answering one request of mfarctl. Its waits for other threads and for the client
-/// have shorter limits.
+/// Answer thread: answering one request of mfarctl. Each wait of this thread, for another thread or
+/// for the client, has a shorter limit.
 constexpr milliseconds kAnswer{20'000};
-/// Longest time that one picture waits for the disk, or for the reader of the display's pipe. A
-/// longer wait is reported as a fault of the display.
+/// Time that one picture may wait for the disk, or for the reader of the display's pipe. A longer
+/// wait is reported as a fault of the display.
 constexpr milliseconds kTaken{2000};
 /// Writer thread: writing one picture to a file or pipe. A still of 12 megapixels takes 2 s on a
 /// small board.
@@ -48,8 +50,8 @@ constexpr milliseconds kLearning{60'000};
 constexpr std::string_view kPictureThread = "picture";
 
 constexpr std::chrono::milliseconds kStalePicture{3000};
-/// Factor of all time limits while the first pictures are made. Compiling their shaders is slow on
-/// a small board.
+/// All time limits are longer by this factor while the first pictures are made, because compiling
+/// shaders is slow on a small board.
 constexpr int kFirstPatience = 6;
 
 }  // namespace mfar

@@ -12,25 +12,26 @@
 
 namespace mfar {
 
-/// A queue of function calls that other threads request and the thread of a Target object executes.
-/// Thread-safe.
+/// A queue of function calls. Other threads request the calls, and the thread of a Target object
+/// executes them. Thread-safe.
 template <class Target>
 class CallQueue {
 public:
-    /// `wake` notifies the Target's thread of a new call. If `wake` is empty, that thread must
-    /// poll.
+    /// `wake` tells the Target's thread that a call is waiting. If `wake` is empty, that thread
+    /// must call runAll() regularly.
     explicit CallQueue(std::function<void()> wake = {}) : wake_(std::move(wake)) {}
 
-    /// Waits until the Target's thread has called `work`. Returns its result or throws its
-    /// exception. Throws std::runtime_error if the queue was closed or `limit` has passed. In the
-    /// latter case, `work` may still be called later.
+    /// Waits until the Target's thread has called `work`. Returns the result of `work` or throws
+    /// its exception. Throws std::runtime_error if the queue is already closed, and
+    /// std::future_error if it is closed during the wait. Also throws std::runtime_error if the
+    /// wait is longer than `limit`; `work` may still be called after that.
     template <class Work>
     std::invoke_result_t<Work, Target&> call(Work work, std::chrono::milliseconds limit) {
         using Result = std::invoke_result_t<Work, Target&>;
         auto task = std::make_shared<std::packaged_task<Result(Target&)>>(std::move(work));
         std::future<Result> result = task->get_future();
-        // The queue holds the only reference to the task. If it discards the task, the promise is
-        // broken, and the caller's wait ends.
+        // The queue holds the only reference to the task. If the queue discards the task, the
+        // promise is broken, and the caller's wait ends.
         put([task = std::move(task)](Target& target) { (*task)(target); });
         if (result.wait_for(limit) != std::future_status::ready)
             throw std::runtime_error("mfard is too busy to answer; try again later");

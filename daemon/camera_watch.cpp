@@ -54,7 +54,8 @@ void CameraWatch::add(const CameraCounters& counters) {
     state_.counters = counters;
     if (counters.missed) return;
     state_.counters.delivered = frames_;
-    // Without a configured frame rate, intervals between frames do not show missing frames.
+    // Missing frames show in the intervals between frames only if the camera has a configured frame
+    // rate.
     if (kind_ != CameraKind::Stored && state_.configuredHz > 0)
         state_.counters.missed = drops_.dropped();
 }

@@ -21,8 +21,8 @@ struct CameraState {
     CameraCounters counters{};
     std::uint64_t repeated = 0;  ///< number of pictures equal to the previous one
     std::optional<Timestamp> lastFrame{};
-    /// Time of the last picture that differed from the previous one. Not set: repeated pictures are
-    /// not detected.
+    /// Time of the last picture that differed from the one before it. Not set if repeated pictures
+    /// are not detected.
     std::optional<Timestamp> lastDistinct{};
     std::optional<double> distinctAgeS{};
     bool repeats = false;  ///< true: one picture was repeated for more than kRepeatTime
@@ -35,8 +35,8 @@ enum class CameraKind {
     Sensor,  ///< like Live, but pictures have noise: rate and repeated pictures are checked, too
 };
 
-/// Checks the frames of one camera: the frame rate, repeated pictures, and missing frames if the
-/// camera does not count them. Only one thread may use it.
+/// Checks the frames of one camera for a wrong frame rate and for repeated pictures. Counts missing
+/// frames if the camera itself does not count them. Only one thread may use it.
 class CameraWatch {
 public:
     /// The user is warned if the frame rate differs from the configured one by more than
@@ -73,8 +73,8 @@ private:
     std::vector<std::string> warnings_;
 };
 
-/// Returns a checksum of at most sixteen rows of the first plane, spread over the picture. Because
-/// of a sensor's noise, it differs between any two pictures.
+/// Returns a checksum of at most sixteen rows of the first plane, spread over the picture. Two
+/// pictures of a sensor always differ in their noise, so their checksums differ, too.
 [[nodiscard]] std::uint64_t sparseChecksum(const ImageView& picture);
 
 }  // namespace mfar

@@ -9,8 +9,8 @@
 namespace mfar {
 namespace {
 
-/// Longest time that a working camera needs for stop(). A camera that hangs must not delay the end
-/// of the process much longer.
+/// A working camera needs at most this time for stop(). The end of the process must not wait much
+/// longer for a camera that hangs.
 constexpr std::chrono::milliseconds kStopTime{100};
 
 }  // namespace
@@ -55,7 +55,8 @@ void CaptureThread::stop() {
 void CaptureThread::join() {
     if (!thread_.joinable()) return;
     while (isOver_.wait_for(kStopTime) != std::future_status::ready)
-        // The capture thread still waits for its camera, so this thread finishes the recording.
+        // If the capture thread still waits for a live camera, that camera may hang. So this
+        // function finishes the recording itself and does not wait for the thread.
         if (rig_.handOver() == HandOver::NewestWins && video_.isWaiting())
             return rig_.finishRecording();
     thread_.join();
@@ -73,8 +74,8 @@ void CaptureThread::run() {
     }
     if (stills_) stills_->stop();
     out_.finish();
-    // The capture thread finishes the recording here, while the picture thread works on its last
-    // picture. So the shutdown takes less time.
+    // The capture thread finishes the recording here, while the picture thread still works on its
+    // last picture. This shortens the shutdown.
     try {
         rig_.finishRecording();
     } catch (...) {
@@ -90,7 +91,8 @@ FramePairer::NextStill CaptureThread::stillSource() {
 
 bool CaptureThread::captureOne(FramePairer& pairer, Heartbeat& heart) {
     std::optional<Frame> video = video_.next(kFrameWait);
-    // This thread reports faults, because the picture thread may work on a picture for a while.
+    // The capture thread reports faults, because the picture thread may be busy with one picture
+    // for a while.
     stats_.fault(rig_.fault());
     if (stills_) stills_->check();
     if (!video) return !stopped_ && !video_.ended();
@@ -103,11 +105,11 @@ bool CaptureThread::captureOne(FramePairer& pairer, Heartbeat& heart) {
         if (!still.measured) still.measured = poses_.measure(still.frame);
         still.pose = poses_.place(*still.measured, still.frame.time());
     }
-    // Predicted poses and poses of stills are not recorded. When the recording is played, they are
-    // predicted and interpolated again.
+    // Predicted poses and poses of stills are not recorded. When the recording is played,
+    // Recording::poseAt() interpolates between the recorded poses.
     if (captured.pose && poses_.isMeasured(*captured.pose)) rig_.recordPose(*captured.pose);
-    // With a lossless source, put() waits until the previous picture is processed. That is not a
-    // fault.
+    // With a lossless source, put() waits until the previous picture has been processed. This wait
+    // must not count as a hanging thread.
     if (rig_.handOver() == HandOver::Lossless) heart.rest();
     const auto put = out_.put(std::move(captured));
     if (put == Mailbox<CapturedFrame>::Put::Replaced) stats_.mailboxDropped(out_.dropped());

@@ -47,7 +47,8 @@ public:
 
     explicit FramePairer(NextStill nextStill) : nextStill_(std::move(nextStill)) {}
 
-    /// Takes all stills up to the time of the frame. Returns the frame with the newest of them.
+    /// Fetches all stills that were exposed up to the time of the frame. Returns the frame together
+    /// with the newest of these stills.
     [[nodiscard]] CapturedFrame pair(Frame video, Timestamp arrived);
 
 private:
@@ -55,26 +56,26 @@ private:
     std::optional<CapturedStill> upcoming_;  ///< a still that is later than the last video frame
 };
 
-/// The thread that fetches video frames, finds their poses and puts the frames into the mailbox. So
-/// this thread searches a frame for tags while the picture thread works on the previous frame.
+/// The thread that fetches video frames, finds their poses and puts the frames into the mailbox. It
+/// searches the next frame for tags while the picture thread still works on the previous one.
 ///
-/// With a live source, the still camera has a thread of its own, so that the video continues if the
-/// still camera hangs. With a lossless source, this thread also reads the stills, so that the order
-/// is reproducible.
+/// A live still camera is read by another thread, so that the video continues if the still camera
+/// hangs. The stills of a lossless source are read by this thread, so that the order of frames and
+/// stills is the same in each run.
 class CaptureThread {
 public:
     /// Starts the cameras and the thread. All arguments must outlive this object. Throws Failure.
     CaptureThread(Rig& rig, PoseFinder& poses, Stats& stats, Mailbox<CapturedFrame>& out);
     CaptureThread(const CaptureThread&) = delete;
     CaptureThread& operator=(const CaptureThread&) = delete;
-    /// Waits for the threads, even if one hangs in a camera.
+    /// Waits until the threads have ended. If a thread hangs in a camera, this wait does not end.
     ~CaptureThread();
 
     /// Stops the cameras and closes the mailbox. Thread-safe; a second call does nothing.
     void stop();
-    /// Waits for the end of the thread, but not for a live camera that hangs. Must be called after
-    /// stop(). Throws the error that ended the thread: Failure if a camera failed or a frame had a
-    /// wrong size.
+    /// Waits until the thread has ended, but does not wait for a thread that hangs in a live
+    /// camera. Must be called after stop(). Throws the error that ended the thread: Failure if a
+    /// camera failed or a frame had a wrong size.
     void join();
 
 private:

@@ -42,8 +42,8 @@ struct StatusConfig {
 };
 
 struct RecordConfig {
-    /// At each start, mfard records all frames and stills into a new folder inside this one. The
-    /// new folder's name is the time. Empty: nothing is recorded.
+    /// At each start, mfard creates a new folder in this directory, named after the current time.
+    /// It records all frames and stills into the new folder. Empty: nothing is recorded.
     std::filesystem::path directory;
     double leastFreeMb = 512;
     double mostMb = 0;  ///< largest size of one recording; 0: no limit
@@ -96,8 +96,8 @@ public:
 /// Failure(NoInput) if it cannot be read.
 [[nodiscard]] std::string readConfigText(const std::filesystem::path& file);
 
-/// Returns the keys that differ between two configurations and take effect only after a restart,
-/// e.g. "source, display". The text is empty if there are none.
+/// Returns the keys that have different values in the two configurations and take effect only after
+/// a restart, e.g. "source, display". Returns an empty text if there are none.
 [[nodiscard]] std::string needRestart(const Config& running, const Config& wanted);
 
 /// These functions convert between a value and its word in the configuration and on the command

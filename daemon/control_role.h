@@ -20,8 +20,8 @@ inline constexpr const char* kOperatorsGroup = "mfar-operators";
 [[nodiscard]] ControlRole roleOf(uid_t user, std::span<const gid_t> groups,
                                  std::optional<gid_t> operators);
 
-/// Returns the role of the process at the other end of a Unix socket: Observer if the kernel does
-/// not report the process.
+/// Returns the role of the process at the other end of a Unix socket. Returns Observer if the
+/// kernel does not report that process.
 [[nodiscard]] ControlRole roleOfPeer(int socket, std::optional<gid_t> operators);
 
 }  // namespace mfar

@@ -160,14 +160,15 @@ bool ControlSocket::accept(std::vector<Client>& clients) {
         clients.push_back({OwnedFd(fd), Timestamp::now() + std::chrono::milliseconds(kRequestMs),
                            roleOfPeer(fd, operators_)});
     else if (errno == EMFILE || errno == ENFILE || errno == ENOBUFS || errno == ENOMEM)
-        // The client that was not accepted stays in the socket's queue, so poll() returns at once.
-        // The pause prevents a busy loop.
+        // No descriptor or memory is left for a new client. The client stays in the socket's queue,
+        // so the next poll() returns at once. The pause prevents a busy loop.
         return !isReady(stop_.get(), POLLIN, kPauseMs);
     return true;
 }
 
-// Reads data of a request, up to the end of the line or of the client's data. A request that is too
-// long is cut off; its length shows that to the handler.
+// Reads the next part of a client's request. A request is complete at the end of its line, at the
+// end of the client's data, or when it is longer than kLongestRequest. The handler refuses a
+// request that is too long.
 void ControlSocket::read(Client& client) {
     std::array<char, 1024> part{};
     const ssize_t bytes = recv(client.fd.get(), part.data(), part.size(), 0);

@@ -42,7 +42,7 @@ public:
 
     /// Creates the socket and begins to listen. Replaces the socket file of a process that has
     /// died. Throws Failure(Unavailable) if another process listens at `path` or the path cannot be
-    /// used. The threads register at `hearts`, which must outlive this object.
+    /// used. The threads of this object register at `hearts`, which must outlive this object.
     ControlSocket(std::filesystem::path path, Handler handler, Heartbeats* hearts = nullptr);
     ControlSocket(const ControlSocket&) = delete;
     ControlSocket& operator=(const ControlSocket&) = delete;

@@ -15,12 +15,12 @@
 
 namespace mfar {
 
-/// All objects that make pictures, with or without a GL context, except the objects of the display.
-/// If there is a GL context, it must be current when a Drawing is created, used and destroyed. If
-/// the context is lost, the Drawing must be created again.
+/// All objects that make pictures, except the display. They work with or without a GL context. If
+/// there is a GL context, it must be current while a Drawing is created, used or destroyed. After a
+/// loss of the GL context, a new Drawing must be created.
 struct Drawing {
-    /// `gl` must outlive this object. Its pointer may be null, or become null, if GL is not used.
-    /// Throws GlError.
+    /// The pointer `gl` must outlive this object. If GL is not used, `gl` may be null, or become
+    /// null later. Throws GlError.
     Drawing(const Config& config, const StereoRig& rig, Size output,
             const std::unique_ptr<GlContext>& gl);
 

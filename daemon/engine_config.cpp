@@ -78,7 +78,7 @@ std::string describe(const EngineChoice& choice) {
     return out;
 }
 
-// There are only 64 choices, so the text is compared with the description of each choice.
+// Compares the text with the description of every possible choice. There are only 64.
 std::optional<EngineChoice> parseEngineChoice(std::string_view text) {
     for (unsigned bits = 0; bits < 1U << kSteps.size(); ++bits) {
         EngineChoice choice;

@@ -30,11 +30,11 @@ struct EngineConfig {
 
 void readEngine(TomlReader& file, EngineConfig& engine);
 
-/// Returns `decided`, changed for those steps whose engine is set in the configuration.
+/// Returns `decided`, except that steps whose engine is set in the configuration get that engine.
 [[nodiscard]] EngineChoice withWishes(const EngineConfig& engine, EngineChoice decided);
 
-/// Returns "simd" or "gles" if all steps run on that engine, otherwise "still gles, flow simd,
-/// ...".
+/// Returns "simd" or "gles" if all steps run on one engine. Otherwise, returns the engine of each
+/// step, e.g. "still gles, flow simd" and so on.
 [[nodiscard]] std::string describe(const EngineChoice& choice);
 [[nodiscard]] std::optional<EngineChoice> parseEngineChoice(std::string_view text);
 

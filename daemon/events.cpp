@@ -87,8 +87,8 @@ void Events::deadlineIn(std::chrono::duration<double> time) {
 
 void Events::wake() {
     const std::uint64_t one = 1;
-    // write() fails only if the counter has its largest value. The main thread then wakes up
-    // anyway.
+    // write() fails only if the eventfd's counter is at its maximum. The main thread wakes up even
+    // then.
     [[maybe_unused]] const ssize_t n = write(wake_.get(), &one, sizeof one);
 }
 

@@ -17,9 +17,9 @@ struct Event {
     int signal = 0;
 };
 
-/// The events for which the main thread waits. The constructor blocks SIGINT, SIGTERM and SIGHUP in
-/// its thread and in all threads that this thread starts later. So only this class reports these
-/// signals.
+/// Reports the events for which the main thread waits. The constructor blocks SIGINT, SIGTERM and
+/// SIGHUP in the calling thread and in all threads that it starts later. So these signals are
+/// reported by this class only.
 class Events {
 public:
     /// Throws std::system_error.

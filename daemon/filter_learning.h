@@ -23,20 +23,21 @@ namespace mfar {
 
 struct FilterLearningOptions {
     std::filesystem::path file;
-    /// Names and picture sizes of the sensors; other sensors need other filters.
+    /// Names and picture sizes of the sensors. Learned filters are valid for these sensors only.
     std::string sensors;
-    /// True: every still is learned from, and finish() waits for that. So the same pictures give
-    /// the same filters. False: the learning thread has low priority. It skips stills that come
-    /// while it works, and stills for which it would need more than a tenth of a CPU.
+    /// True: learns from every still, and finish() waits until this is done. So the same pictures
+    /// always give the same filters. False: the learning thread has a low priority and skips some
+    /// stills. These are stills that come while it works, and stills for which it would need more
+    /// than a tenth of a CPU.
     bool waits = false;
     /// If the rig is set, guidance is learned, too, see enlarge::GuidanceLearner.
     std::optional<StereoRig> rig = std::nullopt;
     WatchedThread watched{};  ///< the learning thread, with the time budget for one still
 };
 
-/// Learns the enlarger's filters from matched stills, in a thread of its own. The picture thread
-/// copies one still at a time for the learning thread. The learning thread stores what it has
-/// learned, at most once a minute; stop() stores the rest.
+/// Learns the enlarger's filters from matched stills, on a thread of its own. The picture thread
+/// gives this learning thread a copy of one still at a time. The learning thread stores what it has
+/// learned, at most once a minute. stop() stores the rest.
 class FilterLearning final : public MatchListener {
 public:
     /// Reads the learned state from the file. If that fails, queues a warning and learns from the
@@ -49,8 +50,8 @@ public:
     /// Cancels learning from the current still and stores the state. This may wait for the disk.
     void stop();
 
-    // Only the picture thread may call the following functions. Only finish() waits for the
-    // learning thread.
+    // The following functions are for the picture thread only. They do not wait for the learning
+    // thread, except for finish().
     void matched(const RgbPlanes& video, Rows<const std::uint8_t> still,
                  Rows<const LookUpCell> lookUps,
                  const MatchedPictures::LookedUp& lookedUp) override;
@@ -80,13 +81,15 @@ private:
 
     const FilterLearningOptions options_;
     EnlargerLearner learner_;  // used by thread_, the constructor and stop() only
-    // `pictures_` holds the new still. `older_` holds the still before it, with the last frame
-    // drawn with that still. The picture thread owns both; while isFull_ is set, thread_ owns them.
+    // `pictures_` holds the new still. `older_` holds the still before it and the last frame that
+    // was drawn with that older still. The picture thread owns both while isFull_ is false, and
+    // thread_ owns both while isFull_ is true.
     MatchedPictures pictures_, older_;
     std::optional<RgbPlanes> olderVideo_;
     bool hasOlder_ = false;    // true: `older_` is the still before the one in `pictures_`
     bool olderTaken_ = false;  // picture thread only; true: `older_` was set since the last still
-    // The frame of `older_`, matched with the new still. Only thread_ uses truth_ and matcher_.
+    // The frame in `older_`, matched with the new still instead of the older one. Only thread_ uses
+    // truth_ and matcher_.
     MatchedPictures truth_;
     std::unique_ptr<FrameMatcher> matcher_;
 

@@ -8,22 +8,23 @@
 namespace mfar {
 namespace {
 
-// Largest expected time of a level that may be chosen, as a share of the deadline. kRoom is for
-// changes to a better level, kDownRoom for changes to a faster one.
+// The governor changes to a level only if the level's expected time is at most this share of the
+// deadline: kRoom for a change to a better level, kDownRoom for a change to a faster one.
 constexpr double kRoom = 0.85;
 constexpr double kDownRoom = 0.95;
 // A faster level is chosen when more than kMostLate of the last kLateWindow counted frames are
-// late. Frames with a new still are not counted. If frames with a new still are late, only one in
-// kStillEvery frames gets a new still. So at most one frame in twenty is late.
+// late. Frames with a new still are not counted. If the last frame with a new still was late, only
+// one in kStillEvery frames gets a new still. So at most one frame in twenty is late: one in 40
+// with a new still, and one in 40 of the others.
 constexpr std::size_t kMostLate = 1;
 constexpr std::uint64_t kLateWindow = 40;
 // Smallest number of counted frames between a change of level and a change to a better level.
 constexpr std::uint64_t kSettle = 8;
-// A level that missed the deadline is not used for kFirstWait counted frames. This number doubles
-// with each failure, up to kLongestWait.
+// A level that missed the deadline is not used for the next kFirstWait counted frames. This number
+// doubles with each further failure of the level, up to kLongestWait.
 constexpr std::uint64_t kFirstWait = 20, kLongestWait = 960;
-// If a level misses the deadline after it was used for at least kHeld counted frames, the scene has
-// changed. The next wait for this level is then kFirstWait again.
+// If a level misses the deadline only after at least kHeld counted frames, the scene has changed.
+// The level is then not used for the next kFirstWait frames, as after its first failure.
 constexpr std::uint64_t kHeld = 100;
 constexpr int kAtRest = 3;
 constexpr std::uint64_t kStillEvery = 40;

@@ -10,16 +10,18 @@
 
 namespace mfar {
 
-/// Chooses for each frame the most accurate level of a quality table that keeps a deadline. It only
-/// uses the times of frames. Only one thread may use it.
+/// Chooses a level of a quality table for each frame: the most accurate level that keeps a
+/// deadline. It uses nothing but the times of frames. Only one thread may use it.
 ///
 /// The expected time of a level is its time in the table, multiplied by a factor for this machine
-/// and scene. The factor is the second largest ratio of measured time to table time among the last
-/// 20 counted frames; the largest, if there are fewer than ten. If two of 40 counted frames are
-/// late, the governor chooses the best faster level that is expected to keep the deadline. If a
-/// better level is expected to need at most 85 % of the deadline, the governor chooses the best
-/// such level. A level that missed the deadline is not used again for some frames. The number of
-/// these frames doubles each time.
+/// and scene. The factor comes from the ratios of measured time to table time of the last 20
+/// counted frames. It is the second largest of these ratios, or the largest if there are fewer than
+/// ten.
+///
+/// If two of 40 counted frames are late, the governor changes to the best faster level that is
+/// expected to keep the deadline. If better levels are expected to need at most 85 % of the
+/// deadline, it changes to the best of them. A level that missed the deadline is not used again for
+/// some frames. The number of these frames doubles each time.
 ///
 /// Three types of frames are not counted: frames in which nothing changed, frames with a new still,
 /// and frames without a still at a level that uses one. When the picture comes to rest, it is drawn
@@ -48,12 +50,14 @@ public:
     /// Must be called for every frame. Frames whose time is negative or not finite are ignored.
     void add(const Frame& frame);
 
-    /// Returns false if the level uses no still. Also returns false if the last frame with a new
-    /// still was late and is so recent that another one would make too many frames late.
+    /// Returns true if the next frame may get a new still. Returns false if the level uses no
+    /// still. If the last frame with a new still was late, returns false for some frames, so that
+    /// not too many frames are late.
     [[nodiscard]] bool mayTakeStill() const;
 
     [[nodiscard]] double deadlineMs() const { return deadline_; }
-    /// Returns the number of level changes, without those for pictures at rest.
+    /// Returns the number of level changes. The change to the best level for a picture at rest does
+    /// not count.
     [[nodiscard]] std::uint64_t changes() const { return changes_; }
 
 private:
@@ -76,7 +80,7 @@ private:
     double deadline_;
     std::size_t level_ = 0;
     Choice next_;
-    // The previous frame. The next call of add() tells if anything changed in it.
+    // The previous frame. Only the next call of add() tells whether anything changed in it.
     std::optional<Pending> pending_;
     std::array<double, kWindow> ratios_{};  // measured time / table time, ring buffer
     std::size_t ratioCount_ = 0;
@@ -84,8 +88,8 @@ private:
     std::uint64_t changedAt_ = 0;        // value of frame_ at the last change of level
     std::vector<std::uint64_t> lateAt_;  // value of frame_ at each late frame since that change
     struct Trial {
-        // The level is not used before frame_ reaches notBefore. `wait` is the length of the
-        // level's last wait [counted frames].
+        // The level is not used until frame_ reaches `notBefore`. `wait` is the number of counted
+        // frames for which the level was last not used.
         std::uint64_t notBefore = 0, wait = 0;
     };
     std::vector<Trial> trials_;

@@ -21,9 +21,10 @@ struct GovernorConfig {
 
 void readGovernor(TomlReader& file, GovernorConfig& governor);
 
-/// Returns the levels among which the governor chooses, or only the pinned level. The list is empty
-/// without a deadline and a pinned level. Throws ConfigError if the table is invalid or lacks the
-/// pinned level, and Failure(NoInput) if the table cannot be read.
+/// Returns the levels among which the governor chooses. If a level is pinned, returns only that
+/// level. If there is neither a pinned level nor a deadline, returns an empty list. Throws
+/// ConfigError if the table is invalid or lacks the pinned level, and Failure(NoInput) if the table
+/// cannot be read.
 [[nodiscard]] std::vector<QualityLevel> governedLevels(const GovernorConfig& governor);
 
 }  // namespace mfar

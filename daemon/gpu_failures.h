@@ -24,11 +24,11 @@ public:
 
     /// Counts a loss. Returns true if the GPU must not be used any more.
     [[nodiscard]] bool add(Timestamp now, std::string why);
-    /// Returns a message about a loss within the last kWindow, or nothing. If the GPU is not used
-    /// any more, the message stays for ever.
+    /// Returns a message if the GPU was lost within the last kWindow, otherwise nothing. After
+    /// mfard has stopped using the GPU, always returns a message.
     [[nodiscard]] std::optional<std::string> fault(Timestamp now);
-    /// Returns the text of a banner: fault() during the time kWindow after mfard stopped using the
-    /// GPU, otherwise nothing.
+    /// Returns the text for a banner. It is fault() for the time kWindow after mfard has stopped
+    /// using the GPU. Before and after that time, returns nothing.
     [[nodiscard]] std::optional<std::string> banner(Timestamp now);
 
 private:

@@ -5,7 +5,7 @@
 namespace mfar {
 namespace {
 
-// Largest number of unfinished pictures on the GPU. It is the number of a display's buffers.
+// Largest number of unfinished pictures on the GPU. A display has the same number of buffers.
 constexpr std::size_t kMostInWork = 3;
 constexpr const char* kLate = "the GPU does not finish a picture";
 
@@ -36,7 +36,8 @@ void GpuWatch::drawn() {
     if (context_) inWork_.push_back({gpu::Fence(), Timestamp::now()});
 }
 
-// The type of the exception does not suffice, because a lost GPU may cause any exception.
+// A lost GPU may cause exceptions of any type. So the type of `error` does not show whether the GPU
+// was lost, and the context is asked as well.
 std::optional<std::string> GpuWatch::lossBehind(const std::exception& error) const {
     if (!context_) return std::nullopt;
     if (const auto* lost = dynamic_cast<const GpuLost*>(&error)) return lost->what();

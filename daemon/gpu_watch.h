@@ -15,25 +15,26 @@ namespace mfar {
 /// Checks that the GPU finishes its pictures and was not reset. Only the GL context's thread may
 /// use it.
 ///
-/// A GPU that does not finish within half a second counts as lost. A software renderer may take
-/// longer and does not count as lost, but each single wait for it is limited to half a second, too.
+/// If the GPU does not finish a picture during a wait of half a second, it counts as lost. A
+/// software renderer never counts as lost for this reason, but each wait for it is limited to half
+/// a second, too.
 class GpuWatch {
 public:
     /// `context` must outlive this object. While its pointer is null, nothing is checked.
     explicit GpuWatch(const std::unique_ptr<GlContext>& context) : context_(context) {}
 
-    /// Must be called before each picture. If the GPU has three unfinished pictures, or has worked
-    /// on one for half a second, waits at most half a second. Throws GpuLost if the GPU was lost or
-    /// has still not finished the oldest picture. Returns false if a software renderer has not
-    /// finished that picture; then nothing may be drawn.
+    /// Must be called before each picture. If the GPU has three unfinished pictures, or one that is
+    /// older than half a second, waits at most half a second for the oldest of them. Throws GpuLost
+    /// if the GPU was lost, or if it has not finished that picture after the wait. A software
+    /// renderer may take longer: then this function returns false, and nothing may be drawn.
     [[nodiscard]] bool isReady();
     /// Throws GpuLost if the pictures drawn so far may be wrong.
     void requireSound() const;
-    /// Must be called after a picture's GL commands and before the display's GL commands. Throws
+    /// Must be called after the GL commands of a picture and before those of the display. Throws
     /// GpuLost if the picture's commands failed.
     void drawn();
-    /// If a lost GPU caused `error`, returns the reason of the loss. All objects on the GPU must
-    /// then be created again. Otherwise returns nothing.
+    /// Returns the reason of the loss if a lost GPU caused `error`, otherwise nothing. After a
+    /// loss, all objects on the GPU must be created again.
     [[nodiscard]] std::optional<std::string> lossBehind(const std::exception& error) const;
     [[nodiscard]] std::optional<std::string> fault() const;
 

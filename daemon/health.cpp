@@ -43,8 +43,8 @@ bool isFresh(std::optional<Timestamp> shown, const Observed& seen) {
     return inSeconds(seen.now - *shown) <= seen.patience * limit;
 }
 
-// Returns the state Stalled if neither a new picture nor a banner about a device's fault was shown
-// recently. Must be called if no vital thread hangs.
+// Returns the state Stalled if neither a new picture nor a banner about a faulty device was shown
+// recently. Otherwise returns nothing. Must be called only if no vital thread hangs.
 std::optional<Judged> standingStill(const Observed& seen) {
     if (isFresh(seen.lastPicture, seen) || (seen.fault && isFresh(seen.lastBanner, seen)))
         return std::nullopt;
@@ -56,7 +56,7 @@ std::optional<Judged> standingStill(const Observed& seen) {
     return Judged{HealthState::Stalled, std::move(cause), *begin};
 }
 
-// Returns the state Degraded with all its causes, or Ok.
+// Returns the state Degraded with the causes of all current faults. Without a fault, returns Ok.
 Judged missing(const Observed& seen) {
     std::vector<Judged> all;
     if (seen.fault) all.push_back({HealthState::Degraded, *seen.fault, std::nullopt, "", true});

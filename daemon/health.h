@@ -54,12 +54,12 @@ struct Observed {
     int patience = 1;
 };
 
-/// Judges the health, and measures how long state and cause have been the same. Only one thread may
-/// use it.
+/// Judges the health, and measures for how long state and cause have been the same. Only one thread
+/// may use it.
 ///
-/// A vital thread that hangs is more important than any other fault, because only a restart helps.
-/// A banner counts as a new picture only while mfard reopens a device and no vital thread hangs. A
-/// device whose thread hangs in a driver cannot be reopened.
+/// A vital thread that hangs is reported before any other fault, because only a restart helps
+/// against it. If no vital thread hangs, a banner about a faulty device counts as a new picture,
+/// because mfard reopens the device.
 class HealthRecord {
 public:
     [[nodiscard]] Health judge(const Observed& seen);

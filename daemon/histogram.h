@@ -10,7 +10,8 @@ namespace mfar {
 struct TimeBuckets {
     int perOctave;
 
-    /// Returns the bucket of a time, with a fraction. Times up to 1 us and NaN give 0.
+    /// Returns the index of the bucket for a time. The index has a fraction. It is 0 for NaN and
+    /// for times up to 1 us.
     [[nodiscard]] double of(double ms) const;
     /// Returns the time in the middle of a bucket [ms].
     [[nodiscard]] double middleMs(double bucket) const;

@@ -19,8 +19,8 @@ constexpr int kRoomMs = 500;
 
 }  // namespace
 
-// Returns true if the journal accepts a message. libsystemd's socket would block and cannot be
-// polled, so another socket is connected to the same address and polled.
+// Returns true if the journal accepts a message. The socket of libsystemd would block and cannot be
+// polled. So another socket is connected to the same address, and that one is polled.
 bool Journal::hasRoom() const {
     const OwnedFd probe(socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
     sockaddr_un address{};

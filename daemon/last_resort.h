@@ -10,8 +10,9 @@
 
 namespace mfar {
 
-/// Calls a function after a time limit, on a thread of its own, unless this object is destroyed
-/// before. Used to end a shutdown that hangs. Only one thread may use it.
+/// Calls a function after a time limit, on a thread of its own. If this object is destroyed before
+/// the limit, the function is not called. Used to end a shutdown that hangs. Only one thread may
+/// use it.
 class LastResort {
 public:
     /// Starts the time limit. A second call is ignored.

@@ -33,9 +33,9 @@ void readLimits(TomlReader& file, LimitsConfig& limits);
 void requireMemory(const LimitsConfig& limits, Size video, Size still, std::string_view place,
                    std::size_t lists = 0);
 
-/// The memory that is left for a configuration's models and environment pictures. It begins with a
-/// sixth of the memory budget. That is half of what pictureBytes() leaves, because a reload reads
-/// the new files before it releases the old ones.
+/// The memory that is left for the models and environment pictures of one configuration. It begins
+/// with a sixth of the whole memory budget, and each file takes a part. A reload reads the new
+/// files before it releases the old ones, so old and new files together may need two sixths.
 class FileMemory {
 public:
     explicit FileMemory(const LimitsConfig& limits);

@@ -96,8 +96,8 @@ void Log::say(const RepeatLimit::Message& message) {
     put(out + status_);
 }
 
-// Waits until the output accepts bytes. Returns false if it does not do so in time. After a dropped
-// message, returns at once, so that only one message waits.
+// Waits at most kPatienceMs until the output accepts bytes. Returns false if it does not. After a
+// message was dropped, does not wait, so that many messages in a row cause only one wait.
 bool Log::isWritable() {
     pollfd out{fd_, POLLOUT, 0};
     const int patience = dropped_ == 0 ? kPatienceMs : 0;

@@ -36,8 +36,9 @@ public:
         line(3, "error: ", text, subject);
     }
     /// Logs an event that may repeat, such as a fault of a device. Each event is logged at most
-    /// once in ten seconds, see RepeatLimit. `event` identifies the event, e.g. if its messages
-    /// contain different numbers. If it is empty, the text identifies the event.
+    /// once in ten seconds, see RepeatLimit. `event` identifies the event. It is needed if the
+    /// messages about one event differ, e.g. in a number. If `event` is empty, the text identifies
+    /// the event.
     void warning(std::string_view text, std::string_view event = {}, const Subject& subject = {}) {
         limited(4, "warning: ", text, event, subject);
     }

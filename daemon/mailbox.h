@@ -13,14 +13,15 @@ namespace mfar {
 enum class HandOver {
     /// For live sources: a newer item replaces the stored item, which counts as a drop.
     NewestWins,
-    /// The sender waits until the receiver has taken the item and requests the next one. So no
-    /// item is lost, and a run can be repeated exactly (sources at the pace "consumer").
+    /// The sender waits until the receiver has taken the item and the receiver asks for the next
+    /// one. So no item is lost, and a run can be repeated exactly. Sources at the pace "consumer"
+    /// use this.
     Lossless,
 };
 
-/// Holds one item on its way from a sending to a receiving thread. If an item is replaced and T has
-/// the member `void supersede(T&& older)`, it is called on the newer item, which may keep parts of
-/// the older one. Thread-safe.
+/// Holds one item on its way from a sending to a receiving thread. If T has the member `void
+/// supersede(T&& older)`, this function is called on a newer item that replaces an older one. So
+/// the newer item can keep parts of the older one. Thread-safe.
 template <class T>
 class Mailbox {
 public:
@@ -28,8 +29,9 @@ public:
 
     explicit Mailbox(HandOver handOver) : handOver_(handOver) {}
 
-    /// Stores an item. HandOver::Lossless also waits until it was taken and the next one is asked
-    /// for. Returns Closed if the mailbox is closed before or during this wait.
+    /// Stores an item. With HandOver::Lossless, also waits until the receiver has taken the item
+    /// and the receiver asks for the next one. Returns Closed if the mailbox is closed before or
+    /// during this wait.
     Put put(T item) {
         std::unique_lock lock(mutex_);
         if (closed_) return Put::Closed;
@@ -47,8 +49,8 @@ public:
         return older ? Put::Replaced : Put::Stored;
     }
 
-    /// Waits for an item and returns it. Returns nothing if the mailbox is closed, or if it is
-    /// empty after finish().
+    /// Waits for an item and returns it. Returns nothing if the mailbox is closed. Also returns
+    /// nothing if the sender has called finish() and no item is stored.
     [[nodiscard]] std::optional<T> take() {
         return take([&](std::unique_lock<std::mutex>& lock) {
             stored_.wait(lock, [&] { return closed_ || finished_ || slot_; });
@@ -72,8 +74,8 @@ public:
         return std::exchange(slot_, std::nullopt);
     }
 
-    /// Announces that the sender will store no further item. take() returns the item that is still
-    /// stored, and after that nothing.
+    /// Must be called when the sender will store no more items. After that, take() still returns a
+    /// stored item, and then nothing.
     void finish() {
         {
             const std::lock_guard lock(mutex_);

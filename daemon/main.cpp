@@ -18,8 +18,9 @@
 namespace mfar {
 namespace {
 
-/// Returns the trigger line to release. For the service, this is the line that it requested, even
-/// if the configuration has changed since then. Otherwise it is the configured line.
+/// Returns the trigger line to release. If mfard runs as a service, this is the line in the
+/// service's note, see takenLineFile(); the configuration may have changed since that note was
+/// written. If mfard is no service, it is the configured line.
 TriggerLineConfig lineToRelease(const Options& options) {
     const std::filesystem::path note = takenLineFile();
     if (note.empty()) return effectiveConfig(options).cameras.trigger;

@@ -15,23 +15,24 @@ class TomlReader;
 
 inline constexpr std::size_t kMostObjects = 64;
 
-/// Reads the sections [[objects]], including the model files. So a fault of a model (missing,
-/// invalid, larger than `memory`) is reported with the line of the configuration file that names
-/// the model. File names are relative to `folder`.
+/// Reads the sections [[objects]] of the configuration, and the model files that they name. If a
+/// model is missing, invalid or larger than `memory`, this is reported with the line of the
+/// configuration that names the model. File names are relative to `folder`.
 void readObjects(TomlReader& file, const std::filesystem::path& folder, FileMemory& memory,
                  std::vector<PlacedObject>& objects);
 
-/// Returns the pose, in the world, of the frame to which the object's position and orientation
-/// refer: the frame of the object's tag, with z out of the print, or the world frame. Returns
-/// nothing if the tag is not in the map.
+/// Returns the pose of an object's anchor in the world. The object's position and orientation are
+/// relative to this anchor. For an object on a tag, the anchor is the tag's frame, whose z axis
+/// points out of the print. For other objects, it is the world frame. Returns nothing if the tag is
+/// not in the map.
 [[nodiscard]] std::optional<RigidTransform> worldAnchor(const PlacedObject& object,
                                                         const TagMap& tags);
 [[nodiscard]] std::optional<RigidTransform> worldPlace(const PlacedObject& object,
                                                        const TagMap& tags);
 
-/// Returns one message for each object that is not shown: its tag is not in the map, or it is a
-/// model and models are not shown. `shapesAlone` is the reason why models are not shown; empty:
-/// they are shown.
+/// Returns one message for each object that is not shown, because its tag is not in the map, or
+/// because it is a model and models are not shown. `shapesAlone` is the reason why models are not
+/// shown. It is empty if they are shown.
 [[nodiscard]] std::vector<std::string> leftOut(const std::vector<PlacedObject>& objects,
                                                const TagMap& tags, std::string_view shapesAlone);
 

@@ -27,7 +27,7 @@ struct Options {
     std::optional<SourcePace> pace;
     std::optional<PoseOrigin> pose;
     std::optional<std::uint64_t> seed;
-    /// The run ends after this number of pictures or this time.
+    /// The run ends after this number of pictures (`frames`), or after this time (`seconds`).
     std::optional<std::uint64_t> frames;
     std::optional<double> seconds;
     std::optional<std::filesystem::path> summary;  ///< file for the summary; "-": standard output

@@ -24,7 +24,7 @@ struct PictureSize {
 [[nodiscard]] std::optional<std::string> pictureSizeFault(std::string_view words);
 
 /// Returns the pipeline's output size: the largest size that has the video's aspect ratio and fits
-/// into the wanted size. It is at most the still's size and at least the video's.
+/// into the wanted size. Its width is at most the still's and at least the video's.
 [[nodiscard]] Size outputSizeFor(const PictureSize& wanted, const StereoRig& rig,
                                  const std::optional<Size>& screen);
 

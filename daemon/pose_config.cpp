@@ -79,9 +79,9 @@ TrackerOptions trackerOptions(const PoseConfig& pose, TagMap map, double rateHz)
     out.fullSearchInterval = pose.fullSearchInterval;
     PoseFilterOptions& filter = out.pose.filter;
     filter.bridgeFrames = pose.bridgeFrames;
-    // The tracker limits predictions by a number of frames and by a time. Here, the time is made so
-    // long that only the number of frames matters. Half a frame is added, because the times of
-    // stills lie between those of frames.
+    // The tracker limits predictions by a number of frames and by a time. Only the number of frames
+    // is meant to matter, so the time limit must be long enough for that number. Half a frame
+    // interval is added, because stills are exposed between two frames.
     if (rateHz > 0) {
         const std::chrono::duration<double> frames((pose.bridgeFrames + 0.5) / rateHz);
         filter.bridge =

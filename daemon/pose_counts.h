@@ -19,7 +19,8 @@ struct PoseCounts {
     std::uint64_t stillsMeasured = 0;
     double tagSum = 0;    ///< sum of the numbers of tags in the measured frames
     double errorSum = 0;  ///< sum of the reprojection errors in the measured frames [px]
-    /// Times of the searches for tags and pose in video frames and in stills.
+    /// Times that the search for tags and pose took [ms]: `ms` for video frames, `stillMs` for
+    /// stills.
     Histogram ms;
     Histogram stillMs;
     TrackStats tracker;  ///< zero if poses do not come from tags
@@ -28,8 +29,9 @@ struct PoseCounts {
     void addFrame(const std::optional<Pose>& pose, const std::optional<TrackStats>& stats);
     void addStill(const std::optional<Pose>& pose, const std::optional<double>& tookMs);
 
-    /// trackedShare() is the share of `frames` that have a pose, [0, 1]. meanTags() and
-    /// meanErrorPx() are means over the measured frames. All return 0 if there are no such frames.
+    /// trackedShare() returns the share of `frames` that have a pose, [0, 1]. meanTags() and
+    /// meanErrorPx() return means over the measured frames. Each function returns 0 without such
+    /// frames.
     [[nodiscard]] double trackedShare() const;
     [[nodiscard]] double meanTags() const;
     [[nodiscard]] double meanErrorPx() const;

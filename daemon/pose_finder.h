@@ -27,8 +27,9 @@ struct StillMeasurement {
     std::optional<double> ms{};
 };
 
-/// Finds the pose of the video camera at the times of frames and stills. Only one thread, which
-/// need not be the picture thread, may call its functions, unless a function's comment allows more.
+/// Finds the pose of the video camera at the times of frames and stills. All functions must be
+/// called by the same thread, unless a function's comment allows another one. That thread need not
+/// be the picture thread.
 class PoseFinder {
 public:
     /// `stats` must outlive this object. Throws Failure if the configured source of poses is not
@@ -38,11 +39,12 @@ public:
     /// Returns the pose of a frame, or nothing if it is unknown. Frames must come in the order of
     /// their times.
     [[nodiscard]] std::optional<Pose> ofVideo(const Frame& video);
-    /// Searches tags in a still. This takes long, so a second thread may call this function while
+    /// Searches a still for tags. This takes long, so a second thread may call this function while
     /// the first thread calls the others.
     [[nodiscard]] StillMeasurement measure(const Frame& still);
-    /// Returns the pose of a still that is not later than the last frame. Without a measured pose,
-    /// PoseHistory interpolates one between the poses of frames.
+    /// Returns the video camera's pose at the time of a still. `time` must not be later than the
+    /// last frame. If the still has no measured pose, PoseHistory interpolates between the poses of
+    /// frames.
     [[nodiscard]] std::optional<Pose> place(const StillMeasurement& measured, Timestamp time);
 
     /// Returns true if the pose was measured or recorded, false if it was only predicted.

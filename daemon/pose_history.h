@@ -17,11 +17,11 @@ public:
     /// first.
     void add(const Pose& pose);
 
-    /// Returns the pose at t, interpolated between the poses before and after it at constant
-    /// velocity. The error of this assumption is estimated from the change of velocity between this
-    /// interval and the one before or after it, and added to the covariance. Pose::tags is 0.
-    /// Returns nothing if t is not between two poses at most kLongestGap apart, or if there is no
-    /// third pose for the estimate.
+    /// Returns the pose at t. It is interpolated between the poses before and after t, at constant
+    /// velocity. The error of this assumption is estimated and added to the covariance: the
+    /// velocity between these two poses is compared with the velocity in the interval before or
+    /// after them. Pose::tags is 0. Returns nothing if t is not between two poses at most
+    /// kLongestGap apart, or if there is no third pose for the comparison.
     [[nodiscard]] std::optional<Pose> at(Timestamp t) const;
 
     static constexpr std::chrono::milliseconds kLongestGap{100};

@@ -147,8 +147,8 @@ std::string toToml(std::span<const QualityLevel> levels) {
         Quality quality = level.quality, usual = byDefault;
         std::ostringstream quoted;
         quoted << toml::value<std::string>(level.name);
-        // With one digit, a short time could be rounded to 0, which parseQualityLevels() would
-        // refuse.
+        // A short time gets more digits. With one digit, it could be rounded to 0, and
+        // parseQualityLevels() refuses 0.
         const int digits = level.ms < kShort ? 3 : 1;
         out += fmt::format("[[level]]\nname = {}\nms = {:.{}f}\npsnr_db = {:.2f}\nmode = \"{}\"\n",
                            quoted.str(), level.ms, digits, level.psnrDb, name(quality.mode));

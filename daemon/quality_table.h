@@ -29,8 +29,8 @@ struct QualityLevel {
 
 [[nodiscard]] std::string toToml(std::span<const QualityLevel> levels);
 
-/// Limits the levels to the mode `best`: in a level with a better mode, `best` replaces that mode.
-/// If levels become equal, the fastest of them is kept.
+/// Limits the levels to the mode `best`. A level with a better mode gets the mode `best`. If levels
+/// become equal, only the fastest of them is kept.
 [[nodiscard]] std::vector<QualityLevel> limitedTo(std::span<const QualityLevel> levels,
                                                   SuperResMode best);
 

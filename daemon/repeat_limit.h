@@ -13,10 +13,10 @@
 namespace mfar {
 
 /// Limits repeated messages, so that a loose plug cannot fill the disk with them. The first message
-/// about an event passes at once. Then one message about the event passes every ten seconds, with
-/// the number of repetitions. The last message about an event always passes. To limit the memory,
-/// only 63 events at a time are told apart; all others count as one event. Only one thread at a
-/// time may use it.
+/// about an event passes at once. While the event repeats, one message about it passes every ten
+/// seconds, with the number of repetitions. The last message about an event always passes. To limit
+/// the memory, at most 63 events at a time are told apart; all others count as one event. Only one
+/// thread at a time may use it.
 class RepeatLimit {
 public:
     static constexpr std::chrono::seconds kInterval{10};
@@ -30,8 +30,8 @@ public:
         std::uint64_t count = 1;
     };
 
-    /// Returns true if the message must be logged now. Otherwise keeps it, and drops an older kept
-    /// message about the same event.
+    /// Returns true if the message must be logged now. Otherwise keeps it for due(), instead of an
+    /// older message about the same event.
     [[nodiscard]] bool mayPass(std::string_view event, const Message& message, Timestamp now);
     /// Returns the kept messages that may be logged now, in the order of their last events. Each
     /// ends with the number of repetitions: "... (7 more times in 28 s)".

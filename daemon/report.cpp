@@ -16,8 +16,8 @@ namespace {
 using nlohmann::ordered_json;
 using svg::escaped;
 
-/// Bins are merged until they have this number of pictures on average. A quantile of fewer pictures
-/// would mean little.
+/// The time bins of the charts are merged until they have this number of pictures on average. The
+/// quantiles of fewer pictures would mean little.
 constexpr double kPicturesPerBin = 2;
 
 constexpr std::string_view kStyle = R"(
@@ -112,7 +112,8 @@ std::string columns(const ordered_json& object) {
     return out;
 }
 
-/// Swaps outer and inner keys, for an object with few inner objects of many keys.
+/// Returns the object with its outer and inner keys swapped. This is for a few inner objects with
+/// many keys: the table becomes narrow.
 ordered_json transposed(const ordered_json& object) {
     ordered_json out = ordered_json::object();
     for (const auto& [name, inner] : object.items())
@@ -133,7 +134,7 @@ std::string table(const std::string& title, const std::string& body, std::string
 }
 
 /// Returns a table row for each step in a text such as "still gles, flow simd". Returns no row for
-/// "simd" or "gles", which is the engine of all steps.
+/// the texts "simd" and "gles": they mean that all steps run on one engine.
 std::string engineRows(std::string_view engine) {
     std::string out;
     while (engine.find(' ') != engine.npos) {

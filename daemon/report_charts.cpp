@@ -48,8 +48,8 @@ public:
             [&](const Bin& bin) { return value(std::exchange(before, bin.totals), bin.totals); });
     }
 
-    /// Returns the growth of a total per second, for each bin. The last bin makes a gap, because it
-    /// is not full.
+    /// Returns how much a total grows per second, for each bin. The last bin covers only a part of
+    /// its time, so it becomes a gap in the chart.
     [[nodiscard]] std::vector<double> rate(std::uint64_t RunTotals::* total) const {
         return full(changes([&](const RunTotals& before, const RunTotals& now) {
             return (count(now.*total) - count(before.*total)) / history_.binS();

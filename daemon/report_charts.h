@@ -7,8 +7,8 @@
 namespace mfar {
 
 /// Draws charts of the run as SVG elements: frame time and latency, rate and drops, late frames,
-/// confidence and tracked share, stills, learning. The chart of late frames is omitted without a
-/// deadline (`deadlineMs` is 0), the chart of learning if no filters were learned.
+/// confidence and tracked share, stills, learning. Without a deadline (`deadlineMs` is 0), there is
+/// no chart of late frames. If no filters were learned, there is no chart of learning.
 [[nodiscard]] std::string runCharts(const RunHistory& history, double deadlineMs);
 
 [[nodiscard]] std::string stageCharts(const RunHistory& history);

@@ -23,8 +23,8 @@ namespace {
 constexpr std::chrono::seconds kLongestWait{30};
 constexpr std::chrono::seconds kWaitWithoutCount{5};
 constexpr std::chrono::seconds kRan{60};
-// Longest time between the end of a failed process and the start of the next, so that their
-// failures count as consecutive. It includes RestartSec= and delays of a busy system.
+// If a process starts within this time after the end of a failed one, their failures count as
+// consecutive. The time includes RestartSec= and delays of a busy system.
 constexpr std::chrono::seconds kInARow{60};
 constexpr int kMostCounted = 1000;
 constexpr std::size_t kMostBytes = 64;

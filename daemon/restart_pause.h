@@ -12,9 +12,9 @@ namespace mfar {
 
 class Log;
 
-/// Computes the pause of a failed service before it exits, because systemd restarts it at once and
-/// without a limit. The first failure causes no pause. Further consecutive failures cause pauses of
-/// 1, 3, 7, 15 and then 30 s.
+/// Computes how long a failed service waits before it exits. Without this pause, systemd would
+/// restart it at once, again and again. The first failure causes no pause. Further consecutive
+/// failures cause pauses of 1, 3, 7, 15 and then 30 s.
 ///
 /// systemd's RestartSteps= is not used. It exists since version 254 only, and counts all restarts
 /// since the unit was started, so that even one crash a month would cause a pause.

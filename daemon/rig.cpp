@@ -264,8 +264,8 @@ std::optional<std::string> Rig::endBrokenRecording() {
     if (!error) return std::nullopt;
     lostBefore_ += lostBy(*recorder_);
     broke_ = error;
-    // The recorder's destructor may wait for a disk that hangs. So another thread destroys the
-    // recorder, after all threads that copy a frame have released it.
+    // Destroying the recorder may wait for a disk that hangs. So another thread destroys it, after
+    // all threads that copy a frame into it have released it.
     ending_.emplace_back([recorder = std::exchange(recorder_, nullptr)]() mutable {
         while (recorder.use_count() > 1)
             std::this_thread::sleep_for(std::chrono::milliseconds(1));

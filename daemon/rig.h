@@ -53,7 +53,8 @@ public:
     [[nodiscard]] Trigger* trigger();
     [[nodiscard]] HandOver handOver() const;
     [[nodiscard]] CameraKind cameraKind() const;
-    /// Returns the offset that converts a still's time to the video camera's clock.
+    /// Returns the offset that must be added to a still's time to get a time on the video camera's
+    /// clock.
     [[nodiscard]] std::chrono::nanoseconds stillTimeOffset() const;
     [[nodiscard]] std::optional<std::uint64_t> videoFrames() const;
     /// Returns the tags and poses that the source knows: those of a recording, or the tags of the
@@ -66,7 +67,7 @@ public:
     [[nodiscard]] ExitCode inputFailure() const;
 
     /// Copies a frame into the recording, if one is running. Never waits. Only one thread may call
-    /// recordVideo(), and only one may call recordStill().
+    /// recordVideo(). Only one thread, which may be another one, may call recordStill().
     void recordVideo(const Frame& frame);
     void recordStill(const Frame& frame);
     void recordPose(const Pose& pose);
@@ -76,23 +77,24 @@ public:
     [[nodiscard]] std::uint64_t notRecorded() const;
     /// Returns an empty path if there is no recording. Thread-safe.
     [[nodiscard]] std::filesystem::path recordingFolder() const;
-    /// If the recording cannot be written any more, ends it and returns the reason. The part on the
-    /// disk stays playable. Thread-safe. Never waits.
+    /// If the running recording cannot be written any more, ends it and returns the reason.
+    /// Otherwise returns nothing. The part on the disk stays playable. Thread-safe. Never waits.
     [[nodiscard]] std::optional<std::string> endBrokenRecording();
-    /// Waits until the whole recording is written. Throws Failure if the recording of --record
-    /// cannot be written. Failures of other recordings are reported by endBrokenRecording().
+    /// Waits until the whole recording is written. If this is the recording of --record and it
+    /// cannot be written, throws Failure. If another recording cannot be written,
+    /// endBrokenRecording() reports that.
     void finishRecording();
-    /// Returns a function that creates a recording in the new folder `folder`. This function may
-    /// wait for the disk, throws Failure, and may outlive the rig. makeRecording() itself throws
-    /// Failure while a recording is running. makeRecording(), startRecording() and stopRecording()
-    /// are thread-safe.
+    /// Returns a function that creates a recording in the new folder `folder`. The returned
+    /// function may wait for the disk, throws Failure, and may outlive the rig. makeRecording()
+    /// itself throws Failure while a recording is running. makeRecording(), startRecording() and
+    /// stopRecording() are thread-safe.
     [[nodiscard]] std::function<std::shared_ptr<Recorder>()>
     makeRecording(const std::filesystem::path& folder) const;
     /// Records into `recorder` from now on. Throws Failure while a recording is running.
     void startRecording(std::shared_ptr<Recorder> recorder);
     /// Ends the recording. Returns a function that waits until the recording is complete on the
-    /// disk. This function may outlive the rig, and throws Failure if the recording cannot be
-    /// completed. stopRecording() itself throws Failure if no recording is running.
+    /// disk. The returned function may outlive the rig, and throws Failure if the recording cannot
+    /// be completed. stopRecording() itself throws Failure if no recording is running.
     [[nodiscard]] std::function<Recorded()> stopRecording();
 
 private:
@@ -116,7 +118,8 @@ private:
 /// Drives a trigger line to its inactive level. Throws Failure.
 void releaseTrigger(const TriggerLineConfig& line);
 
-/// Opens the configured display, which stops waiting when `cancel` requests it. Throws Failure.
+/// Opens the configured display. A stop request to `cancel` ends the display's waits. Throws
+/// Failure.
 [[nodiscard]] std::unique_ptr<Display> openDisplay(const Config& config, double rateHz,
                                                    std::stop_token cancel,
                                                    const FileDisplayPolicy& policy = {});

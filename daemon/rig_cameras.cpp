@@ -33,8 +33,8 @@ std::chrono::nanoseconds nanoseconds(double ms) {
     return std::chrono::nanoseconds(static_cast<std::int64_t>(ms * 1e6));
 }
 
-/// A trigger whose GPIO line may not exist yet. Each fire() tries to open a line that is not open.
-/// Between pulses, rest() tries to open it once a second.
+/// A trigger whose GPIO line may not exist yet. If the line is not open, each fire() tries to open
+/// it, and between pulses, rest() tries to open it once a second.
 class WaitingTrigger final : public Trigger {
 public:
     explicit WaitingTrigger(const TriggerLineConfig& line)
@@ -89,8 +89,8 @@ private:
     void open() {
         if (open_) return;
         tried_ = Timestamp::now();
-        // The line's name is noted before the line is opened, so that a crash cannot leave an open
-        // line without a note.
+        // The line's name is written to a file before the line is opened. So even after a crash,
+        // the file names a line that may be open.
         if (const auto file = takenLineFile(); !file.empty()) noteTakenLine(file, line_);
         open_ = openGpioTrigger(options_);
     }
@@ -104,8 +104,8 @@ private:
     std::optional<std::string> fault_;
 };
 
-/// If no camera is configured for this sensor, any camera is opened, except the one configured for
-/// the other sensor.
+/// Returns which camera to open for a sensor. If none is configured, this is any camera except the
+/// one configured for the other sensor.
 CameraWish wishFor(const CameraConfig& config, const CameraConfig& other, bool largest) {
     return {config.camera, config.driver == other.driver ? other.camera : "", largest};
 }

@@ -14,9 +14,9 @@
 
 namespace mfar {
 
-/// Returns the geometry of two cameras without a calibration: pinhole cameras with a horizontal
-/// field of view of 60 degrees, 14 mm apart. It suffices for matching in two dimensions, but not
-/// for poses and depth.
+/// Returns the geometry that is assumed for two cameras without a calibration: pinhole cameras with
+/// a horizontal field of view of 60 degrees, 14 mm apart. This geometry suffices for matching in
+/// two dimensions, but not for poses and depth.
 [[nodiscard]] StereoRig nominalRig(Size video, Size still);
 
 [[nodiscard]] TriggerOptions triggerOptions(const TriggerLineConfig& line);

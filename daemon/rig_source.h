@@ -33,8 +33,8 @@ public:
     TagMap tags{};
     /// Returns the recorded pose at a point in time. Not set without recorded poses.
     std::function<std::optional<Pose>(Timestamp)> recordedPoses{};
-    /// Returns the counters of the matching of stills to trigger pulses. Not set without a trigger
-    /// line.
+    /// Returns counters of the trigger pulses and of the stills that match them. Not set without a
+    /// trigger line.
     std::function<StillCounters()> matching{};
     /// Returns the current fault of a device, or nothing. Not set if this source cannot have
     /// faults.

@@ -15,8 +15,8 @@ struct SourceWords {
 };
 [[nodiscard]] SourceWords sourceWords(std::string_view source);
 
-/// sourceFault() and displayFault() return the fault in the name of a source or display, with a
-/// list of the valid names. They return nothing for a valid name, and do not open a device.
+/// These functions check the name of a source or display, without opening a device. For an invalid
+/// name, they return a message with the valid names. For a valid name, they return nothing.
 [[nodiscard]] std::optional<std::string> sourceFault(std::string_view source);
 [[nodiscard]] std::optional<std::string> displayFault(std::string_view display);
 

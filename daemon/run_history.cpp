@@ -64,8 +64,8 @@ void RunHistory::add(const RunMoment& moment, const std::vector<StageTime>& stag
     bin.totals = moment.totals;
 }
 
-// Returns the bin of a time. Also adds empty bins for the time without pictures, which make gaps in
-// the charts.
+// Returns the bin for this time. If it does not exist yet, adds it. If no pictures were shown for a
+// while, also adds empty bins for this while; they are gaps in the charts.
 RunHistory::Bin& RunHistory::binAt(Timestamp shown) {
     if (!first_) first_ = shown;
     const double seconds = std::max(shown.seconds() - first_->seconds(), 0.0);

@@ -11,8 +11,8 @@
 
 namespace mfar {
 
-/// The distribution of times in one bin of a history. Its memory grows with the number of different
-/// times only. Each bucket is 2^(1/8) times as wide as the one before, so that the error of a
+/// The distribution of times in one bin of a history. Only buckets with at least one time need
+/// memory. Each bucket is 2^(1/8) times as wide as the one before it, so that the error of a
 /// quantile is at most 4.5 %.
 class TimeSpread {
 public:
@@ -45,8 +45,8 @@ struct RunMoment {
     RunTotals totals{};
 };
 
-/// The course of a run, in at most kMostBins bins of equal duration. If a longer run needs more,
-/// each pair of neighbouring bins is merged, so that memory stays limited over months. Not
+/// The history of a run, in at most kMostBins bins of equal duration. If a longer run needs more
+/// bins, neighbouring bins are merged in pairs. So memory stays limited over months. Not
 /// thread-safe.
 class RunHistory {
 public:

@@ -26,8 +26,8 @@ constexpr std::chrono::milliseconds kFaultInterval{30};
 
 }  // namespace
 
-// The GL context is created after the rig. The simulated board in the rig creates its own context,
-// but the session's context must be the current one on this thread.
+// The GL context is created after the rig. A simulated board in the rig creates a GL context of its
+// own, but the session's context must be the current one on this thread.
 Session::Session(const Config& config, Stats& stats, Mailbox<Tunables>& changes,
                  CallQueue<Session>& calls, StopTokens stop)
     : stats_(stats), changes_(changes), calls_(calls), stop_(std::move(stop)), config_(config),
@@ -144,8 +144,8 @@ void Session::showNext(std::optional<CapturedFrame>& captured) {
     calls_.runAll(*this);
     checkRecording();
     if (!captured) return showFault();
-    // A lossless source waits for this thread, so the latency counts from now, not from the
-    // arrival.
+    // A frame of a lossless source waits until this thread takes it. So its latency counts from
+    // now, not from its arrival.
     if (rig_.handOver() == HandOver::Lossless) captured->arrived = Timestamp::now();
     process(*captured);
     captured.reset();
@@ -155,8 +155,8 @@ void Session::finishDisplay() {
     orFail(ExitCode::OutputFailed, [&] { display_->finish(); });
 }
 
-// With a lossless source, every picture is written. While this thread waits for a slow writer, it
-// reports the wait and does not count as hanging.
+// With a lossless source, every picture is written. If the picture thread waits for a slow writer,
+// it reports this wait, so that it does not count as hanging.
 FileDisplayPolicy Session::displayPolicy() {
     FileDisplayPolicy policy;
     policy.isLive = rig_.handOver() == HandOver::NewestWins;
@@ -273,8 +273,8 @@ void Session::tell(Timestamp time) {
         stats_.warn(*error + "; video frames are copied instead");
     stats_.recorderDropped(rig_.notRecorded());
     if (auto matching = rig_.matching()) {
-        // The pulses of lost stills are repeated by StillPolicy and not by StillMatcher, so
-        // StillPolicy counts the repetitions.
+        // StillPolicy repeats the pulses of lost stills, and StillMatcher does not. So the number
+        // of repetitions comes from StillPolicy.
         matching->repeated = static_cast<std::uint64_t>(policy_.repetitions());
         stats_.matching(*matching);
     }
@@ -343,8 +343,8 @@ void Session::fireIfNeeded(Timestamp frame, const FrameStats& stats) {
         } catch (const TriggerBusy&) {
             policy_.busy();
         } catch (const std::runtime_error& error) {
-            // If the rig already reports a fault, for example that the trigger line is missing, a
-            // banner shows it, and the session goes on.
+            // If the rig already reports a fault, e.g. a missing trigger line, the session goes on,
+            // and a banner shows that fault.
             if (!rig_.fault())
                 throw Failure(ExitCode::Unavailable, trigger->name() + ": " + error.what());
         }
@@ -356,10 +356,11 @@ void Session::fireIfNeeded(Timestamp frame, const FrameStats& stats) {
     stats_.triggers(static_cast<std::uint64_t>(policy_.fired()), lost);
 }
 
-// Shows the last picture again, with a banner about the fault, because no frames arrive.
+// Called when no frame arrives. If a device has a fault, shows the last picture again, with a
+// banner about that fault.
 void Session::showFault() {
     const std::optional<std::string> fault = rig_.fault();
-    // The capture thread cannot report the fault while it waits for the faulty device.
+    // The capture thread may be waiting for the faulty device, and then it cannot report the fault.
     stats_.fault(fault);
     if (!fault) return;
     show(Timestamp::now(), true);

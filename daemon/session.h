@@ -48,7 +48,7 @@ struct StopTokens {
     /// After a stop request, no more frames are fetched. Frames that are being processed are still
     /// shown and written.
     std::stop_token input;
-    /// After a stop request, nothing waits any more for a slow reader of the display's pictures.
+    /// After a stop request, no thread waits any longer for a slow reader of the display's pipe.
     std::stop_token cancel;
 };
 
@@ -65,15 +65,17 @@ public:
 
     using Over = std::function<void(const std::string& reason, const std::exception_ptr& error)>;
     /// Processes frames until the source ends, a stop is requested or `maxFrames` frames are shown.
-    /// Waits until their pictures are written, then calls `over`. After that, only learning must be
-    /// ended and the devices be closed, which may hang. Returns the reason of the end. Throws
+    /// Waits until their pictures are written, then calls `over`. What remains after that call may
+    /// hang: ending the learning and closing the devices. Returns the reason of the end. Throws
     /// Failure.
     [[nodiscard]] std::string run(std::optional<std::uint64_t> maxFrames, const Over& over);
 
-    // Other threads must call the following functions through the CallQueue, which executes them
-    // between two pictures. All throw std::runtime_error.
+    // Other threads must not call the following functions directly, but through the CallQueue. The
+    // picture thread executes queued calls between two pictures. All these functions throw
+    // std::runtime_error.
 
-    /// Returns the last picture as the display got it. With `ofScreen`, as the screen shows it.
+    /// Returns the last picture as it was given to the display. If `ofScreen` is true, returns it
+    /// as the screen shows it.
     [[nodiscard]] ScreenPicture snapshot(bool ofScreen) const;
     void askForStill();
     void resetLearning();
@@ -92,25 +94,26 @@ private:
         std::optional<Pose> pose;
     };
     void beginRecording(const Config& config);
-    /// Starts the recording that beginRecording() requested, if its folder exists by now.
+    /// If the folder of the recording that beginRecording() requested has been created, starts that
+    /// recording.
     void takeFirstRecording();
     void checkRecording();
     [[nodiscard]] std::string showFrames(Mailbox<CapturedFrame>& mailbox, CaptureThread& capture,
                                          std::optional<std::uint64_t> maxFrames);
     void apply(const Tunables& wanted);
-    /// Applies pending changes and calls, then processes and shows the frame. Without a frame,
-    /// shows the fault if there is one.
+    /// Applies pending changes and calls. Then processes and shows the frame. If there is no frame
+    /// but a device has a fault, shows that fault.
     void showNext(std::optional<CapturedFrame>& captured);
     [[nodiscard]] double deadlineMs() const;
-    /// Returns true if virtual objects can be shown. If they need GL, opens it; a failure is
-    /// reported.
+    /// Returns true if virtual objects can be shown. If they need GL and it is not open, tries to
+    /// open it. If that fails, reports the failure and returns false.
     bool canShowObjects();
     void placeObjects();
-    /// Creates drawing_ with the open GL context or without GL. Applies all settings and the stills
-    /// in use.
+    /// Creates drawing_, with the open GL context or without GL. Gives it all settings and the
+    /// stills in use.
     void makeDrawing();
-    /// Creates drawing_ in a new GL context after a loss of the GPU, for the reason `why`. Throws
-    /// Failure.
+    /// After a loss of the GPU, creates drawing_ in a new GL context. `why` is the reason of the
+    /// loss. Throws Failure.
     void makeDrawingAnew(std::string why);
     [[nodiscard]] std::optional<std::string> gpuFault();
     [[nodiscard]] std::string bannerText();
@@ -118,7 +121,7 @@ private:
     void keepUsedStill(const CapturedStill& still);
     void keepSecondStill();
     [[nodiscard]] bool mayDraw();
-    /// Processes and shows a frame. If this throws because the GPU is lost, `captured` can be
+    /// Processes and shows a frame. If this throws because the GPU is lost, the same frame can be
     /// processed again.
     void process(CapturedFrame& captured);
     void takeStill(CapturedStill still);
@@ -146,7 +149,8 @@ private:
     StopTokens stop_;
     Config config_;
     Rig rig_;
-    /// The recording of beginRecording(). Valid while its folder is being created.
+    /// The first recording, which beginRecording() requests. Valid until its folder has been
+    /// created and the recording has started.
     std::future<std::shared_ptr<Recorder>> firstRecording_;
     PoseFinder poses_;
     GlDevice device_ = GlDevice::Preferred;
@@ -161,10 +165,11 @@ private:
     std::unique_ptr<Drawing> drawing_;  ///< declared after learning_, which it uses
     StillPolicy policy_;
     std::optional<CapturedStill> newestStill_;
-    // Copies of the still in use, of the pipeline's second still, and of the still in use before.
-    // They are needed after a loss of the GPU and for the report. Not set if no step runs on GLES
-    // and no report is written. formerStill_ may become the second still; otherwise its memory is
-    // reused for the next still.
+    // Copies of three stills. usedStill_ is in use, secondStill_ is the pipeline's second still,
+    // and formerStill_ was in use before usedStill_. The copies are needed for the report, and to
+    // go on after a loss of the GPU. They are not set if no step runs on GLES and no report is
+    // written. formerStill_ may become the second still. Otherwise, its memory is reused for the
+    // next still.
     std::optional<UsedStill> usedStill_, secondStill_, formerStill_;
     TriggerReports triggerReports_;
     std::vector<QualityLevel> levels_;

@@ -14,15 +14,18 @@ struct OpenedGl {
     std::string without;  ///< reason why GL could not be opened; empty: it is open or not needed
 };
 
-/// Opens GL, unless all steps run on SIMD and nothing else needs GL. Closes GL again if it is only
-/// a software renderer, no step is configured to run on GLES, and nothing else needs GL. Throws
-/// Failure if the configuration needs GLES and GL cannot be opened.
+/// Opens GL, unless all steps run on SIMD and nothing else needs GL. If GL turns out to be a mere
+/// software renderer, closes it again, unless a step is configured to run on GLES or something else
+/// needs GL. Throws Failure if GL cannot be opened, but the configuration needs GLES or validates
+/// shader outputs.
 [[nodiscard]] OpenedGl openGl(const Config& config, GlDevice device);
 
-/// Chooses the engine of each step: the configured one, if there is one. For "auto", SIMD is chosen
-/// without GL and with a software renderer. Otherwise, the engine is chosen that was faster on this
-/// GPU, measured now or at an earlier start. Nothing is measured if promisingEngines() returns only
-/// one choice. If shader outputs are validated, "auto" means GLES.
+/// Chooses the engine of each step. If an engine is configured for a step, it is used. For the
+/// other steps ("auto"), these rules apply, in this order:
+///   - If shader outputs are validated, GLES is used.
+///   - Without GL, or with a software renderer, SIMD is used.
+///   - Otherwise, the engine that was faster on this GPU is used, measured now or at an earlier
+///     start. Nothing is measured if promisingEngines() returns only one choice.
 [[nodiscard]] EngineChoice chooseEngines(const Config& config, const GlContext* gl,
                                          const StereoRig& rig, Size output);
 

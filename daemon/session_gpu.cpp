@@ -34,8 +34,8 @@ void Session::makeDrawingAnew(std::string why) {
         drawing_.reset();
         display_->releaseGl();
         gl_ = {};
-        // Returns free memory of the heap to the system: 45 of 157 MB in a measurement. glibc
-        // would keep it.
+        // Gives free memory of the heap back to the system, because glibc would keep it: 45 of 157
+        // MB in a measurement.
         malloc_trim(0);
         if (isLast) {
             config_.engine = {.use = EngineWish::Simd};
@@ -64,7 +64,7 @@ std::optional<std::string> Session::gpuFault() {
     return now ? now : failures_.fault(Timestamp::now());
 }
 
-// A missing device is more important than a lost GPU.
+// Returns the text of the banner. A fault of a device is more important than a loss of the GPU.
 std::string Session::bannerText() {
     if (const std::optional<std::string> fault = rig_.fault()) return *fault;
     return failures_.banner(Timestamp::now()).value_or("");
@@ -80,8 +80,8 @@ Rendering Session::rendering() const {
     return out;
 }
 
-// The copy of the still is for the report, and for a loss of the GPU. After a loss, the next still
-// may come late or never.
+// Keeps a copy of the still for the report, and for a loss of the GPU. After a loss, the still is
+// restored from this copy, because the next still may come late or never.
 void Session::keepUsedStill(const CapturedStill& still) {
     const bool mayBeLost = gl_.context && drawing_->engines.uses(EngineKind::Gles);
     if (!mayBeLost && !stats_.keepsHistory()) return;

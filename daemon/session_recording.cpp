@@ -9,9 +9,9 @@
 
 namespace mfar {
 
-// If the folder of --record cannot be written, mfard does not start. If the folder of [record] in
-// the configuration cannot be written, mfard runs without a recording. mfard waits for the disk
-// only with a lossless source, so that all pictures are recorded.
+// If the folder of --record cannot be created, mfard does not start. If a folder in the directory
+// of [record] cannot be created, mfard runs without a recording. Another thread creates that
+// folder. mfard waits for it only with a lossless source, so that all pictures are recorded.
 void Session::beginRecording(const Config& config) {
     if (!config.recordTo.empty()) return startRecording(makeRecording(config.recordTo)());
     if (config.record.directory.empty()) return;

@@ -80,14 +80,15 @@ struct Counted {
     /// Mean of FrameStats::epipolarError over the frames with patches [video px].
     double meanEpipolarError = 0;
     std::uint64_t depthTiles = 0;  ///< tiles with measured depth, summed over all frames
-    /// Tiles under a virtual object whose depth was not measured, because the real surface is known
-    /// to lie behind the object.
+    /// Tiles that show a virtual object, and whose depth was not measured, because the real surface
+    /// is known to lie behind the object.
     std::uint64_t depthTilesSkipped = 0;
     std::uint64_t keyframeSearches = 0;
     /// Tiles that were searched in both dimensions, because they had no reliable match on epipolar
     /// lines.
     std::uint64_t tilesSearched2d = 0;
-    /// Frames with virtual objects in view, and those in which all objects were hidden.
+    /// objectFrames: frames with virtual objects in view. hiddenFrames: those among them in which
+    /// all objects were hidden.
     std::uint64_t objectFrames = 0;
     std::uint64_t hiddenFrames = 0;
     std::optional<TracedLayerCounters> traced;
@@ -104,7 +105,7 @@ struct Counted {
     std::optional<std::string> displayFault{};
     std::optional<std::string> gpuFault{};
     std::uint64_t gpuFailures = 0;
-    std::optional<Rendering> rendering{};  ///< the current rendering; not set: as at the start
+    std::optional<Rendering> rendering{};  ///< set if it has changed since the start
     ValidationCounts validation{};         ///< all 0 if shader outputs are not validated
     std::optional<ProcessUse> atFirstPicture;
     std::optional<LearningCounts> learning{};
@@ -117,11 +118,12 @@ struct FinishedPicture {
     Timestamp arrived;  ///< CLOCK_MONOTONIC, like `shown`
     Timestamp shown;
     std::optional<double> stillAgeS;
-    /// Time from the start of processing to `shown`, including the processing of a new still [ms].
+    /// Time from the start of processing to `shown` [ms]. It includes the processing of a new
+    /// still.
     double ms = 0;
-    /// Time from which the picture's age counts, CLOCK_MONOTONIC. It may be before `arrived`,
-    /// because the frame may have waited in the sensor's driver. Not set: the age counts from
-    /// `shown`.
+    /// The age of this picture counts from this time, CLOCK_MONOTONIC. It may be earlier than
+    /// `arrived`, because the frame may have waited in the sensor's driver. If it is not set, the
+    /// age counts from `shown`.
     std::optional<Timestamp> since{};
 };
 
@@ -161,7 +163,7 @@ public:
     void gpu(const std::optional<std::string>& fault);
     void gpuFailed(const std::optional<std::string>& fault);
     void rendering(const Rendering& changed);
-    /// Must be called when the last picture is shown again, with a banner, because no frames
+    /// Must be called after the last picture was shown again with a banner, because no frames
     /// arrived.
     void bannerShown(Timestamp shown);
     void validation(const ValidationCounts& counts);

@@ -15,8 +15,8 @@ std::chrono::nanoseconds toNanoseconds(double s) {
 
 bool StillPolicy::decide(Timestamp now, Timestamp statsOf, const FrameStats& stats) {
     if (still_ && !usedSince_) usedSince_ = now;
-    // The first frame with a new still or mode is drawn completely. All its tiles count as changed,
-    // but that is not motion.
+    // After a new still or a change of the mode, the first frame is drawn completely. All its tiles
+    // count as changed, but that is not motion.
     const bool changed = stats.changed > kMovedShare && statsOf != usedSince_;
     if (changed && firedAt_ && statsOf > *firedAt_) movedSinceTrigger_ = true;
     if (changed && usedSince_ && statsOf > *usedSince_) movedInUse_ = true;
@@ -53,8 +53,8 @@ bool StillPolicy::wanted(Timestamp now, Timestamp statsOf, const FrameStats& sta
     if (!still_) return true;
     if (firedAt_ && now - *firedAt_ < toNanoseconds(config_.minIntervalS)) return false;
     if (movedInUse_ && now - *still_ > toNanoseconds(config_.maxAgeS)) return true;
-    // While the scene is at rest, no still is requested, even if the current one explains little of
-    // the picture. A new still would look the same and explain no more.
+    // A still is requested only if the scene has moved since the last trigger. Without motion, a
+    // new still would look like the current one and explain no more of the picture.
     return movedSinceTrigger_ && statsOf >= *usedSince_ && stats.explained < config_.explainedBelow;
 }
 
@@ -70,9 +70,9 @@ bool StillPolicy::timedOut(Timestamp now) {
 }
 
 void StillPolicy::fire(Timestamp now) {
-    // The next trigger is due one period after the due time of this trigger, not after `now`.
-    // `now` is the time of a frame, which comes a little later than the due time. Counting from it
-    // would make the rate too low.
+    // If this trigger was due at `due_`, the next one is due one period after `due_`, not one
+    // period after `now`. `now` is the time of a frame, a little later than `due_`. Counting from
+    // `now` would make the rate too low.
     const std::chrono::nanoseconds period = toNanoseconds(1 / config_.rateHz);
     due_ = due_ && now >= *due_ && now - *due_ < period ? *due_ + period : now + period;
     firedAt_ = now;

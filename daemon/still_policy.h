@@ -26,17 +26,18 @@ struct TriggerConfig {
     bool operator==(const TriggerConfig&) const = default;
 };
 
-/// Decides when the still sensor is triggered. It only uses the times and statistics of video
+/// Decides when the still sensor is triggered. It uses only the times and statistics of video
 /// frames. Only one thread may use it.
 ///
-/// A lost still is counted and requested again at once. If that still is lost, too, the policy
-/// waits: for maxAgeS (mode demand), for the next period (mode rate) or for ask() (mode off).
+/// If a still is lost, it is counted, and another still is requested at once. If that one is lost,
+/// too, the policy waits: for maxAgeS (mode demand), for the next period (mode rate) or for ask()
+/// (mode off).
 class StillPolicy {
 public:
     explicit StillPolicy(const TriggerConfig& config) : config_(config) {}
 
-    /// Changes the configuration for the following decisions. A still that was triggered but has
-    /// not arrived stays pending, unless the mode changes to Off.
+    /// Changes the configuration for the following decisions. If a triggered still has not arrived
+    /// yet, the policy continues to wait for it, unless the mode changes to Off.
     void configure(const TriggerConfig& config);
 
     /// Must be called once per frame. If it returns true, the caller must fire the trigger now.
@@ -46,18 +47,19 @@ public:
 
     void ask() { asked_ = true; }
 
-    /// Reports that the trigger could not fire, because its last pulse has not ended. The next call
-    /// of decide() fires it again.
+    /// Must be called if the trigger could not fire, because the previous pulse had not ended. The
+    /// next call of decide() requests the trigger again.
     void busy();
 
-    /// Reports a still that is the reference from the next frame on. If it was exposed before the
-    /// last trigger, it counts as the late still of an earlier trigger.
+    /// Reports that a still is the reference from the next frame on. If the still was exposed
+    /// before the last trigger, it counts as a late still of an earlier trigger.
     void stillArrived(Timestamp exposed);
 
     [[nodiscard]] bool pending() const { return firedAt_ && !arrived_; }
     [[nodiscard]] int fired() const { return fired_; }
     [[nodiscard]] int lost() const { return lost_; }
-    /// Returns the number of repeated triggers for lost stills. fired() includes them.
+    /// Returns how many triggers were repetitions, because the still of the trigger before was
+    /// lost. fired() includes the repetitions.
     [[nodiscard]] int repetitions() const { return repetitions_; }
 
 private:

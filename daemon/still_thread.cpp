@@ -18,7 +18,7 @@ std::optional<CapturedStill> nextStill(CameraReader& reader, Rig& rig, Stats& st
 }
 
 bool StillBox::put(CapturedStill still) {
-    // Declared before the lock, so that it is destroyed after the mutex is unlocked.
+    // `oldest` is declared before `lock`, so it is destroyed after the mutex was unlocked.
     std::optional<CapturedStill> oldest;
     const std::lock_guard lock(mutex_);
     if (stills_.size() == kCapacity) {
@@ -52,7 +52,8 @@ void StillThread::check() const {
 
 void StillThread::run() {
     try {
-        // The role is Helper, because pictures can be made without new stills.
+        // The role of this thread is Helper, because pictures can be made even if no new stills
+        // arrive.
         Heartbeat heart(stats_.heartbeats(), "still capture", budget::kCapture, ThreadRole::Helper);
         while (!stopped_ && !reader_.ended()) {
             heart.beat();

@@ -16,15 +16,16 @@
 
 namespace mfar {
 
-/// A still with the pose of the video camera at the still's time, if that is known.
+/// A still, with the pose that the video camera had at the time of the still, if that pose is
+/// known.
 struct CapturedStill {
     Frame frame;
     std::optional<Pose> pose{};
     std::optional<StillMeasurement> measured{};  ///< not set: tags were not searched yet
 };
 
-/// Returns the next still of a rig, or nothing after `timeout`. Counts and records the still. The
-/// still's time is on the video's clock. Throws Failure.
+/// Returns the next still of a rig, or nothing after `timeout`. Counts and records the still. Its
+/// time is converted to the video camera's clock. Throws Failure.
 [[nodiscard]] std::optional<CapturedStill> nextStill(CameraReader& reader, Rig& rig, Stats& stats,
                                                      std::chrono::milliseconds timeout);
 
@@ -42,21 +43,22 @@ private:
     std::deque<CapturedStill> stills_;
 };
 
-/// The thread that fetches stills from a live still camera. The video camera has a thread of its
-/// own, so that neither this camera nor the search for tags in a still delays the video.
+/// The thread that fetches stills from a live still camera. Another thread reads the video camera.
+/// So neither the still camera nor the search for tags in a still delays the video.
 class StillThread {
 public:
-    /// The caller must start the camera before and stop it afterwards. All arguments must outlive
-    /// this object.
+    /// The caller must start the still camera before it creates this object, and stop the camera
+    /// after it has called stop(). All arguments must outlive this object.
     StillThread(Rig& rig, PoseFinder& poses, Stats& stats);
     StillThread(const StillThread&) = delete;
     StillThread& operator=(const StillThread&) = delete;
-    /// Waits for the thread, which ends when the camera returns from its current call.
+    /// Waits until the thread has ended. The thread ends when its current call of the camera
+    /// returns.
     ~StillThread();
 
     void stop() { stopped_ = true; }
-    /// Throws the error that ended the thread, if there is one: Failure if the camera failed or a
-    /// still had a wrong size.
+    /// If an error ended the thread, throws that error: Failure if the camera failed or a still had
+    /// a wrong size.
     void check() const;
     /// Returns the oldest still that has arrived, or nothing. Never waits.
     [[nodiscard]] std::optional<CapturedStill> take() { return box_.take(); }

@@ -18,8 +18,9 @@ namespace mfar {
 void noteTakenLine(const std::filesystem::path& file, const TriggerLineConfig& line);
 
 /// Returns the GPIO line that the file names, or nothing if there is no file. Throws
-/// Failure(BadData) if the file is too long, not a regular file, a symbolic link or owned by
-/// another user, or if its keys are not exactly "chip", "line" and "active_low".
+/// Failure(BadData) if the file is too long, is owned by another user, or is not a regular file (a
+/// symbolic link is refused, too). Also throws it if the keys in the file are not exactly "chip",
+/// "line" and "active_low".
 [[nodiscard]] std::optional<TriggerLineConfig> takenLine(const std::filesystem::path& file);
 
 }  // namespace mfar

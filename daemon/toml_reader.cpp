@@ -57,8 +57,8 @@ std::string_view lastPart(std::string_view key) {
     return key.substr(key.rfind('.') + 1);
 }
 
-// Returns the difference between two keys. The last parts of the keys are compared, too, because a
-// key may be in a wrong section.
+// Returns how many characters differ between two keys. The last parts of the keys are compared,
+// too, because a key may be in a wrong section.
 std::size_t distance(std::string_view given, std::string_view known) {
     return std::min(editDistance(given, known), editDistance(lastPart(given), lastPart(known)) + 1);
 }

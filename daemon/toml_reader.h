@@ -16,13 +16,15 @@
 namespace mfar {
 
 /// Reads typed values from a TOML text. Collects all faults with their positions, so that one
-/// message reports all faults of a file. finish() reports keys that were not read as unknown.
+/// message reports all faults of a file. finish() reports all keys that were not read, because they
+/// are unknown.
 class TomlReader {
 public:
     /// Returns the fault of a text, or nothing if the text is valid.
     using Check = std::function<std::optional<std::string>(std::string_view)>;
 
-    /// Returns the fault of a number that is within its range, or nothing if the number is valid.
+    /// Checks a number that is within its range. Returns its fault, or nothing if the number is
+    /// valid.
     using NumberCheck = std::function<std::optional<std::string>(double)>;
 
     using NumbersCheck = std::function<std::optional<std::string>(std::span<const double>)>;

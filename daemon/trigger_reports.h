@@ -6,7 +6,7 @@
 
 namespace mfar {
 
-/// Finds new faults of the trigger line for the log. Only one thread may use it.
+/// Finds faults of the trigger line that were not logged yet. Only one thread may use it.
 class TriggerReports {
 public:
     struct Seen {

@@ -46,7 +46,7 @@ void readSun(TomlReader& file, std::optional<Sun>& sun) {
 }
 
 /// Sets the light's source. `name` is "studio", "sky", "camera" or the name of a picture file.
-/// Returns the fault of `name`, or nothing.
+/// Returns a message if `name` is invalid, otherwise nothing.
 std::optional<std::string> takeEnvironment(std::string_view name,
                                            const std::filesystem::path& folder, FileMemory& memory,
                                            LightOptions& light) {

@@ -11,9 +11,9 @@ class TomlReader;
 
 void readVirtual(TomlReader& file, VirtualOptions& options);
 
-/// Reads section [light]: the light on virtual objects. Also reads an environment picture, so that
-/// its fault (missing, invalid, larger than `memory`) is reported with the line of the
-/// configuration file that names it. The name is relative to `folder`.
+/// Reads section [light]: the light on virtual objects. If the section names an environment
+/// picture, reads that file, too. If the picture is missing, invalid or larger than `memory`, this
+/// is reported with the line of the configuration that names it. The name is relative to `folder`.
 void readLight(TomlReader& file, const std::filesystem::path& folder, FileMemory& memory,
                LightOptions& light);
 

@@ -35,8 +35,8 @@ private:
 
 [[nodiscard]] TracedLayerOptions tracedLayerOptions(const VirtualOptions& options, float exposure);
 
-/// Returns a scene with these objects at their poses in the tag map, in this light. A light that is
-/// to be estimated from the camera begins as the light of a studio.
+/// Returns a scene with these objects at their poses in the tag map, in this light. If the light is
+/// to be estimated from the camera's pictures, the scene begins with the light of a studio.
 [[nodiscard]] Scene sceneOf(const std::vector<PlacedObject>& objects, const LightOptions& light,
                             const TagMap& tags);
 

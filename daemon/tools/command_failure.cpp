@@ -8,7 +8,8 @@
 namespace mfar {
 namespace {
 
-// Returns the innermost command of the command line, to whose arguments the error belongs.
+// Returns the innermost subcommand of the command line. The error belongs to the arguments of that
+// subcommand.
 const CLI::App& innermost(const CLI::App& app) {
     const std::vector<CLI::App*> used = app.get_subcommands();
     return used.empty() ? app : innermost(*used.front());

@@ -82,8 +82,8 @@ private:
         ++counts_.flows;
     }
 
-    /// The recorder refuses pictures instead of waiting for the disk, but a simulation must not
-    /// lose any. Throws if `taken` is false.
+    /// Throws if `taken` is false: the recorder has refused a picture, because it does not wait for
+    /// a slow disk. A simulation must not lose any picture.
     void checked(bool taken) const {
         if (!taken)
             throw std::runtime_error(

@@ -12,7 +12,7 @@ namespace mfar {
 struct SimOptions {
     std::filesystem::path out;
     double stillsHz = 1;  ///< trigger pulses per second of simulated time; 0: no stills
-    /// These flags select the ground truth: truth/highres, truth/inverse_depth and truth/flow.
+    /// Which ground truth is written: truth/highres, truth/inverse_depth, truth/flow.
     bool highRes = true;
     bool depth = true;
     bool flow = true;

@@ -11,7 +11,8 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// Counters of a camera, as status.cpp names them, in the order in which they are shown.
+// The counters of a camera, in the order in which they are shown: the key that status.cpp gives to
+// the counter, and its text.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 8> kCounters{{
     {"missed", "missed by the driver"},
     {"broken", "broken"},

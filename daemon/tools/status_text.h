@@ -6,8 +6,9 @@
 
 namespace mfar {
 
-/// Returns mfard's answer to a command as lines "key value". `health` is one sentence. `cameras`
-/// has a line for each camera, with those counters that are not 0. A missing value is "none".
+/// Returns mfard's answer to a command as text, with a line "key value" for each value. The health
+/// is one line. Each camera has a line, with those of its counters that are not 0. A missing value
+/// is "none".
 [[nodiscard]] std::string statusText(const nlohmann::ordered_json& answer);
 
 }  // namespace mfar

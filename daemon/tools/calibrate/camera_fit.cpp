@@ -45,8 +45,8 @@ RigidTransform transformOf(const cv::Vec3d& rotation, const cv::Vec3d& translati
             {translation[0], translation[1], translation[2]}};
 }
 
-/// Features by which views are compared: position of the target in the picture, distance, tilt and
-/// rotation.
+/// Six numbers by which views are compared. They describe the target in the view: its position in
+/// the picture (two numbers), distance, tilt (two numbers) and rotation.
 using Features = Eigen::Matrix<double, 6, 1>;
 
 Features featuresOf(const TargetView& view, const RigidTransform& T, Size picture) {
@@ -118,8 +118,8 @@ double median(std::vector<double> v) {
     return *middle;
 }
 
-/// Returns the robust standard deviation of the residuals' coordinates in all views with a pose
-/// [px].
+/// Returns the robust standard deviation [px] of the residuals' coordinates, over all views that
+/// have a pose.
 double spreadOf(const Target& target, const std::vector<TargetView>& views, const CameraFit& fit) {
     std::vector<double> components;
     for (std::size_t i = 0; i < views.size(); ++i) {
@@ -146,7 +146,7 @@ bool dropCorners(const Target& target, TargetView& view, const CameraFit& fit,
 }
 
 /// Computes the target's pose in each view with the fitted camera. Removes corners and views that
-/// do not fit. Returns true if any were removed.
+/// do not fit. Returns true if a corner or view was removed.
 bool placeViews(const Target& target, std::vector<TargetView>& views, CameraFit& fit) {
     for (std::size_t i = 0; i < views.size(); ++i)
         if (fit.poses[i]) fit.poses[i] = targetPose(target, views[i], fit.camera);

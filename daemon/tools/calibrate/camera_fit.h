@@ -17,7 +17,7 @@ class Unsuitable : public std::runtime_error {
 };
 
 /// Returns the pose T_camera_target of the target in one view. Returns nothing if the view has
-/// fewer than six corners or they do not fit a plane.
+/// fewer than six corners, or if its corners do not fit a plane.
 [[nodiscard]] std::optional<RigidTransform> targetPose(const Target& target, const TargetView& view,
                                                        const CameraModel& camera);
 
@@ -43,9 +43,9 @@ struct CameraFit {
     double sigma = 0;  ///< robust standard deviation of a corner's coordinate [px]
 };
 
-/// Fits intrinsics and distortion (k3 stays 0) to at most `most` views, chosen to differ as much as
-/// possible. Views that do not fit are ignored. Corners that do not fit are removed from `views`.
-/// Throws Unsuitable.
+/// Fits intrinsics and distortion (k3 stays 0) to at most `most` views. The views are chosen so
+/// that they differ as much as possible. Views that do not fit are ignored. Corners that do not fit
+/// are removed from `views`. Throws Unsuitable.
 [[nodiscard]] CameraFit fitCamera(const Target& target, std::vector<TargetView>& views,
                                   Size picture, const std::string& sensor, int most);
 

@@ -11,7 +11,7 @@ namespace mfar::calibration {
 
 /// Interpolates a pose at time t [s] between four poses at `times` [s], with cubic polynomials. For
 /// a camera in a moving hand and 30 poses per second, the error is 0.002 degrees. With linear
-/// interpolation it would be 0.02 degrees, a pixel of the still.
+/// interpolation, it would be 0.02 degrees, about a pixel of the still.
 [[nodiscard]] RigidTransform between(const std::array<RigidTransform, 4>& poses,
                                      const std::array<double, 4>& times, double t);
 

@@ -107,8 +107,8 @@ Cells cellsOf(const SensorResult& sensor) {
     return out;
 }
 
-/// Returns the scale of the arrows: the residual [px] whose arrow is as long as a cell is wide. It
-/// is at least as large as nine of ten mean residuals.
+/// Returns the scale of the arrows. It is the residual [px] whose arrow is as long as a cell is
+/// wide. At least nine of ten mean residuals are at most this long.
 double arrowUnit(const Cells& cells) {
     std::vector<double> lengths{1e-4};
     for (const auto& row : cells)

@@ -101,9 +101,10 @@ double RigBundle::cost(const std::array<double, 2>& sigma) const {
     return sum;
 }
 
-/// Returns the derivative of a view's pose, as a motion in the camera's frame, with respect to the
-/// parameters of the pose. For a view with its own pose, the parameters are this pose. For an
-/// interpolated pose, they are the extrinsics, the clock offset and four poses.
+/// Returns the derivative of a view's pose with respect to the parameters of this pose. The change
+/// of the pose is expressed as a motion in the camera's frame. If the view has a pose of its own,
+/// the parameters are this pose. If its pose is interpolated, they are the extrinsics, the clock
+/// offset and the four poses between which it is interpolated.
 Eigen::MatrixXd RigBundle::poseJacobian(const View& view) const {
     if (!view.tied) return Matrix6::Identity();
     Eigen::MatrixXd out(6, 31);

@@ -10,17 +10,19 @@
 
 namespace mfar::calibration {
 
-/// Indices of the parameters that all views share. In this order: video camera (fx fy cx cy k1 k2
-/// p1 p2 k3), still camera (the same nine), T_still_video (rotation [rad] and translation [m] in
-/// the still camera's frame), offset of the still camera's clock [s].
+/// Positions in the vector of parameters that all views share; kShared is its length. The vector
+/// has, in this order: video camera (fx fy cx cy k1 k2 p1 p2 k3), still camera (the same nine),
+/// T_still_video (rotation [rad] and translation [m] in the still camera's frame), offset of the
+/// still camera's clock [s].
 inline constexpr int kStillAt = 9, kExtrinsicAt = 18, kOffsetAt = 24, kShared = 25;
 
-/// Adjusts all parameters together to the corners in all views of both sensors: cameras,
-/// extrinsics, offset of the still camera's clock, and the target's pose in each video frame. The
-/// method is Levenberg-Marquardt with a robust cost.
+/// Adjusts all parameters together, so that they fit the corners in all views of both sensors. The
+/// parameters are both cameras, the extrinsics, the offset of the still camera's clock, and the
+/// target's pose in each video frame. The method is Levenberg-Marquardt with a robust cost.
 ///
-/// A still's pose is interpolated between the four video frames around it. So stills determine the
-/// baseline and the clock offset, although no video frame was taken at exactly the same time.
+/// A still's pose is interpolated between the poses of the four video frames around it. So stills
+/// determine the baseline and the clock offset, although no video frame was taken at exactly the
+/// same time.
 class RigBundle {
 public:
     RigBundle(const Target& target, const StereoRig& rig, double offset);
@@ -30,15 +32,15 @@ public:
     /// Adds a view that has the pose with index `pose`. The corners must outlive this object.
     /// Returns the index of the view.
     int addView(bool still, const std::vector<Corner>& corners, int pose);
-    /// Adds a still whose pose is interpolated between four poses of the video. `times`: times of
-    /// these poses on the video's clock, minus the still's time on the still camera's clock [s].
-    /// Returns the index of the view.
+    /// Adds a still whose pose is interpolated between four poses of the video. `times`: for each
+    /// of these poses, its time on the video's clock, minus the still's time on the still camera's
+    /// clock [s]. Returns the index of the view.
     int addTied(const std::vector<Corner>& corners, const std::array<int, 4>& poses,
                 const std::array<double, 4>& times);
 
-    /// Solves for all parameters. `sigma`: standard deviation of a corner's coordinate [px], video
-    /// sensor first. `fixed`: true for each shared parameter that keeps its value. Throws
-    /// Unsuitable if the views do not determine the other parameters.
+    /// Solves for all parameters. `sigma`: standard deviation of a corner's coordinate [px], first
+    /// in the video, then in stills. `fixed`: true for each shared parameter that keeps its value.
+    /// Throws Unsuitable if the views do not determine the parameters that are not fixed.
     void solve(const std::array<double, 2>& sigma, const std::array<bool, kShared>& fixed);
 
     [[nodiscard]] const StereoRig& rig() const { return rig_; }

@@ -14,14 +14,14 @@ Timestamp later(Timestamp t, double seconds) {
 }
 
 struct Agreement {
-    /// Median difference between the results from different stills [rad].
+    /// Median difference between T_still_video and the results from the single stills [rad].
     double spread = std::numeric_limits<double>::infinity();
     RigidTransform T_still_video;
     int stills = 0;
 };
 
-/// Computes T_still_video from each still, for one clock offset. Returns the result with the
-/// smallest median difference from all others, which is robust against outliers.
+/// For one clock offset, computes T_still_video from each still. Returns the result whose median
+/// difference from the others is smallest, so that outliers do not matter.
 Agreement agreementAt(const PoseTrack& video, const std::vector<StillPose>& stills, double offset) {
     std::vector<RigidTransform> candidates;
     double distance = 0;
@@ -56,13 +56,13 @@ RigStart startOfRig(const PoseTrack& video, const std::vector<StillPose>& stills
     RigStart out;
     Agreement best;
     const double step = std::max(1e-3, video.interval() / 8);
-    // The search begins at offset 0. If nothing moved, no other offset gives a smaller spread, so 0
-    // is the result.
+    // The search begins at offset 0, and another offset must give a smaller spread to replace it.
+    // If nothing moved, no offset does, so the result is 0.
     for (int i = 0; i * step <= maxOffset; ++i) {
         for (const double offset : {i * step, -i * step}) {
             const Agreement now = agreementAt(video, stills, offset);
-            // An offset is refused if it puts many stills before the start or after the end of the
-            // video. The few other stills would have a small spread by chance.
+            // An offset is refused if it moves many stills to times before or after the video. The
+            // few stills that remain would agree by chance.
             if (now.stills * 4 < best.stills * 3 || !(now.spread < best.spread)) continue;
             best = now;
             out = {now.T_still_video, offset, now.stills};

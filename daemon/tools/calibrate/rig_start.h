@@ -17,9 +17,9 @@ struct RigStart {
     int stills = 0;
 };
 
-/// Returns first estimates of the extrinsics and of the clock offset, which is within +-maxOffset
-/// [s]. At the estimated offset, the extrinsics from different stills agree best. At a wrong offset
-/// they differ, because the camera moved.
+/// Returns first estimates of the extrinsics and of the clock offset. The offset is searched
+/// between -maxOffset and maxOffset [s]. At the right offset, the extrinsics that are computed from
+/// the single stills agree best. At a wrong offset they differ, because the camera moved.
 [[nodiscard]] RigStart startOfRig(const PoseTrack& video, const std::vector<StillPose>& stills,
                                   double maxOffset);
 

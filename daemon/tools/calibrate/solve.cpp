@@ -14,10 +14,10 @@ namespace mfar::calibration {
 namespace {
 
 constexpr int kLeastVideoViews = 12, kLeastStillViews = 6, kLeastPairs = 5;
-// Largest standard deviation of a clock offset that counts as known [s].
+// A clock offset counts as known if its standard deviation is at most this [s].
 constexpr double kMaxOffsetDeviation = 0.002;
-// The target counts as moving during a still if its image moves by at least this distance over the
-// three frame intervals around the still [video px].
+// The target counts as moving during a still if its image in the video moves by at least this
+// distance [px] over the three frame intervals around the still.
 constexpr double kLeastMotion = 1;
 constexpr int kLeastMoving = 3;
 constexpr double kMaxFocalDeviation = 0.005;
@@ -67,8 +67,8 @@ public:
 
 private:
     /// Returns the number of stills during which the target moves in the video by more than noise.
-    /// With a camera at rest, noise would look like motion, and the result would be a wrong clock
-    /// offset with a small standard deviation.
+    /// If the camera is at rest, noise looks like motion. The clock offset would then be wrong,
+    /// although its standard deviation is small.
     [[nodiscard]] int movingStills() const {
         const CameraModel& camera = videoFit_.camera;
         const auto seen = [&](const RigidTransform& T, const Eigen::Vector3d& point) {
@@ -148,8 +148,9 @@ private:
     }
 
     bool leaveOut(const RigBundle& bundle) {
-        // Uses the poses of track_, which come from the video alone. The bundle adjusted its video
-        // poses to the more precise stills, so a still with an error would seem to fit.
+        // The poses of track_ are used, because they come from the video alone. The bundle has
+        // adjusted its video poses to the stills, which are more precise. With those poses, a still
+        // with an error would seem to fit.
         const auto shift = static_cast<std::int64_t>(std::llround(bundle.offset() * 1e9));
         std::vector<double> errors;
         for (const Member& m : stillMembers_) {

@@ -12,9 +12,9 @@ namespace mfar::calibration {
 
 enum class TargetKind { AprilGrid, Checkerboard };
 
-/// A flat target whose corners can be identified. The first corner is the origin of its frame, and
-/// the x axis is along a row. The y axis points up (AprilGrid, as Kalibr defines it) or along a
-/// column (checkerboard). z is 0 for all corners.
+/// A flat target whose corners can be identified. The origin of its frame is the first corner, and
+/// the x axis is along a row. The y axis of an AprilGrid points up, as Kalibr defines it. The y
+/// axis of a checkerboard is along a column. z is 0 for all corners.
 struct Target {
     TargetKind kind = TargetKind::AprilGrid;
     int columns = 0, rows = 0;  ///< numbers of tags, or of a checkerboard's inner corners
@@ -30,8 +30,8 @@ struct Target {
 [[nodiscard]] Target aprilGrid(int columns, int rows, double tagSize, double spacing,
                                int firstId = 0);
 /// Returns a checkerboard with `columns` x `rows` inner corners and squares of edge `square` [m].
-/// One number must be odd and the other even, because otherwise the checkerboard would look the
-/// same upside down. Throws std::runtime_error.
+/// One of the two numbers must be odd and the other even. Otherwise, the checkerboard would look
+/// the same upside down. Throws std::runtime_error.
 [[nodiscard]] Target checkerboard(int columns, int rows, double square);
 /// `corners` are the numbers of inner corners, such as "9x6". Throws std::runtime_error.
 [[nodiscard]] Target checkerboard(std::string_view corners, double square);

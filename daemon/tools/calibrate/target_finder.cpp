@@ -37,9 +37,9 @@ double shortestEdge(const TagDetection& tag) {
     return out;
 }
 
-/// Returns half the side of a window around a tag's corner that contains only the tag's border and
-/// the square in the gap between tags. The border is at least one of the tag's eight cells wide.
-/// The factor 0.9 allows for slanted edges.
+/// Returns half the side of the window in which a tag's corner is refined [px]. The window contains
+/// only parts of the tag's border and of the square in the gap between tags. The border is at least
+/// one of the tag's eight cells wide. The factor 0.9 allows for slanted edges.
 int windowFor(const TagDetection& tag, const Target& target) {
     const double clear = shortestEdge(tag) * std::min(1. / 8, target.spacing);
     return std::min(kLargestWindow, static_cast<int>(0.9 * clear));
@@ -50,8 +50,8 @@ void refine(const cv::Mat& picture, std::vector<cv::Point2f>& points, int window
                      {cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 40, 0.001});
 }
 
-/// Returns the four corners of the target at a detected tag. Corner k of the printed tag is corner
-/// (k + turn) % 4 of the detected tag.
+/// Returns the target's four corners at a detected tag. Corner k of the printed tag is corner (k +
+/// turn) % 4 of the detected tag.
 std::vector<Corner> cornersOf(const TagDetection& tag, int slot, int turn) {
     std::vector<Corner> out;
     for (int k = 0; k < 4; ++k)
@@ -76,7 +76,7 @@ double planeError(const Target& target, const std::vector<Corner>& corners) {
     return sum / static_cast<double>(seen.size());
 }
 
-/// Refines the corners. Keeps those that moved by less than `reach` [px] and whose refinement
+/// Refines the corners. Keeps a corner if it moved by less than `reach` [px] and its refinement
 /// window is inside the picture.
 void keepRefined(const cv::Mat& picture, std::vector<Corner>& corners, int window, double reach) {
     const cv::Rect inside(window + 2, window + 2, picture.cols - 2 * window - 4,
@@ -118,8 +118,9 @@ std::vector<Corner> TargetFinder::find(const ImageView& luma) {
     return target_.kind == TargetKind::AprilGrid ? findTags(luma) : findBoard(luma);
 }
 
-// Finds the orientation of the printed tags. Kalibr and other programs print tags in other
-// orientations than the AprilTag library. Only one of the four orientations fits a plane.
+// Finds the orientation of the printed tags. Kalibr and other programs print tags turned by a
+// multiple of 90 degrees, compared with the AprilTag library. Only with the right one of the four
+// orientations do the corners of all tags fit a plane.
 void TargetFinder::learnTurn(const std::vector<TagDetection>& tags) {
     double least = std::numeric_limits<double>::infinity();
     for (int turn = 0; turn < 4; ++turn) {
@@ -134,9 +135,10 @@ void TargetFinder::learnTurn(const std::vector<TagDetection>& tags) {
     }
 }
 
-// Detects tags in a picture whose black areas were made thinner by a pixel or two. Otherwise, black
-// squares that meet at a corner may merge the whole grid into one shape without tags. In a clean
-// print, this found 19 of 20 tags instead of 5. The corners are measured in the original picture.
+// Detects tags in a copy of the picture whose black areas are thinner by one pixel, or by three in
+// a large picture. Otherwise, black squares that meet at a corner may join the whole grid into one
+// shape, in which no tag is found. In a clean print, the thinner areas gave 19 of 20 tags instead
+// of 5. The corners are measured in the original picture.
 std::vector<TagDetection> TargetFinder::detect(const cv::Mat& picture) {
     const int side = picture.cols >= kLargeWidth ? 4 : 2;
     cv::dilate(picture, thinned_, cv::Mat::ones(side, side, CV_8U));

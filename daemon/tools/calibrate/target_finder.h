@@ -12,8 +12,8 @@
 namespace mfar::calibration {
 
 /// Finds the corners of a target in pictures of one size. A corner is a point where two black and
-/// two white squares meet, also in an AprilGrid. It is symmetric under a rotation by 180 degrees,
-/// so that blur and gamma do not move it.
+/// two white squares meet, also in an AprilGrid. The picture around such a point is symmetric under
+/// a rotation by 180 degrees, so blur and gamma do not move the corner.
 class TargetFinder {
 public:
     /// `target` must outlive this object.
@@ -27,7 +27,8 @@ private:
     [[nodiscard]] std::vector<Corner> findTags(const ImageView& luma);
     [[nodiscard]] std::vector<Corner> findBoard(const ImageView& luma) const;
     [[nodiscard]] std::vector<TagDetection> detect(const cv::Mat& picture);
-    /// Returns how many tags in one picture suffice to determine the orientation of the print.
+    /// Returns how many tags a picture must show to determine the orientation in which they were
+    /// printed.
     [[nodiscard]] int leastTags() const;
     void learnTurn(const std::vector<TagDetection>& tags);
 

@@ -11,13 +11,14 @@ namespace mfar::calibration {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
-// Smallest tilt and depth of the views. With less, many pairs of focal length and target distance
-// fit equally well.
+// The views must have at least this tilt and depth. With less, many pairs of focal length and
+// target distance would fit equally well.
 constexpr double kLeastTilt = 12 * kDegree;
 constexpr double kLeastDepth = 1.2;  // distance of the farthest / distance of the nearest corner
 constexpr double kLeastCoverage = 0.6;
-// Quantiles are used instead of the extremes, so that no single view decides: kMostlyAt for the
-// largest tilt and depth, 1 - kMostlyAt for the smallest depth.
+// Quantiles are used instead of the largest and smallest values, so that no single view decides.
+// The quantile kMostlyAt replaces the largest tilt and the largest depth, the quantile 1 -
+// kMostlyAt the smallest depth.
 constexpr double kMostlyAt = 0.9;
 
 double quantile(std::vector<double> values, double q) {
