@@ -13,7 +13,7 @@ namespace mfar {
 enum class HandOver {
     /// For live sources: a newer item replaces the stored item, which counts as a drop.
     NewestWins,
-    /// The sender waits until the receiver has taken the item and the receiver asks for the next
+    /// The sender waits until the receiver has taken the item and has asked for the next
     /// one. So no item is lost, and a run can be repeated exactly. Sources at the pace "consumer"
     /// use this.
     Lossless,
