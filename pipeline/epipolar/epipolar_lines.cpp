@@ -5,8 +5,8 @@
 namespace mfar {
 namespace {
 
-// If normalError() is at most this distance [px of the pyramid level], only pixels on the epipolar
-// line are searched, and no pixels beside it.
+// If normalError() is at most this distance [px of the pyramid level], the pixels beside an
+// epipolar line are not searched.
 constexpr double kNoSlack = 0.5;
 
 simd::LabelRow rowOf(const EpipolarLens& lens, int y) {
