@@ -2,11 +2,11 @@
 
 namespace mfar {
 
-/// Options by which frames skip work whose result would not be visible. The comment of each option
-/// says what happens if it is true.
-/// Benchmarks turn one option off to measure the time that it saves and the error that it adds.
-/// Other such options are PipelineOptions::skipUnchanged and depthEverywhere,
-/// EpipolarOptions::mostPredicted, KeyframeOptions and DepthOptions.
+/// Options by which a frame skips work whose result would not be visible. Each option is described
+/// as it works when it is true.
+/// Benchmarks turn one option off at a time, and measure the time that it saves and the error that
+/// it causes. There are more options of this kind: PipelineOptions::skipUnchanged and
+/// depthEverywhere, EpipolarOptions::mostPredicted, KeyframeOptions and DepthOptions.
 struct SkipOptions {
     bool upscaledTiles = true;  ///< a tile to which the still adds nothing is only enlarged
     bool smoothTiles = true;    ///< a tile without structure is not matched but only enlarged

@@ -18,7 +18,7 @@ public:
         times_.clear();
         last_ = Clock::now();
     }
-    /// Ends a stage, which began with the last call of start() or lap().
+    /// Ends a stage that began with the last call of start() or lap(), and begins the next one.
     void lap(const char* stage) {
         const auto now = Clock::now();
         times_.push_back({stage, std::chrono::duration<double, std::milli>(now - last_).count()});
