@@ -14,7 +14,7 @@ struct SkipOptions {
     bool plainTiles = true;
     bool tileLists = true;      ///< only changed tiles are drawn, unless most tiles changed
     bool knownFlow = true;      ///< the 2-D search starts from the last frame's flow
-    bool knownBehind = true;    ///< depth is not measured where it is known to lie behind objects
+    bool knownBehind = true;    ///< real depth that is known to lie behind objects is not measured
     bool objectsAtRest = true;  ///< objects over unchanged tiles are not drawn again
     bool hiddenObjects = true;  ///< objects completely occluded by real things are not drawn
     bool objectBounds = true;   ///< the layer is drawn only in a rectangle around the objects

@@ -51,7 +51,7 @@ public:
         device_ = nullptr;
         editable_ = {};
     }
-    /// Like the function above, but other steps are allowed to change these rows through edit().
+    /// Reports new rows in CPU memory that other steps may change through edit().
     void writtenOnHost(Rows<T> rows)
         requires(!std::is_const_v<T>)
     {

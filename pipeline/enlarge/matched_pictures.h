@@ -19,8 +19,8 @@ struct MatchedPictures {
     AlignedRows<std::int16_t> luma;  ///< video luma with replicated border [1/8 grey level]
     AlignedRows<std::uint8_t> still;
     AlignedRows<LookUpCell> lookUps;      ///< one entry per cell of 4x4 video pixels
-    double scaleX = 1, scaleY = 1;        ///< unit of look-ups (see LookedUp) per video px
-    double stillPerX = 1, stillPerY = 1;  ///< px of `still` per unit of look-ups
+    double scaleX = 1, scaleY = 1;        ///< look-up units (see LookedUp) per video px
+    double stillPerX = 1, stillPerY = 1;  ///< px of `still` per look-up unit
     StillTone tone;                       ///< the tone curve that was applied to `still`
 
     /// The picture in whose pixels look-ups are measured: the still, or a reduced still.

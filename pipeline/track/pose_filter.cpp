@@ -136,8 +136,8 @@ void PoseFilter::reset() {
 std::optional<Pose> PoseFilter::predict(Timestamp t) const {
     if (!state_ || missed_ > options_.bridgeFrames || !reaches(*state_, t)) return std::nullopt;
     const State at = propagated(*state_, t);
-    // If this is so, double precision was not enough for the covariance, and there is no valid
-    // prediction.
+    // A covariance that is not finite, or has a negative variance, shows that double precision was
+    // not enough. There is then no valid prediction.
     if (!isFinite(at.T_world_video) || !at.P.allFinite() || !(at.P.diagonal().minCoeff() >= 0))
         return std::nullopt;
     Pose out;

@@ -179,7 +179,8 @@ std::vector<TagDetection> TagDetector::detect(const ImageView& luma,
         const TagDetection detection = library_->translate(*one, part);
         if (trusted(detection, options_)) out.push_back(detection);
     }
-    // The order in which libapriltag returns tags depends on the number of threads.
+    // The order in which libapriltag returns tags depends on the number of threads, so they are
+    // sorted.
     std::sort(out.begin(), out.end(), [](const TagDetection& a, const TagDetection& b) {
         return std::tuple(a.tag, a.corners[0].x(), a.corners[0].y()) <
                std::tuple(b.tag, b.corners[0].x(), b.corners[0].y());

@@ -31,11 +31,11 @@ inline constexpr std::uint32_t kUnexplainedCells = 8U;
 /// Parameter a of Keys' cubic, the kernel that enlarges the video.
 inline constexpr float kCubicSlope = -0.75F;
 
-/// Taps of the sharpening filter at distances of one and two pixels. The filter approximates the
-/// inverse of a blur: that by Keys' cubic and by the area of a sensor pixel together. In one
+/// Taps of the sharpening filter at distances of one and two pixels. The filter approximately
+/// inverts the blur that Keys' cubic and the area of a sensor pixel cause together. In one
 /// dimension, the exact inverse has the taps 1.207, -0.141, 0.044, -0.008, ... at distances of 0,
-/// 1, 2, 3, ... pixels. kSharpenNear is exact. kSharpenFar replaces all taps from distance 2 on,
-/// whose sum is 0.0375. The centre tap is one minus the other taps: 1.205.
+/// 1, 2, 3, ... pixels. kSharpenNear is the exact tap. kSharpenFar replaces all taps from distance
+/// 2 on, whose sum is 0.0375. The centre tap is one minus the other taps: 1.205.
 inline constexpr float kSharpenNear = -0.14123F;
 inline constexpr float kSharpenFar = 0.0385F;
 
@@ -64,9 +64,9 @@ struct alignas(16) ClassifyTiles {
     /// kPlainFlow [video px], or 0 if no tile shall be drawn as one rectangle.
     float plainFlow;
     std::int32_t stillGiven;
-    /// Number of the frame. A drawn tile reads its neighbours, so unchanged neighbours are listed,
-    /// too. The shader stores this number for each of them, so that none is listed twice. 0:
-    /// neighbours are not listed, because no drawn tile reads them.
+    /// Number of the frame. Drawing a tile's detail reads the neighbouring tiles, so unchanged
+    /// neighbours are listed, too. The shader stores this number for each of them, so that none is
+    /// listed twice. 0: neighbours are not listed, because no drawn tile reads them.
     std::uint32_t detailFrame;
     std::int32_t learns;
     std::int32_t secondGiven;

@@ -40,9 +40,9 @@ inline constexpr float kHighDifference = 25.0F;
 inline constexpr int kCurvatureKinds = 28;
 inline constexpr int kCurvatureAngles = 8;
 
-/// Pixels are classified by the angle of their gradient. The bins of the angle are found from
-/// tangents of twice the angle: these are the tangents of 22.5 and 67.5 degrees, two of the borders
-/// between bins.
+/// A pixel's class depends on the angle of its gradient. To sort the angle into a bin, twice the
+/// angle is compared with the borders between bins. These are the tangents of two borders: 22.5 and
+/// 67.5 degrees.
 inline constexpr float kLowTangent = 0.414213562F;
 inline constexpr float kHighTangent = kLowTangent + 2.0F;
 

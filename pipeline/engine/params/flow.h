@@ -99,8 +99,8 @@ inline constexpr float kSlopeDamping = 0.5F;
 inline constexpr float kSlopeDampingPerWeight = 0.05F;
 
 /// Parameters of flow_search.comp. All flow fields are parts of the array cells[]. The members
-/// target, coarser and lastFrame are the indices of the first cells of three fields, and errors
-/// that of the first two-way error. -1: there is no such field.
+/// target, coarser, lastFrame and errors say at which index of cells[] a field begins. -1: there is
+/// no such field.
 struct alignas(16) SearchFlow {
     /// Pyramid levels of the patches and of the searched picture.
     LumaLevel from, to;
@@ -115,7 +115,8 @@ struct alignas(16) SearchFlow {
     /// The last frame's flow vectors are multiplied by this factor to convert them to pixels of the
     /// searched pyramid level.
     float perLastFrame;
-    /// Number of columns and rows of the last frame's field divided by that of the target field.
+    /// lastFrameX: number of columns of the last frame's field per column of the target field.
+    /// lastFrameY: the same for rows.
     float lastFrameX, lastFrameY;
     std::int32_t firstGroup;
     std::int32_t errors;
