@@ -15,9 +15,9 @@ inline constexpr double kHopelessFrame = 2;
 /// most promising first. Either one engine runs all steps, or one engine runs matching (pyramid,
 /// flow, weigh) and the other drawing (still, detail, occlusion).
 ///
-/// For some GPUs, the time of each assignment is known from `./run board-report`. Assignments that
-/// should take more than kHopelessFrame times as long as the fastest are left out. (The factor is
-/// large, because predictions may be wrong by a factor of two.) `driver` is
+/// For some GPUs, `./run board-report` has predicted the time of a frame with each assignment. An
+/// assignment is left out if this time is more than kHopelessFrame times that of the fastest. (The
+/// factor is large, because predictions may be wrong by a factor of two.) `driver` is
 /// GlContext::description().
 [[nodiscard]] std::vector<EngineChoice> promisingEngines(std::string_view driver);
 

@@ -51,8 +51,8 @@ struct FineMatch {
 /// FineMatch and StillTone learned from the same sensors. Immutable.
 class FilterBank {
 public:
-    /// Weights of a class's filter. A weight w is stored as w * 16384 / 2. The division by 2 makes
-    /// the sum of the residuals of a pixel's two classes their mean.
+    /// Weights of a class's filter. A weight w is stored as w * 16384 / 2. It is halved, because
+    /// the residuals of a pixel's two classes are added to compute their mean.
     using Filter = std::array<std::int16_t, enlarge::kFilterSize>;
 
     /// `unique` must contain kUnique filters, gradient classes first. Throws FilterBankError.

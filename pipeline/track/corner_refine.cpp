@@ -16,7 +16,7 @@ using Eigen::Vector2d;
 
 constexpr double kStep = 0.25;       // distance between samples along the edge's normal [px]
 constexpr double kMostReach = 2.5;   // largest distance of a sample from the edge [px]
-constexpr double kEnds = 0.08;       // ignored fraction at each end of an edge, where it is round
+constexpr double kEnds = 0.08;       // ignored fraction at each end of an edge: corners look round
 constexpr double kFarthestMove = 2;  // largest shift of a corner or an edge point [px]
 constexpr double kLeastContrast = 0.006;  // smallest contrast of an edge [linear light, 1 is white]
 

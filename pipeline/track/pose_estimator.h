@@ -17,10 +17,9 @@ struct PlanarChoiceOptions {
 };
 
 /// Chooses one of the two poses from which a plane of tags looks nearly the same. It keeps to the
-/// pose that is nearer to the predicted orientation. It changes to the other pose when that
-/// explains the corners significantly better, in one frame or over many frames. Thus, noise does
-/// not flip the pose when the plane is seen from straight ahead, but a wrong first choice is
-/// corrected.
+/// pose that is nearer to the predicted orientation. It changes to the other pose when the corners
+/// fit the other one significantly better, in one frame or over many frames. Thus, noise does not
+/// flip the pose when the plane is seen from straight ahead, but a wrong first choice is corrected.
 class PlanarChoice {
 public:
     explicit PlanarChoice(const PlanarChoiceOptions& options = {});

@@ -74,8 +74,8 @@ inline constexpr float kClearlyAlike = 0.05F;
 /// median around the cell by kPairReach [px] or more, the pair is on another surface and is left
 /// out.
 inline constexpr float kPairReach = 0.5F;
-/// Two flow vectors whose ends are at most this distance apart [px] are equal, so only one of them
-/// is compared.
+/// Two flow vectors whose ends are at most this distance apart [px] count as equal, and only one of
+/// them is compared.
 inline constexpr float kSameFlow = 0.05F;
 
 /// Largest change of the flow within one surface [px per px]. A larger change is a depth edge.
