@@ -74,8 +74,9 @@ private:
     InverseDepthField field_, carried_;
     PixelRect known_;
     Points points_, carriedPoints_;
-    /// Where the points of the pixels in known_ are after a camera motion. `bounds` has one entry
-    /// for each row of pixels: the bounding box of the pixels to which the points of this row move.
+    /// Result of moving the points of the pixels in known_ to a new camera pose. `bounds` has one
+    /// entry for each row of pixels: the bounding box of the pixels to which the points of this row
+    /// move.
     struct Moved {
         std::vector<std::int32_t> pixel;
         std::vector<float> x, y, inverseDepth, variance;

@@ -30,7 +30,7 @@ struct DepthOptions {
     KeyframeOptions keyframes{};
     EpipolarOptions search{};
     /// In a part of the picture in which the relative standard deviation of the known inverse depth
-    /// is at most this, depth is not measured with a keyframe. [0.001, 1].
+    /// is at most this, depth is not measured with a keyframe. The option's range is [0.001, 1].
     double enough = 0.01;
 };
 

@@ -43,7 +43,7 @@ private:
     PixelRect where_;
     // Per pixel: 1 if its depth is taken from pixels of similar colour, else 0.
     std::vector<std::uint8_t> open_;
-    // Per pixel: range of the inverse depths around it.
+    // low_, high_: the smallest and the largest inverse depth around each pixel.
     std::vector<float> low_, high_;
     struct {
         AlignedRows<float> inverseDepth, variance, red, green, blue;

@@ -44,9 +44,9 @@ public:
     /// three zeros. Several surfaces can match the same cell of the still. The error of a cell is
     /// the difference between its parallax and that of the nearest of these surfaces.
     [[nodiscard]] const Cells& occlusion() const { return hidden_; }
-    /// Returns an s for every cell: that of the point on the cell's epipolar line that is closest
-    /// to the end of the cell's vector in `flow`. `flow` is usually forward() after a refinement in
-    /// both dimensions.
+    /// Converts flow vectors to inverse depths. For every cell, finds the point on its epipolar
+    /// line that is nearest to the end of its vector in `flow`, and returns the s of this point.
+    /// `flow` is usually forward() after a refinement in both dimensions.
     [[nodiscard]] const std::vector<float>& sOf(const Cells& flow);
     /// Returns the flow at every video pixel [px], x and y interleaved. The flow of a point that
     /// the still camera cannot see ends far outside the picture.

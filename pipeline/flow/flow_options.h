@@ -38,7 +38,7 @@ struct EpipolarOptions {
     int finest = 0;
     /// The epipolar search of a frame can be restricted to values of s predicted from the last
     /// frame. After this number of successive frames with such a search, the next frame is searched
-    /// completely. [0, 60].
+    /// completely. The option's range is [0, 60].
     int mostPredicted = 7;
 
     bool operator==(const EpipolarOptions&) const = default;

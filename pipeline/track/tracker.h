@@ -62,7 +62,7 @@ public:
     [[nodiscard]] std::optional<Pose> raw() const;
     [[nodiscard]] std::optional<Pose> predict(Timestamp time) const;
     /// Returns the video camera's pose at the time of a still. The tags are found in the still
-    /// itself, and T_still_video is used to compute the pose of the video camera. It is not
+    /// itself, and T_still_video is used to compute the pose of the video camera. The pose is not
     /// filtered. Returns nothing if the still shows no usable tag.
     [[nodiscard]] std::optional<Pose> trackStill(const ImageView& still, Timestamp time);
 

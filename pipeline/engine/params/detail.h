@@ -58,10 +58,11 @@ inline constexpr int kTileAround = 8;
 struct alignas(16) ClassifyTiles {
     std::int32_t columns, rows;
     std::int32_t cellColumns, cellRows;
-    /// kLeastDetailWeight, or -1 if no tile that was matched with the still may get the class
-    /// kTileUpscaled.
+    /// Largest weight of the still in a tile of the class kTileUpscaled: kLeastDetailWeight, or -1
+    /// so that no matched tile gets this class.
     float leastWeight;
-    /// kPlainFlow [video px], or 0 if no tile shall be drawn as one rectangle.
+    /// Limit for the flow of a tile that is drawn as one rectangle [video px]. It is kPlainFlow, or
+    /// 0 to draw no tile in this way.
     float plainFlow;
     std::int32_t stillGiven;
     /// Number of the frame. Drawing a tile's detail reads the neighbouring tiles, so unchanged
