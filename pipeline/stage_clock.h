@@ -30,7 +30,7 @@ public:
 
 private:
     using Clock = std::chrono::steady_clock;
-    // Reserved at the start, so that frames do not allocate memory.
+    // Memory for this number of stages is allocated at the start, so that frames allocate none.
     static constexpr std::size_t kMostStages = 12;
 
     std::vector<StageTime> times_;

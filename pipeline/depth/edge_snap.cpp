@@ -17,8 +17,8 @@ constexpr int kBand = 4;
 // Pixels within this distance of a pixel vote on its depth [px].
 constexpr int kVoteRadius = 10;
 constexpr int kVoters = simd::kVoterStep;
-// At a depth edge, the inverse depth changes within 2 kBand + 1 pixels by more than kJump times the
-// larger value plus kSigmas standard deviations.
+// A depth edge is where the inverse depth changes within 2 kBand + 1 pixels by more than kJump *
+// (larger inverse depth) + kSigmas * (standard deviation).
 constexpr float kJump = 0.08F, kSigmas = 3;
 constexpr float kLikeness = 12;  // colour distance that halves the weight of a vote [grey levels]
 // The votes on a pixel's depth are valid only if the sum of their weights is at least this. The

@@ -17,7 +17,7 @@ using namespace enlarge;
 // or Part::Choose, the class gets no learned filter. With fewer in Part::Check, the class's filter
 // is checked only together with the filters of all other classes.
 constexpr double kLeastPixels = 400;
-// A new still multiplies the sums of all older stills by this factor.
+// When a new still arrives, the sums over all older stills are multiplied by this factor.
 constexpr double kForgetting = 0.95;
 // In the least-squares fit, the shipped filter counts as much as this number of pixels.
 constexpr double kPriorPixels = 300;

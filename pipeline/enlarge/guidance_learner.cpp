@@ -13,7 +13,7 @@
 namespace mfar::enlarge {
 namespace {
 
-// A new pair of stills multiplies the sums over older pairs by this factor.
+// When a new pair of stills arrives, the sums over all older pairs are multiplied by this factor.
 constexpr double kForgetting = 0.95;
 // The prior of the least-squares fit is zero guidance. It counts as much as this number of pixels.
 constexpr double kPriorPixels = 2000;

@@ -1,5 +1,6 @@
-// The parts of EpipolarSearch that work on labels (candidates of s) along epipolar lines: matching
-// costs, and values between two labels.
+// Member functions of EpipolarSearch that work on labels (candidates of s, counted in steps). They
+// compute matching costs along epipolar lines, and refine the best label to a position between
+// labels.
 #include "pipeline/epipolar/epipolar_search.h"
 
 namespace mfar {
