@@ -6,8 +6,8 @@
 namespace mfar {
 namespace {
 
-/// Predicted time of a frame during camera motion [ms], for each assignment of the steps to
-/// engines, on one GPU.
+/// Predicted time of a frame while the camera moves [ms], on one GPU. There is one time for each
+/// assignment of the steps to engines.
 struct Prediction {
     std::string_view gpu;
     double simd, matchSimdDrawGles, matchGlesDrawSimd, gles;
@@ -28,8 +28,8 @@ struct Candidate {
     double Prediction::* frame;
 };
 
-/// All assignments of steps to engines, in the order of the trials on a GPU without predicted
-/// times. SIMD is first, because it needs no shader compilation.
+/// All assignments of steps to engines, in the order in which they are tried on a GPU without
+/// predicted times. SIMD is first, because it needs no shader compilation.
 std::array<Candidate, 4> candidates() {
     constexpr auto kSimd = EngineKind::Simd, kGles = EngineKind::Gles;
     return {{{placed(kSimd, kSimd), &Prediction::simd},

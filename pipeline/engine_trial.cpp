@@ -44,8 +44,8 @@ ImageView viewOf(const std::vector<std::uint8_t>& rgba, Size size) {
     return {rgba.data(), size, 4UL * size.width, PixelFormat::Rgba8};
 }
 
-/// Median time of a frame [ms]. If the first measured frame takes longer than `most` [ms], its time
-/// is returned without further measurements.
+/// Returns the median time of a frame [ms]. If the first measured frame takes longer than `most`
+/// [ms], nothing more is measured, and its time is returned.
 double medianFrame(const EngineChoice& engines, const StereoRig& rig, Size output,
                    EngineKind shownFrom, double most) {
     using Clock = std::chrono::steady_clock;

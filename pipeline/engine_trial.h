@@ -12,10 +12,11 @@ struct EngineTrial {
     double frameMs = 0;  ///< median; includes transfers between CPU and GPU
 };
 
-/// Measures the assignments of steps to engines on generated moving pictures and returns them, the
-/// fastest first. If a frame takes more than kHopelessFrame times as long as with the fastest
-/// assignment so far, the assignment is not measured to the end. `shownFrom`: the display reads the
-/// picture from GPU memory (Gles) or from CPU memory (Simd).
+/// Measures the time of a frame with each of the assignments of steps to engines, on generated
+/// moving pictures. Returns the assignments with their times, the fastest first. The measurement of
+/// an assignment is cut short if a frame takes more than kHopelessFrame times as long as with the
+/// fastest assignment so far. `shownFrom`: the display reads the picture from GPU memory (Gles) or
+/// from CPU memory (Simd).
 ///
 /// Needs a current GL context. Four assignments take about a second, mostly for compiling shaders.
 /// Throws like Pipeline.

@@ -37,21 +37,21 @@ struct PipelineOptions {
     /// is measured only where a virtual object may be occluded.
     bool depthEverywhere = false;
     SkipOptions skips{};
-    /// The engine of each step. GLES needs a current GL context. setObjects() needs it, too, even
-    /// if no step uses GLES.
+    /// The engine of each step. A GL context must be current if a step uses GLES. For setObjects(),
+    /// it must be current in any case.
     EngineChoice engines = EngineChoice::fromEnvironment();
     /// Number of CPU threads that share the work of a step. 0: one per processor, but at most four.
     int threads = 0;
 };
 
 /// Makes a high-resolution picture from each video frame and the still. The constructor allocates
-/// what every frame needs. Memory for depth measurement is allocated with the first object. The
-/// first frame with a pose, or the first still with a pose, starts a thread that creates the
+/// the memory that every frame needs. The first object causes the allocation of memory for the
+/// depth measurement. The first frame or still with a pose starts a thread that creates the
 /// epipolar search.
 ///
 /// All calls must come from one thread. If a step runs on GLES, the GL context must be current in
-/// this thread. GlError, and std::invalid_argument for options out of range, are thrown only by
-/// functions that set something up.
+/// this thread. Only functions that set something up throw GlError, or std::invalid_argument for
+/// options out of range.
 class Pipeline {
 public:
     Pipeline(const StereoRig& rig, const PipelineOptions& options);
@@ -59,14 +59,14 @@ public:
     Pipeline(Pipeline&&) noexcept;
     Pipeline& operator=(Pipeline&&) noexcept;
 
-    /// Makes this still the reference of the following frames, and does all work that a new still
-    /// needs. The still may have any format. `pose` is the pose of the video camera at the time of
-    /// the still. If both the still and a frame have poses, the flow is searched along epipolar
-    /// lines, otherwise in both dimensions. Throws std::invalid_argument if the still does not have
-    /// the size of the rig's still camera or is invalid (requireSound()).
+    /// Makes this still the reference of the following frames, and does the work that a new still
+    /// causes. The still may have any format. `pose` is the pose of the video camera at the time of
+    /// the still. If the still and a frame have poses, their flow is searched along epipolar lines,
+    /// otherwise in both dimensions. Throws std::invalid_argument if the still is invalid
+    /// (requireSound()) or does not have the size of the rig's still camera.
     void setStill(const ImageView& still, Timestamp time, const std::optional<Pose>& pose = {});
-    /// Time of the second, older still, which is shown in areas that the newest still does not
-    /// show. Empty if there is no second still.
+    /// Time of the second still, or empty if there is none. The second still is older than the
+    /// newest one and is shown in areas that the newest still does not show.
     [[nodiscard]] std::optional<Timestamp> secondStill() const;
     void dropStill();
     /// Computes one output picture. Throws std::invalid_argument if `video` does not have the size
@@ -77,12 +77,12 @@ public:
     /// setMode() and setSkipUnchanged() take effect with the next run.
     void setMode(SuperResMode mode);
     void setSkipUnchanged(bool skip);
-    /// Sets the learned filters that enlarge the video. Null: the built-in filters. They are used
-    /// from the next still on, because the picture changes then anyway. Without a still, they are
-    /// used at once.
+    /// Sets the learned filters that enlarge the video. Null: the built-in filters. The new filters
+    /// are used from the next still on, because a new still changes the picture anyway. If there is
+    /// no still, they are used at once.
     void setFilters(std::shared_ptr<const FilterBank> filters);
-    /// Sets the object that receives each matched still while filters enlarge the video. Null: no
-    /// listener. The listener must outlive the pipeline.
+    /// Sets the object that receives every still after it was matched, as long as learned filters
+    /// enlarge the video. Null: no listener. The listener must outlive the pipeline.
     void setMatchListener(MatchListener* listener);
     /// Sets the importer that lets the GPU read camera memory without a copy. Null: every picture
     /// is uploaded. The importer must outlive the pipeline.
@@ -92,17 +92,17 @@ public:
     /// setting is out of range.
     void setQuality(const Quality& quality);
     void redraw();
-    /// Sets the virtual objects, which are shown in frames with a pose and hidden by nearer real
-    /// surfaces. The first call with an object allocates memory.
+    /// Sets the virtual objects. They are shown in frames with a pose, and nearer real surfaces
+    /// hide them. The first call with an object allocates memory.
     void setObjects(std::vector<VirtualObject> objects);
-    /// Sets a path-traced scene. After each frame, it is adapted to the real surroundings: shadows
-    /// fall onto the measured surface and, with `light`, the light is estimated from the video. The
-    /// first call with an object and calls with changed options allocate memory. Throws like
-    /// TracedLayer.
+    /// Sets a path-traced scene. After each frame, the scene is adapted to the real surroundings:
+    /// shadows fall onto the measured surface. With `light`, the light is also estimated from the
+    /// video. Memory is allocated by the first call with an object, and by calls with changed
+    /// options. Throws like TracedLayer.
     void setScene(Scene scene, const TracedLayerOptions& options,
                   std::optional<LightFollower> light = {});
-    /// Rectangle of the video pixels in and around the virtual objects and their shadows in the
-    /// last frame. Empty if no object is in view.
+    /// Returns a rectangle of video pixels that contains the virtual objects and their shadows in
+    /// the last frame, with a margin. It is empty if no object is in view.
     [[nodiscard]] PixelRect objectsRegion() const;
     /// Counters of the path tracer and the warp. Empty without a path tracer.
     [[nodiscard]] std::optional<TracedLayerCounters> tracedCounters() const;
@@ -111,33 +111,35 @@ public:
     [[nodiscard]] Size outputSize() const;
     /// Default output size: as wide as the still, with the aspect ratio of the video.
     [[nodiscard]] static Size fullSize(const StereoRig& rig);
-    /// Duration of each stage of the last run, measured on the CPU. After setMeasure(true), each
-    /// stage waits until its work is done, so that GPU work is included. By default, no stage
-    /// waits.
+    /// Duration of each stage of the last run, measured on the CPU. By default, stages do not wait
+    /// for the GPU. After setMeasure(true), each stage waits until its work is done, so that its
+    /// duration includes the work of the GPU.
     [[nodiscard]] const std::vector<StageTime>& stageTimes() const;
     void setMeasure(bool measure);
-    /// Waits until the last run's picture can be displayed from GPU memory (Gles) or from CPU
-    /// memory (Simd).
+    /// Waits until the last run's picture is complete and can be displayed, from GPU memory (Gles)
+    /// or from CPU memory (Simd).
     void finish(EngineKind shownFrom) const;
 
-    /// The real scene's depth from the last run that measured it. Throws std::bad_optional_access
-    /// if no object was ever set and `depthEverywhere` is off.
+    /// The real scene's depth, from the last run that measured it. Throws std::bad_optional_access
+    /// if there was never an object and `depthEverywhere` is false.
     [[nodiscard]] const InverseDepthField& inverseDepth() const;
 
-    // These functions read results back for tests, evaluation and the preview. They wait for the
-    // GPU. On a GPU, FrameResult::stats are the statistics of the previous run; readStats() returns
-    // the statistics of the last run.
+    // The functions below read results back, for tests, evaluation and the preview. They wait for
+    // the GPU. On a GPU, FrameResult::stats belong to the run before the last one; readStats()
+    // returns the statistics of the last run.
     [[nodiscard]] FrameStats readStats() const;
-    /// Flow of every video pixel (x, y interleaved), interpolated between cells. With poses, the
-    /// epipolar search's vector for the pixel replaces the interpolated vector if both differ by at
-    /// least half a pixel and no moving object is at the pixel. Empty without a still.
+    /// Flow of every video pixel (x, y interleaved), interpolated between cells. If the flow was
+    /// searched along epipolar lines, each pixel also has its own vector from this search. It
+    /// replaces the interpolated vector if the two differ by at least half a pixel, unless a moving
+    /// object is at the pixel. Without a still, the result is empty.
     [[nodiscard]] std::vector<float> readFlow() const;
-    /// Confidence (eq. 2 of the paper in docs/paper.md) of every video pixel, [0, 1]. Empty without
-    /// a still.
+    /// Confidence of every video pixel (eq. 2 of the paper in docs/paper.md), [0, 1]. Without a
+    /// still, the result is empty.
     [[nodiscard]] std::vector<float> readConfidence() const;
     [[nodiscard]] std::vector<TileClass> readTileClasses() const;
     [[nodiscard]] std::vector<bool> readSearchedTiles() const;
-    /// Coverage of each output pixel by virtual objects, [0, 1]. Empty without objects.
+    /// How much of each output pixel is covered by virtual objects, [0, 1]. Without objects, the
+    /// result is empty.
     [[nodiscard]] std::vector<float> readShownObjects() const;
     /// Output picture as RGBA8, first row first.
     [[nodiscard]] std::vector<std::uint8_t> readImage() const;
@@ -147,8 +149,9 @@ private:
     std::unique_ptr<State> state_;
 };
 
-/// Returns the dense 2-D flow between two pictures of the same size and any format, for evaluation
-/// and tests. x, y are interleaved for each pixel p of a: a(p) looks like b(p + flow).
+/// Returns the dense 2-D flow from picture a to picture b, for evaluation and tests. The pictures
+/// must have the same size and may have any format. Each pixel p of a has two successive numbers, x
+/// and y: b shows at p + (x, y) what a shows at p.
 [[nodiscard]] std::vector<float> flowBetween(const ImageView& a, const ImageView& b);
 
 }  // namespace mfar

@@ -1,4 +1,4 @@
-// The parts of Pipeline that handle real depth and virtual objects.
+// Member functions of Pipeline that handle real depth and virtual objects.
 
 #include "pipeline/flow/cell_field.h"
 #include "pipeline/pipeline_state.h"
@@ -90,9 +90,9 @@ PixelRect Pipeline::State::placeObjects(const std::optional<Pose>& pose, Timesta
     if (objects) {
         where = objects->place(pose ? std::optional(pose->T_world_video) : std::nullopt, time,
                                depth->stage.field());
-        // If detail and occlusion run on different engines, there are two copies of the picture.
-        // When the detail step draws a tile, its copy replaces the tile in the copy of the
-        // occlusion step, and the objects in the replaced tile are lost.
+        // If detail and occlusion run on different engines, each engine has its own copy of the
+        // picture. When the detail step draws a tile, the tile is copied to the other engine, where
+        // it overwrites objects that were drawn there before.
         const bool apart = options.engines.detail != options.engines.occlusion;
         const WorkPlan::Redraw redrawn = objects->redraw();
         plan.drawnOver(objects->staleTiles(), apart && redrawn == WorkPlan::Redraw::WithThem
@@ -143,7 +143,7 @@ void Pipeline::State::measureDepth(const VideoFrame& frame, const Pose& pose,
     lap("depth");
 }
 
-// Forgets the depth of moving things. They are in tiles whose flow is off the epipolar lines.
+// Forgets the depth of moving things. They are found as tiles whose flow leaves the epipolar lines.
 void Pipeline::State::forgetMoving(const DepthMatches& matches) {
     const Size tiles = plan.tileCount();
     for (int t = 0; t < tiles.width * tiles.height; ++t) {
@@ -154,7 +154,7 @@ void Pipeline::State::forgetMoving(const DepthMatches& matches) {
     }
 }
 
-// True if the flow of at least a quarter of the tile's cells is off the epipolar lines.
+// True if at least a quarter of the tile's cells have a flow that leaves the epipolar lines.
 bool Pipeline::State::leavesLines(const PixelRect& tile, const EpipolarFlow::Cells& vectors) const {
     const int columns = cellsOf(rig.video.size).width;
     int off = 0, all = 0;

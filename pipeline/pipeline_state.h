@@ -16,25 +16,26 @@
 
 namespace mfar {
 
-/// A flow vector cannot belong to a static point if it ends at least this far from the epipolar
-/// line [px].
+/// A flow vector that ends at least this far from its epipolar line [px] cannot belong to a static
+/// point.
 inline constexpr float kOffLine = 3;
 
-/// The data of Pipeline between frames. Data of a single frame is not stored here, but passed as
-/// arguments and returned. pipeline.cpp processes frames; pipeline_objects.cpp and readback.cpp
-/// contain other member functions.
+/// The data that Pipeline keeps between frames. Data of a single frame is passed in arguments and
+/// return values instead. The member functions that process frames are in pipeline.cpp, the others
+/// in pipeline_objects.cpp and readback.cpp.
 struct Pipeline::State {
     State(const StereoRig& rig, const PipelineOptions& options);
 
-    /// Results of a frame's flow step that the depth measurement needs. `searched2d` is true for
-    /// each tile that was searched in both dimensions.
+    /// What the depth measurement needs from a frame's flow step. `searched2d` has one entry per
+    /// tile: true if the tile was searched in both dimensions.
     struct DepthMatches {
         EpipolarFlow::Cells vectors;
         std::vector<bool> searched2d;
     };
-    /// Depth measurement of one frame. `where` is the area that needs depth [video px]. If
-    /// `measures` is false, the frame needs no depth. If only `isDue` is false, the last depth is
-    /// moved to this frame. `matches` is empty if the flow did not follow epipolar lines.
+    /// What to do about the depth of one frame. If `measures` is false: nothing. If `measures` is
+    /// true but `isDue` is false: the last depth is moved to this frame. If both are true: depth is
+    /// measured in `where` [video px]. `matches` is empty if the flow was not searched along
+    /// epipolar lines.
     struct DepthTask {
         PixelRect where;
         bool measures = false;
@@ -56,35 +57,37 @@ struct Pipeline::State {
         const CellWeights* second = nullptr;
     };
 
-    /// Starts a thread that creates the epipolar search, so that the first pictures need not wait.
-    /// Does nothing if the search exists or is being created.
+    /// Starts a thread that creates the epipolar search, so that the first pictures do not have to
+    /// wait for it. Does nothing if the search exists or is already being created.
     void beginEpipolar();
-    /// Returns the epipolar search. Creates it, or waits for the thread that creates it.
+    /// Returns the epipolar search. If it does not exist yet, creates it, or waits for the thread
+    /// that creates it.
     EpipolarFlow& needEpipolar();
     void needDepth();
     PixelRect placeObjects(const std::optional<Pose>& pose, Timestamp time);
     const TileWork& planFrame(const VideoFrame& frame);
-    /// Matches the frame with the newest still: along epipolar lines with a pose, otherwise in both
-    /// dimensions. `forDepth` is the area in which the depth measurement needs the epipolar search
-    /// [video px].
+    /// Matches the frame with the newest still. If both have poses, the search is along epipolar
+    /// lines, otherwise in both dimensions. In the area `forDepth` [video px], the depth
+    /// measurement needs the results of the epipolar search.
     Match matchStill(const VideoFrame& frame, const TileWork& work, const std::optional<Pose>& pose,
                      const PixelRect& forDepth);
     const CellWeights& weighed(const Reference& still, const VideoFrame& frame,
                                const LumaPyramid& pyramids, const FlowCells& flow,
                                const TileWork& work);
-    /// Must be called before a new still is stored. The newest still becomes the second still
-    /// unless keepsOlder() prefers the older one.
+    /// Must be called before a new still is stored. Makes the newest still the second one, unless
+    /// keepsOlder() prefers the present second still.
     void retireNewest();
     /// Matches the second still in the tiles that the newest still does not show. Returns null if
-    /// there are no such tiles. Must be called after matchStill().
+    /// there are none. Must be called after matchStill().
     const CellWeights* matchSecond(const VideoFrame& frame, const TileWork& work);
-    /// Decides if depth is measured, and copies the necessary flow results. Must be called before
-    /// the frame is drawn, because a later copy would wait until the GPU has drawn it. `alongLines`
-    /// is the flow if it was searched along epipolar lines, else null.
+    /// Decides if depth is measured, and copies the flow results that the measurement needs. Must
+    /// be called before the frame is drawn, because a later copy would have to wait until the GPU
+    /// has drawn the frame. `alongLines` is the flow if it was searched along epipolar lines, else
+    /// null.
     DepthTask prepareDepth(const PixelRect& where, bool hasPose, const FlowCells* alongLines);
     void listen(const CellWeights& weights);
-    /// Must be called before a new still is stored. Reports to the listener how the newest still
-    /// was matched.
+    /// Tells the listener how the newest still was matched in the last frame. Must be called before
+    /// a new still replaces it.
     void tellReplaced();
     [[nodiscard]] MatchedPictures::LookedUp lookedUp() const;
     void drawDetail(const VideoFrame& frame, const TileWork& work, const Match* match);
@@ -120,7 +123,7 @@ struct Pipeline::State {
     std::unique_ptr<Engine> gles, simd;
     Reference newest, second;
     std::unique_ptr<DetailStep> detail;
-    // now: video of this frame. drawn: for each tile, the video with which it was last drawn.
+    // now: the video of this frame. drawn: for each tile, its video when it was last drawn.
     RgbPlanes now, drawn;
     WorkPlan plan;
     SecondTiles secondTiles;

@@ -4,41 +4,41 @@
 
 namespace mfar {
 
-/// Use of the still. Off: the video is only enlarged. Blend (the method of the paper in
-/// docs/paper.md): the warped still is blended in by confidence. Detail: the still's fine detail is
-/// added where the video confirms it.
+/// How the still is used. Off: not at all, the video is only enlarged. Blend: the warped still is
+/// blended over the video with the confidence as opacity (the method of the paper in
+/// docs/paper.md). Detail: the still's fine detail is added where the video confirms it.
 enum class SuperResMode {
     Off,
     Blend,
     Detail,
 };
 
-/// Settings that trade time per frame for accuracy. The defaults are the most accurate. Changing
-/// them between frames costs no time.
+/// Settings that trade time per frame for accuracy. The defaults are the most accurate. They can be
+/// changed between frames without additional time.
 struct Quality {
     SuperResMode mode = SuperResMode::Detail;
-    /// True: the video is enlarged with Keys' cubic (4x4 pixels). False: with bilinear
-    /// interpolation (2x2 pixels), which is faster. False has an effect only in mode Off.
+    /// How the video is enlarged in mode Off. True: with Keys' cubic (4x4 pixels). False: with
+    /// bilinear interpolation (2x2 pixels), which is faster. Other modes ignore this.
     bool cubic = true;
     /// True: learned filters enlarge the video in mode Detail.
     bool learned = true;
     /// True: frames with known poses are matched along epipolar lines. False: all frames are
     /// matched in both dimensions.
     bool alongLines = true;
-    /// Options of the searches. Flow2dOptions::levels, EpipolarOptions::levels and longestParallax
-    /// are ignored here; the values given at construction stay.
+    /// Options of the searches. Flow2dOptions::levels, EpipolarOptions::levels and
+    /// EpipolarOptions::longestParallax have no effect here: their values at construction stay.
     Flow2dOptions flow2d{};
     EpipolarOptions epipolar{};
     /// Largest share of a frame's tiles that are matched with the still, (0, 1]. If more tiles have
-    /// structure, the tiles with the least structure are only enlarged. Without effect in mode
-    /// Blend.
+    /// structure, those with the least structure are not matched but only enlarged. Mode Blend
+    /// ignores this.
     double detailShare = 1;
-    /// Largest share of a frame's tiles that are matched with a second, older still because the
-    /// newest still does not show them, [0, 1]. 0: there is no second still. A second still is used
-    /// only if learned filters enlarge tiles.
+    /// Largest share of a frame's tiles that are matched with the second still, [0, 1]. The second
+    /// still is older than the newest one and is used in tiles that the newest one does not show.
+    /// It is used only while learned filters enlarge the video. 0: there is no second still.
     double secondShare = 0.25;
-    /// Real depth is measured in every n-th frame, n in [1, 60]. Frames between get the last depth,
-    /// moved to their poses.
+    /// Real depth is measured in every n-th frame, n in [1, 60]. In the other frames, the last
+    /// depth is moved to the frame's pose.
     int depthEvery = 1;
 
     bool operator==(const Quality&) const = default;

@@ -8,8 +8,8 @@ namespace mfar {
 namespace {
 
 constexpr double kFollows = 1.0 / 8;
-// Two stills count as taken from the same view if the mean motion of the cells is smaller than this
-// [video px]. Their occlusions and borders then differ only by parts of a tile.
+// Two stills count as taken from the same position if the cells have moved by less than this in the
+// mean [video px]. The stills then miss the same areas, except for parts of a tile.
 constexpr double kSameView = 0.5 * kTileSize;
 
 }  // namespace

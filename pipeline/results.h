@@ -11,37 +11,38 @@
 namespace mfar {
 
 /// Statistics of one frame for the status line, the still policy and the summary. With the GLES
-/// engine, numbers that the GPU counts are those of the frame before, and 0 in the first frame.
+/// engine, numbers that are counted on the GPU are those of the frame before; in the first frame,
+/// they are 0.
 struct FrameStats {
     std::array<int, kTileClasses> tiles{};
     double meanConfidence = 0;  ///< mean of the confidence (eq. 2 in docs/paper.md), [0, 1]
     double explained = 0;       ///< share of tiles that are flat or match a still, [0, 1]
-    /// Share of tiles whose video differs from the video of their last drawing.
+    /// Share of tiles whose video has changed since they were last drawn.
     double changed = 0;
     bool usedStill = false;
     bool usedPose = false;  ///< matched along epipolar lines, because still and frame have poses
     bool predicted = false;
     bool refinedPose = false;
-    /// Number of patches for the refinement of the pose, and their median distance from their
-    /// epipolar lines [px]. Without patches, epipolarError is 0.
+    /// posePatches: number of patches that were matched to refine the pose. epipolarError: the
+    /// median of their distances from their epipolar lines [px], or 0 without patches.
     int posePatches = 0;
     double epipolarError = 0;
     /// Number of tiles whose match along epipolar lines was wrong, because an object moves or a
-    /// pose is wrong. They were searched in both dimensions. It is 0 without poses, when all
-    /// changed tiles are searched in both dimensions.
+    /// pose is wrong. These tiles were then searched in both dimensions. Without poses, all changed
+    /// tiles are searched in both dimensions, and this number is 0.
     int searched2d = 0;
-    /// matchedSecond: number of tiles matched with a second still because the newest still does not
-    /// show them. showSecond: number of tiles that show some of the second still, including
-    /// neighbours of matched tiles.
+    /// matchedSecond: number of tiles that were matched with the second still, because the newest
+    /// still does not show them. showSecond: number of tiles that show some of the second still. It
+    /// includes neighbours of matched tiles.
     int matchedSecond = 0, showSecond = 0;
     /// Number of tiles that need real depth, because a virtual object may be occluded there. Tiles
-    /// that get the depth of an earlier frame (Quality::depthEvery above 1) are counted, too.
+    /// that get the depth of an earlier frame count, too (see Quality::depthEvery).
     int depthTiles = 0;
-    /// Number of tiles under a virtual object without a depth measurement, because the real surface
-    /// is known to lie behind the object.
+    /// Number of tiles with a virtual object that need no real depth, because the real surface is
+    /// known to lie behind the object.
     int depthTilesSkipped = 0;
     bool objectsInView = false;
-    bool objectsHidden = false;  ///< no object was drawn, because real things occlude all objects
+    bool objectsHidden = false;  ///< no object was drawn, because real things hide all objects
     DepthSource depth = DepthSource::None;
     Transfers transfers{};
 };

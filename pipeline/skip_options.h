@@ -2,11 +2,11 @@
 
 namespace mfar {
 
-/// Options by which frames skip work whose result would not be visible. The comment of each option
-/// says what happens if it is true.
-/// Benchmarks turn one option off to measure the time that it saves and the error that it adds.
-/// Other such options are PipelineOptions::skipUnchanged and depthEverywhere,
-/// EpipolarOptions::mostPredicted, KeyframeOptions and DepthOptions.
+/// Options by which a frame skips work whose result would not be visible. Each option is described
+/// as it works when it is true.
+/// Benchmarks turn one option off at a time, and measure the time that it saves and the error that
+/// it causes. There are more options of this kind: PipelineOptions::skipUnchanged and
+/// depthEverywhere, EpipolarOptions::mostPredicted, KeyframeOptions and DepthOptions.
 struct SkipOptions {
     bool upscaledTiles = true;  ///< a tile to which the still adds nothing is only enlarged
     bool smoothTiles = true;    ///< a tile without structure is not matched but only enlarged
@@ -14,7 +14,7 @@ struct SkipOptions {
     bool plainTiles = true;
     bool tileLists = true;      ///< only changed tiles are drawn, unless most tiles changed
     bool knownFlow = true;      ///< the 2-D search starts from the last frame's flow
-    bool knownBehind = true;    ///< depth is not measured where it is known to lie behind objects
+    bool knownBehind = true;    ///< real depth that is known to lie behind objects is not measured
     bool objectsAtRest = true;  ///< objects over unchanged tiles are not drawn again
     bool hiddenObjects = true;  ///< objects completely occluded by real things are not drawn
     bool objectBounds = true;   ///< the layer is drawn only in a rectangle around the objects

@@ -18,7 +18,7 @@ public:
         times_.clear();
         last_ = Clock::now();
     }
-    /// Ends a stage, which began with the last call of start() or lap().
+    /// Ends a stage that began with the last call of start() or lap(), and begins the next one.
     void lap(const char* stage) {
         const auto now = Clock::now();
         times_.push_back({stage, std::chrono::duration<double, std::milli>(now - last_).count()});
@@ -30,7 +30,7 @@ public:
 
 private:
     using Clock = std::chrono::steady_clock;
-    // Reserved at the start, so that frames do not allocate memory.
+    // Memory for this number of stages is allocated at the start, so that frames allocate none.
     static constexpr std::size_t kMostStages = 12;
 
     std::vector<StageTime> times_;

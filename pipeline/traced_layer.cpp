@@ -34,9 +34,11 @@ struct TracedLayer::State {
     int fadeFrames;
     std::shared_ptr<const Scene> scene;
     Timestamp time;
-    // Address of the shown picture. It is only compared with the address of the next picture.
+    // Address of the shown picture, for comparison with the address of the next picture. The
+    // picture is not accessed through it.
     const RenderedPicture* shown = nullptr;
-    // Number of frames in which the layer still changes without motion of the camera.
+    // Number of further frames in which new results of the path tracer change the layer, even if
+    // the camera rests.
     int changing = 0;
 };
 

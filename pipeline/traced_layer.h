@@ -27,14 +27,14 @@ struct TracedLayerCounters {
     std::uint64_t unmoved = 0;    ///< frames that showed a traced picture without warping it
     std::uint64_t requested = 0;  ///< pixels requested to be traced individually
     std::uint64_t answered = 0;
-    /// Number of the layer's pixels that no picture shows, in the last frame in which they were
-    /// counted.
+    /// Number of pixels of the layer that no picture shows. They are not counted in every frame;
+    /// this is the last count.
     int openHoles = 0;
 };
 
-/// The path-traced virtual layer. Threads of low priority render traced pictures over many frames,
-/// and these are warped to each frame's pose. Pixels that no picture shows are traced individually.
-/// No function waits for the threads.
+/// The virtual layer, drawn by path tracing. Threads of low priority trace pictures over the time
+/// of many frames. In each frame, the last finished picture is warped to the frame's pose, and
+/// pixels that no picture shows are traced individually. No function waits for the threads.
 class TracedLayer {
 public:
     /// False in builds for 32-bit ARM, which have no path tracer.
@@ -48,22 +48,22 @@ public:
     TracedLayer(const TracedLayer&) = delete;
     TracedLayer& operator=(const TracedLayer&) = delete;
 
-    /// Sets a valid scene. The present picture stays until there is a picture of the new scene.
+    /// Sets a valid scene. The last picture is shown until there is a picture of the new scene.
     void setScene(std::shared_ptr<const Scene> scene);
 
-    /// Begins a frame with the camera at this pose. Uses the finished results of the threads and
-    /// allows them some more processor time. Without further calls, they pause.
+    /// Begins a frame with the camera at this pose. Takes over what the threads have finished, and
+    /// allows them some more processor time. When that is spent, they pause until the next call.
     void update(const RigidTransform& T_world_video, Timestamp time);
-    /// True if the next render() would give a different result even if the camera does not move.
-    /// Always true while a moving object is shown.
+    /// True if the next render() would give a different result even if the camera stays where it
+    /// is. This is always so while a moving object is shown.
     [[nodiscard]] bool isStale() const;
 
-    /// Draws the layer at this pose, with moving objects at the time of the last update(). The
-    /// layer is empty before the first traced picture is finished. The result is valid until the
-    /// next call of any member function.
+    /// Draws the layer at this pose. Moving objects are drawn where they are at the time of the
+    /// last update(). The layer is empty until the first traced picture is finished. The result is
+    /// valid until the next call of any member function.
     LayerPicture& render(const RigidTransform& T_world_video);
 
-    /// True if the threads have done all work that the last update() allowed; for measurements.
+    /// True if the threads have finished all work that the last update() allowed. For measurements.
     [[nodiscard]] bool rests() const;
 
     [[nodiscard]] TracedLayerCounters counters() const;

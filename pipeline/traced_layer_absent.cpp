@@ -2,7 +2,8 @@
 
 #include <stdexcept>
 
-// Replaces traced_layer.cpp in builds without Embree, the library that traces rays.
+// Replaces traced_layer.cpp in builds without path tracer. (They have no Embree, the library that
+// traces rays.)
 namespace mfar {
 
 struct TracedLayer::State {};
@@ -17,7 +18,7 @@ TracedLayer::TracedLayer(const CameraModel&, Engine&, const TracedLayerOptions&)
 }
 TracedLayer::~TracedLayer() = default;
 
-// Never called, because no TracedLayer can be constructed.
+// These functions are never called, because the constructor always throws.
 void TracedLayer::setScene(std::shared_ptr<const Scene>) {}
 void TracedLayer::update(const RigidTransform&, Timestamp) {}
 bool TracedLayer::isStale() const {

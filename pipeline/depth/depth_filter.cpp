@@ -11,19 +11,19 @@
 namespace mfar {
 namespace {
 
-// A point is dropped if a camera motion reduces its depth to less than this fraction of the old
-// depth.
+// If a camera motion reduces the depth of a point to less than this fraction of its old depth, the
+// point is dropped.
 constexpr float kNearestShare = 0.05F;
 // Relative standard deviation that each second of camera motion adds to inverse depth.
 constexpr double kDrift = 0.02;
-// Longest duration of camera motion [s] that is assumed between two moves of the points. If more
-// time has passed between the moves, the camera must have rested meanwhile.
+// The variance grows with the time since the points were last moved. This time counts as at most
+// kMostMoving [s]: if it is longer, the camera has rested in between.
 constexpr double kMostMoving = 0.2;
 // Points are moved only when the picture has moved by at least this distance [px], because each
 // move rounds their positions to pixels.
 constexpr float kLeastMotion = 0.25F;
-// Smallest fused variance, as a fraction of the variance of one measurement. Averaging cannot
-// reduce it further, because measurements with the same still share errors.
+// Smallest fused variance, as a fraction of the variance of one measurement. Averaging cannot make
+// the variance smaller, because measurements with the same still share errors.
 constexpr float kLeastShare = 0.09F;
 // Two inverse depths agree if their squared difference is at most this multiple of the sum of their
 // variances.
@@ -77,8 +77,8 @@ bool DepthFilter::moves(const RigidTransform& T) const {
     return focal_ * (turn + nearest * static_cast<float>(T.translation.norm())) > kLeastMotion;
 }
 
-// Points are homogeneous, (x, y, 1, inverseDepth). Points at infinity (inverse depth 0) are only
-// rotated.
+// Moves the points to the new pose of the camera. Points are homogeneous, (x, y, 1, inverseDepth),
+// so points at infinity (inverse depth 0) are rotated but not translated.
 void DepthFilter::carry(const RigidTransform& T_now_before, float growth) {
     const Eigen::Matrix3d R = T_now_before.rotation.toRotationMatrix();
     simd::Motion motion{};
@@ -138,8 +138,8 @@ void DepthFilter::takeLanded(int firstRow, int lastRow) {
     }
 }
 
-// When a surface comes nearer, its points move apart, and pixels between them have no depth. Fills
-// these pixels.
+// Fills the pixels without depth between points of one surface. Such gaps open when the surface
+// comes nearer and its points move apart.
 void DepthFilter::closeCracks() {
     const int width = field_.size.width;
     const int columns = known_.x1 - known_.x0 - 2, rows = known_.y1 - known_.y0;

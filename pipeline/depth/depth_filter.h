@@ -27,13 +27,14 @@ public:
     DepthFilter(const CameraModel& video, EpipolarLens lens, std::shared_ptr<Workers> workers);
 
     void forget();
-    /// Moves the known depths to a camera at this pose, `seconds` after the last call. If several
-    /// points move to one pixel, the nearest is kept (z-test). The variance grows with the duration
-    /// of the motion. Invisibly small motions are summed up first, so that a camera at rest loses
-    /// no depth. An invalid pose (soundMotion()) discards all depths.
+    /// Moves the known depths to a camera at this pose. `seconds` is the time since the last call.
+    /// If several points move to one pixel, the nearest is kept (z-test). The variance grows with
+    /// the duration of the motion. Motions too small to be visible move nothing until their sum is
+    /// visible, so a camera at rest loses no depth. An invalid pose (soundMotion()) discards all
+    /// depths.
     void predict(const RigidTransform& T_world_video, double seconds);
     /// Fuses the depth of a frame, measured within `where` at the pose of the last predict(). If a
-    /// measurement agrees with the known depth of its pixel, both are averaged. If measurements
+    /// measurement agrees with the known depth of its pixel, the two are averaged. If measurements
     /// disagree repeatedly, the last of them replaces the known depth. Pixels of `measured` without
     /// a valid inverse depth and variance are ignored.
     void fuse(const InverseDepthField& measured, const PixelRect& where);
@@ -43,8 +44,8 @@ public:
     [[nodiscard]] const PixelRect& known() const { return known_; }
 
 private:
-    /// For each pixel: offset of its scene point from the pixel's centre [px], and number of
-    /// consecutive measurements that disagreed with the known depth.
+    /// Data of each pixel: the position of its scene point relative to the pixel's centre [px], and
+    /// the number of consecutive measurements that disagreed with the known depth.
     struct Points {
         std::vector<float> x, y;
         std::vector<std::uint8_t> outliers;
@@ -68,12 +69,14 @@ private:
     std::optional<RigidTransform> fieldPose_;
     // Duration of the camera's motion since the points were last moved [s].
     double moving_ = 0;
-    // carried_ receives the moved points; at all other times its depths are unknown.
+    // field_: the current depths. carried_: memory into which the points are moved. Before and
+    // after a move, all depths in carried_ are unknown.
     InverseDepthField field_, carried_;
     PixelRect known_;
     Points points_, carriedPoints_;
-    /// The points of the pixels in known_ after a camera motion. `bounds` has one entry for each
-    /// row of pixels: the bounds of the pixels to which the row's points move.
+    /// Result of moving the points of the pixels in known_ to a new camera pose. `bounds` has one
+    /// entry for each row of pixels: the bounding box of the pixels to which the points of this row
+    /// move.
     struct Moved {
         std::vector<std::int32_t> pixel;
         std::vector<float> x, y, inverseDepth, variance;

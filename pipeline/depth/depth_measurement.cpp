@@ -11,8 +11,9 @@ namespace {
 // Standard deviation of a match along its epipolar line [px], measured with ground truth in smooth
 // areas.
 constexpr float kMatchError = 0.3F;
-// Two points that the other picture shows at the same pixel count as one slanted surface if their
-// displacements [px] differ by at most this.
+// Several points can be matched with the same pixel of the other picture. Two of them count as one
+// slanted surface if their displacements between the pictures differ by at most this distance [px].
+// Otherwise, the nearer point occludes the other.
 constexpr float kSlope = 1.5F;
 // A cell and a pixel in it show the same surface if their matches differ by at most this [px].
 constexpr double kSameSurface = 0.5;
@@ -31,9 +32,10 @@ DepthMeasurement::DepthMeasurement(const CameraModel& video, EpipolarLens lens,
     s_.resize(pixels);
 }
 
-// The matches of cells are accurate to a fraction of a pixel. But only a pixel's own match shows on
-// which side of a depth edge the pixel lies. So a pixel takes its cell's value only where that
-// value agrees with its own match.
+// Sets s_ to the more accurate s of the cells where possible. Matches of cells are accurate to a
+// fraction of a pixel, but do not show on which side of a depth edge a pixel lies. Matches of
+// single pixels show this. Therefore, a pixel takes its cell's value if this value agrees with the
+// pixel's own match, and keeps its own value otherwise.
 void DepthMeasurement::takeField(const EpipolarSearch& search, std::span<const float> cells,
                                  const PixelRect& where) {
     const int width = lens_.size().width;
@@ -74,8 +76,8 @@ void DepthMeasurement::land(const EpipolarSearch& search, const Eigen::Matrix3f&
     findNearest(where);
 }
 
-// Fills nearest_. The other picture is divided into parts, one for each thread, so that no two
-// threads write to the same pixel.
+// Finds the nearest point at each pixel of the other picture (nearest_). Each thread has its own
+// part of the other picture, so that no two threads write to the same pixel.
 void DepthMeasurement::findNearest(const PixelRect& where) {
     const auto [width, height] = lens_.size();
     const int parts = std::min(workers_->count(), height);

@@ -14,8 +14,8 @@
 namespace mfar {
 
 /// Measures the inverse depth of the scene and its variance from one epipolar search. The standard
-/// deviation of inverse depth is the standard deviation of a match [px], divided by the
-/// displacement of the match per unit of inverse depth [px].
+/// deviation of inverse depth is the standard deviation of a match [px] divided by the number of
+/// pixels by which a match moves per unit of inverse depth.
 class DepthMeasurement {
 public:
     DepthMeasurement(const CameraModel& video, std::shared_ptr<Workers> workers)
@@ -25,11 +25,11 @@ public:
     DepthMeasurement(const CameraModel& video, EpipolarLens lens, std::shared_ptr<Workers> workers);
 
     /// Measures the pixels of `where`, which must lie in the search's area. The other picture is
-    /// the still or a keyframe, in the video's geometry. Pixels become unknown if their points are
-    /// outside the other picture or behind other points there (z-test). `R_other_video` rotates
-    /// rays of the video camera into coordinates of the other camera. A length of 1 in the search
-    /// is `unit` metres. `cells` contains a finer s (see EpipolarLens) for every cell, used where
-    /// it agrees with the pixel's own s. It may be empty.
+    /// the still or a keyframe, in the video's geometry. A pixel becomes unknown if the other
+    /// picture does not show its point, because the point is outside it or occluded in it (z-test).
+    /// `R_other_video` rotates rays of the video camera into coordinates of the other camera. The
+    /// search's unit of length is `unit` metres. `cells` is empty or contains, for every cell, a
+    /// more accurate s (see EpipolarLens). It is used where it agrees with the pixel's own s.
     void run(const EpipolarSearch& search, const Eigen::Matrix3f& R_other_video, double unit,
              std::span<const float> cells, const PixelRect& where, InverseDepthField& out);
 
@@ -44,8 +44,8 @@ private:
     std::shared_ptr<Workers> workers_;
     // For each pixel: index of the pixel of the other picture that shows the same point, or -1.
     std::vector<std::int32_t> landing_;
-    // s_: s of each pixel. nearest_: for each pixel of the other picture, the largest s of the
-    // points at this pixel, which belongs to the nearest point.
+    // s_: the s of each pixel. nearest_: for each pixel of the other picture, the largest s of the
+    // points at this pixel. The point with the largest s is the nearest one.
     std::vector<float> s_, nearest_;
 };
 

@@ -4,7 +4,7 @@
 
 namespace mfar {
 
-/// Rule that chooses the keyframe: the earlier frame with which a frame is matched to measure
+/// How to choose the keyframe, an earlier frame with which the new frame is matched to measure
 /// depth. Fixed: the newest frame that is at least `distance` frames old. Angle: the newest frame
 /// with a parallax of at least `angle`. Score: the frame with the smallest expected error, see
 /// Keyframes::choose().
@@ -29,16 +29,16 @@ struct KeyframeOptions {
 struct DepthOptions {
     KeyframeOptions keyframes{};
     EpipolarOptions search{};
-    /// A keyframe is not used for a part of the picture if the relative standard deviation of the
-    /// known inverse depth is at most this, [0.001, 1].
+    /// In a part of the picture in which the relative standard deviation of the known inverse depth
+    /// is at most this, depth is not measured with a keyframe. The option's range is [0.001, 1].
     double enough = 0.01;
 };
 
-/// Source of a frame's depth. None: no depth. Carried: only the depth of earlier frames. Otherwise,
-/// a match with the still, with a keyframe, or with both.
+/// Where a frame's depth comes from. None: there is no depth. Carried: earlier frames only. Still,
+/// Keyframe, Both: a match of the frame with the still, with a keyframe, or with both.
 enum class DepthSource { None, Carried, Still, Keyframe, Both };
 
-/// Both functions throw std::invalid_argument that names the first option that is out of range.
+/// These functions throw std::invalid_argument that names the first option that is out of range.
 void validate(const KeyframeOptions& options);
 void validate(const DepthOptions& options);
 

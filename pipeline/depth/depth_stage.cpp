@@ -11,17 +11,18 @@ namespace {
 constexpr int kSampleStep = 5;
 // Largest width and height of a part of the picture [px]. Each part has its own keyframe.
 constexpr int kPart = 160;
-// Margin around the searched area [px]. Its pixels influence the result at the area's border.
+// The searched area is larger than the requested one by this margin on each side [px], because
+// pixels of the margin influence the results at the border of the requested area.
 constexpr int kSupport = 24;
 constexpr double kSameView = 0.3;  // smallest motion of the picture that counts as a new view [px]
 constexpr double kNearest = 0.01;  // smallest distance that is assumed for the scene [m]
-// Depth is measured with a keyframe only if its parallax exceeds this multiple of the still's
-// parallax.
+// A keyframe is used only if its parallax exceeds this multiple of the parallax between frame and
+// still.
 constexpr double kWorth = 2;
-// Depth is measured only if the relative error of the baseline is below this limit, because depth
-// has the same relative error.
+// Depth is measured only if the relative error of the baseline (the distance between the two
+// cameras) is below this. Depth has the same relative error as the baseline.
 constexpr double kMostLengthError = 0.15;
-// A search starts from the known depths if at least this share of the pixels has a known depth.
+// If at least this share of the pixels has a known depth, a search starts from the known depths.
 constexpr double kMostlyKnown = 0.97;
 
 double medianOf(std::vector<float>& values) {
@@ -73,8 +74,9 @@ void DepthStage::run(const Rows<const std::uint8_t>& luma, const Pose& pose,
     keyframes_.add(luma, pose, brightness, before.inverseDepth);
 }
 
-// True if the view is new since the last measurement. Another measurement of the same view would
-// repeat its errors but reduce the filtered variance.
+// True if the view differs from the view of the last measurement. Measuring the same view again
+// would repeat the same errors, but the filter would take them for new evidence and reduce the
+// variance.
 bool DepthStage::seesMore(const Pose& pose, double inverseDepth, const PixelRect& where) const {
     if (!measuredPose_ || around(measuredWhere_, where) != measuredWhere_) return true;
     const RigidTransform T = measuredPose_->inverse() * pose.T_world_video;
@@ -82,9 +84,9 @@ bool DepthStage::seesMore(const Pose& pose, double inverseDepth, const PixelRect
     return focal_ * (turn + inverseDepth * T.translation.norm()) >= kSameView;
 }
 
-// Finds the parts of the picture for which a keyframe would give a more accurate depth, and a
-// keyframe for each. One keyframe does not suit all parts: when the camera moves forwards, the area
-// straight ahead has no parallax to a keyframe that suits the rest.
+// Finds the parts of the picture for which a keyframe would give a more accurate depth, and chooses
+// a keyframe for each of these parts. One keyframe does not suit all parts: when the camera moves
+// forwards, most keyframes have no parallax in the area straight ahead.
 void DepthStage::findNeeds(const Pose& pose, double brightness, double stillBaseline,
                            const PixelRect& where) {
     const int columns = (where.x1 - where.x0 + kPart - 1) / kPart;
@@ -107,8 +109,8 @@ void DepthStage::findNeeds(const Pose& pose, double brightness, double stillBase
     }
 }
 
-// Uses the keyframe of the part with the largest uncertainty and measures all parts that have this
-// keyframe.
+// Finds the part with the largest uncertainty. Measures this part with its keyframe, and with it
+// all other parts for which the same keyframe was chosen.
 void DepthStage::searchKeyframe(const Rows<const std::uint8_t>& luma, const Pose& pose) {
     if (needs_.empty()) return;
     const auto knowsMore = [](const Need& a, const Need& b) { return a.share < b.share; };
@@ -132,8 +134,9 @@ void DepthStage::searchKeyframe(const Rows<const std::uint8_t>& luma, const Pose
     source_ = source_ == DepthSource::Still ? DepthSource::Both : DepthSource::Keyframe;
 }
 
-// Returns the s (see EpipolarLens) that the known depth predicts for every cell of the search's
-// area, in the search's unit. Empty if too few pixels of `where` have a known depth.
+// Returns the inverse depth s (see EpipolarLens) of every cell of the search's area, as predicted
+// from the known depth, in the search's unit of length. The result is empty if too few pixels of
+// `where` have a known depth.
 std::span<const float> DepthStage::predicted(const UnitPose& relative, const PixelRect& where) {
     const InverseDepthField& field = filter_.field();
     const PixelRect& area = search_.area();
@@ -174,7 +177,7 @@ DepthStage::Summary DepthStage::summaryOf(const PixelRect& where, const Pose& po
             shares_.push_back(std::sqrt(field.variance[i]) / field.inverseDepth[i]);
         }
     }
-    // As long as no depth is known, the distance to the world's origin is used, because a tag is
+    // If no depth is known, the distance to the world's origin is used instead, because a tag is
     // usually near the origin.
     out.inverseDepth = 1 / std::max(pose.T_world_video.translation.norm(), kNearest);
     if (samples_.empty()) return out;

@@ -13,7 +13,7 @@
 namespace mfar {
 
 /// Measures the depth of the real scene and filters it over time. Depth from the match with the
-/// still costs little, because the frame is matched with the still anyway. A match with an earlier
+/// still costs little, because each frame is matched with the still anyway. A match with an earlier
 /// frame (keyframe) is added where it promises more accuracy. Runs on the CPU, without GL.
 class DepthStage {
 public:
@@ -21,8 +21,8 @@ public:
                const DepthOptions& options = {});
 
     /// Results of the epipolar search that matched this frame with the still. `R_still_video` is
-    /// EpipolarFlow::rotation(). A length of 1 in the search is `unit` metres; `lengthError` is the
-    /// relative error of `unit`. For `cells`, see DepthMeasurement::run().
+    /// EpipolarFlow::rotation(). The search's unit of length is `unit` metres, and `lengthError` is
+    /// the relative error of `unit`. For `cells`, see DepthMeasurement::run().
     struct StillSearch {
         const EpipolarSearch& search;
         const Eigen::Matrix3f& R_still_video;
@@ -32,8 +32,8 @@ public:
     };
 
     void forget();
-    /// Must be called when the still changes. Otherwise, depth is measured with the new still only
-    /// after the camera has moved.
+    /// Must be called when the still changes. Without this call, depth would be measured with the
+    /// new still only after the next motion of the camera.
     void renew() { measuredPose_.reset(); }
     /// Moves the known depth to the pose of this frame and measures depth inside `where`, which may
     /// be empty. `still` is empty if the frame was not matched along epipolar lines.

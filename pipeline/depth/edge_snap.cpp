@@ -11,17 +11,18 @@
 namespace mfar {
 namespace {
 
-// On each side of a depth edge, the depths in a band of this width [px] are replaced: similar
-// colours decide which depth a pixel gets.
+// Width of the band on each side of a depth edge in which depths are replaced [px]. In this band, a
+// pixel gets the depth of surrounding pixels of similar colour.
 constexpr int kBand = 4;
-// Pixels within this radius vote on the depth of a pixel [px].
+// Pixels within this distance of a pixel vote on its depth [px].
 constexpr int kVoteRadius = 10;
 constexpr int kVoters = simd::kVoterStep;
-// At a depth edge, the inverse depth changes within 2 kBand + 1 pixels by more than kJump times the
-// larger value plus kSigmas standard deviations.
+// A depth edge is where the inverse depth changes within 2 kBand + 1 pixels by more than kJump *
+// (larger inverse depth) + kSigmas * (standard deviation).
 constexpr float kJump = 0.08F, kSigmas = 3;
 constexpr float kLikeness = 12;  // colour distance that halves the weight of a vote [grey levels]
-// Votes decide only if their weights, each at most 1, add up to at least this.
+// The votes on a pixel's depth are valid only if the sum of their weights is at least this. The
+// weight of a vote is at most 1.
 constexpr float kLeastWeight = 0.75F;
 
 static_assert(kBand <= simd::kMostRange);
@@ -49,7 +50,7 @@ public:
         switch (picture_.format) {
         case PixelFormat::Gray8: return {p[0], p[0], p[0]};
         case PixelFormat::Rgba8:
-        // the order of the channels has no influence on colour distances
+        // colour distances do not depend on the order of the channels
         case PixelFormat::Bgra8: return {p[0], p[1], p[2]};
         case PixelFormat::Yuyv: {
             const std::uint8_t* pair = p - 2 * (x % 2);
@@ -114,8 +115,9 @@ const InverseDepthField& EdgeSnap::run(const InverseDepthField& in, const ImageV
     return out_;
 }
 
-// Finds the pixels near a depth edge or of unknown depth (open_) from the range of the inverse
-// depths around each pixel. The range is computed along rows, then along columns.
+// Finds the pixels whose depth the votes decide (open_): pixels near a depth edge, and pixels of
+// unknown depth. A depth edge shows in the range of the inverse depths around a pixel. This range
+// is computed first along rows, then along columns.
 void EdgeSnap::findEdges(const InverseDepthField& in, const PixelRect& where) {
     if (where.empty()) return;
     const std::ptrdiff_t pitch = size_.width;

@@ -12,11 +12,12 @@
 
 namespace mfar {
 
-/// Aligns the edges of a depth picture with the edges of the video. Matching is ambiguous near a
-/// depth edge: the compared windows contain both sides, and one side is partly occluded in the
-/// other picture. So pixels near an edge or without depth get the depth of pixels of similar colour
-/// farther from the edge. Source: Tomasi and Manduchi 1998 (weights); Ma et al., Constant time
-/// weighted median filtering for stereo matching, ICCV 2013 (depth by similarity of colours).
+/// Moves the edges of a depth picture to the edges of the video. Matching is ambiguous near a depth
+/// edge, because the compared windows contain both sides, and the other picture shows only a part
+/// of one side. Therefore, pixels near an edge and pixels without depth get the depth of pixels of
+/// similar colour that are farther from the edge. Source: Tomasi and Manduchi 1998 (weights); Ma et
+/// al., Constant time weighted median filtering for stereo matching, ICCV 2013 (depth by similarity
+/// of colours).
 class EdgeSnap {
 public:
     EdgeSnap(Size video, std::shared_ptr<Workers> workers);
@@ -40,9 +41,9 @@ private:
     std::shared_ptr<Workers> workers_;
     InverseDepthField out_;
     PixelRect where_;
-    // Per pixel: 1 if colours decide its depth.
+    // Per pixel: 1 if its depth is taken from pixels of similar colour, else 0.
     std::vector<std::uint8_t> open_;
-    // Per pixel: range of the inverse depths around it.
+    // low_, high_: the smallest and the largest inverse depth around each pixel.
     std::vector<float> low_, high_;
     struct {
         AlignedRows<float> inverseDepth, variance, red, green, blue;

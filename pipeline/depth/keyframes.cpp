@@ -10,10 +10,12 @@
 namespace mfar {
 namespace {
 
-// Smallest change of the direction to a typical point of the scene between two keyframes [rad].
+// Two successive keyframes see a typical point of the scene from directions that differ by at least
+// this angle [rad].
 constexpr double kLeastStep = 0.002;
-// The score of a keyframe (lower is better) is doubled at age kAge [frames]. It is multiplied by 1
-// + kExposure if the exposures differ by a factor of e.
+// The score of a keyframe is the expected error, so lower is better. It is doubled at age kAge
+// [frames], and multiplied by 1 + kExposure if the exposures of keyframe and frame differ by a
+// factor of e.
 constexpr double kAge = 60;
 constexpr double kExposure = 2;
 constexpr int kGrid = 4;  // number of sample points along each axis of a part of the picture

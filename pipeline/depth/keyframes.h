@@ -18,8 +18,8 @@ struct Keyframe {
     long number = 0;
 };
 
-/// The last frames with different camera poses. While the camera rests, no frame is added or
-/// removed.
+/// The last frames with different camera poses. While the camera rests, the stored frames stay the
+/// same.
 class Keyframes {
 public:
     Keyframes(const CameraModel& video, const KeyframeOptions& options);
@@ -35,9 +35,10 @@ public:
         double angle;  ///< mean parallax [rad]
     };
     /// Chooses a keyframe for the rectangle `part` [px] of a frame at this pose. Empty if no
-    /// keyframe shows this part with enough parallax. KeyframeRule::Score chooses the lowest score:
-    /// the expected error of inverse depth, sigma / (f sin(parallax)), increased for old keyframes
-    /// and for a different exposure. The result is valid until the next add().
+    /// keyframe shows this part with enough parallax. With KeyframeRule::Score, the keyframe with
+    /// the lowest score is chosen. The score is the expected error of inverse depth, sigma / (f
+    /// sin(parallax)), increased for old keyframes and for a different exposure. The result is
+    /// valid until the next add().
     [[nodiscard]] std::optional<Choice> choose(const Pose& pose, double brightness,
                                                const PixelRect& part, double inverseDepth) const;
 

@@ -4,46 +4,48 @@
 
 namespace mfar {
 
-// Entries of arrays with one entry per cell, as both engines store them. A GPU reads the four
-// floats of an entry as one vec4. `confidence` is eq. 2 of the paper (docs/paper.md), in [0, 1].
+// The structs of this file are entries of arrays that have one entry per cell. Both engines use
+// them. A GPU reads the four floats of an entry as one vec4. `confidence` is eq. 2 of the paper
+// (docs/paper.md), in [0, 1].
 
 struct FlowCell {
     /// The flow: pixel p is seen at p + (x, y) in the other picture [px of the pyramid level].
     float x = 0, y = 0;
-    /// 0: patches equal up to gain and offset; 1: unrelated patches; 2: one is the other's
-    /// negative.
+    /// Difference of the two patches. 0: equal up to gain and offset. 1: unrelated. 2: one is the
+    /// other's negative.
     float cost = 0;
     /// Sum of the squared deviations from the mean in the 8x8 patch around the cell [grey
     /// levels^2].
     float texture = 0;
 };
 
-/// Two-way error of a cell's flow [px] (eq. 2 of the paper), determined by the epipolar search.
+/// What the epipolar search knows about a cell's flow. `error` is the two-way error [px], see eq. 2
+/// of the paper (docs/paper.md).
 struct ErrorCell {
     float error = 0;
-    // Sums over the cell's patch in the video and in the still itself; see params::kPatchSamples.
-    // 0: not compared with the still itself.
+    // Sums over the cell's patch from a comparison of the video with the still at its full
+    // resolution, see params::kPatchSamples. They are 0 if the cell was not compared in this way.
     float covariance = 0, varianceVideo = 0, varianceStill = 0;
 };
 
 struct WeighedCell {
     float x = 0, y = 0;  ///< flow [video px]
-    /// Weight of the still's detail, [0, 2.31]: at most params::kLargestGain * params::kLookUpLoss,
-    /// but it can be rounded up.
+    /// Weight of the still's detail, in [0, 2.31]. The limit is params::kLargestGain *
+    /// params::kLookUpLoss = 2.3, and rounding can exceed it slightly.
     float weight = 0;
     float confidence = 0;
 };
 
 /// Offset and weight with which the output pixels of a cell read the still.
 struct LookUpCell {
-    /// Position in the still at which the cell's flow vector ends, minus the cell's centre times
-    /// (still pixels per video pixel) [still px].
+    /// Offset [still px]. The point p [video px] of a cell is seen in the still at p * (still
+    /// pixels per video pixel) + (x, y). (Pixel coordinates here start at the picture's corner.)
     float x = 0, y = 0;
     float weight = 0;
     float confidence = 0;
 };
 
-/// Values in [0, 1] that determine the strength of the sharpening and the classes of tiles.
+/// Four values in [0, 1]. They determine how much a tile is sharpened, and its class.
 struct TrustCell {
     float halfWeight = 0;
     float confidence = 0;

@@ -29,8 +29,9 @@ struct EngineChoice {
     [[nodiscard]] static EngineChoice all(EngineKind kind) {
         return {kind, kind, kind, kind, kind, kind};
     }
-    /// Returns the same engine for all steps: Simd if the environment variable MFAR_ENGINE is
-    /// "simd", otherwise Gles. Used by benchmarks and tests that do not choose an engine.
+    /// Returns a choice with the same engine for all steps: Simd if the environment variable
+    /// MFAR_ENGINE is "simd", otherwise Gles. Benchmarks and tests that do not choose an engine use
+    /// it.
     [[nodiscard]] static EngineChoice fromEnvironment();
     [[nodiscard]] bool uses(EngineKind kind) const {
         return still == kind || pyramid == kind || flow == kind || weigh == kind ||
@@ -72,11 +73,11 @@ public:
     virtual void finish() {}
     /// Waits until the steps no longer read the memory of the current video frame.
     virtual void finishReading() {}
-    /// Sets the importer that lets the engine read camera memory without a copy. It must outlive
-    /// the engine. Null: all pictures are uploaded.
+    /// Sets the importer that lets the engine read camera memory without a copy. The importer must
+    /// outlive the engine. Null: all pictures are uploaded.
     virtual void setImporter(PlaneImporter*) {}
-    /// Returns the reason if an import of camera memory has failed since the last call, otherwise
-    /// nullopt.
+    /// If an import of camera memory has failed since the last call, returns the reason. Otherwise
+    /// returns nullopt.
     [[nodiscard]] virtual std::optional<std::string> takeImportFault() { return std::nullopt; }
 };
 

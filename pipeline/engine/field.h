@@ -9,7 +9,8 @@
 
 namespace mfar {
 
-/// Total numbers of bytes that were copied from CPU memory (host) to the GPU and back.
+/// Total numbers of bytes that were copied from CPU memory to the GPU (uploaded) and back
+/// (downloaded).
 struct Transfers {
     std::uint64_t uploadedBytes = 0, downloadedBytes = 0;
 };
@@ -27,14 +28,13 @@ public:
     virtual void download(void* data, std::ptrdiff_t pitch) = 0;
 };
 
-/// The result of a step: rows of T in CPU memory (host), on the GPU or in both. The step owns the
-/// rows that it writes, and reports where they are. host() and device() copy them to the other side
-/// if necessary. The field owns these copies.
+/// The result of a step: rows of T in CPU memory (host), on the GPU (device) or in both. The step
+/// owns the rows that it writes, and tells the field where they are. If rows are needed on the
+/// other side, host() or device() copies them. The field owns the copies.
 template <class T>
 class Field {
 public:
-    /// `transfers` counts the copied bytes and must outlive the field. If it is null, nothing is
-    /// counted.
+    /// `transfers` counts the copied bytes and must outlive the field. Null: nothing is counted.
     explicit Field(Size size = {}, Transfers* transfers = nullptr)
         : size_(size), transfers_(transfers) {}
 
@@ -51,7 +51,7 @@ public:
         device_ = nullptr;
         editable_ = {};
     }
-    /// Reports new rows in CPU memory that other steps are allowed to change: edit() returns them.
+    /// Reports new rows in CPU memory that other steps may change through edit().
     void writtenOnHost(Rows<T> rows)
         requires(!std::is_const_v<T>)
     {
@@ -82,15 +82,16 @@ public:
         }
         return host_;
     }
-    /// Returns the rows in CPU memory, to be changed by the caller. The copy on the GPU becomes
-    /// invalid. Requires that the last rows were reported as Rows<T> or on the GPU.
+    /// Returns the rows in CPU memory, so that the caller can change them. The copy on the GPU
+    /// becomes invalid. May be called only if the last report was writtenOnDevice(), or
+    /// writtenOnHost() with writable rows (Rows<T>).
     [[nodiscard]] Rows<T> edit() {
         (void)host();
         device_ = nullptr;
         return editable_;
     }
-    /// Returns the GPU's copy. Uploads the rows if necessary. `make` creates a GPU copy of this
-    /// field's size; it is called for the first upload and after changes of the size.
+    /// Returns the GPU's copy, after an upload if necessary. `make` creates GPU memory for a field
+    /// of this size. It is called for the first upload and after changes of the size.
     template <class Make>
     [[nodiscard]] DeviceCopy& device(const Make& make) const {
         if (!isOnDevice()) {

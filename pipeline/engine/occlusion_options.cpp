@@ -27,7 +27,8 @@ void validate(const CompositeOptions& options) {
 PixelRect layerInOutput(const PixelRect& layerPixels, Size layer, Size output) {
     const PixelRect all{0, 0, output.width, output.height};
     if (layerPixels.empty() || layer == output) return common(layerPixels, all);
-    // Linear interpolation spreads each pixel of the layer to its neighbours.
+    // The result has a margin of one layer pixel, because output pixels interpolate linearly
+    // between layer pixels.
     const auto to = [](int pixel, int from, int size) {
         return static_cast<double>(pixel) * size / from;
     };

@@ -47,15 +47,16 @@ struct StillPictures {
     Field<std::uint32_t> picture;  ///< RGBA8, only for SuperResMode::Blend
 };
 
-/// Luma pyramids of the video, and of the still in the video's geometry and resolution.
+/// Luma pyramids of the video and of the still. The still is first brought to the video's geometry
+/// and resolution.
 struct LumaPyramid {
     std::vector<LumaLevel> video, still;
     Field<std::uint32_t> words;  ///< pixels of both pyramids in one row, see LumaLevel
 };
 
-/// Flow between video and still. All cells are in one row: first the forward field (from video to
-/// still), then the backward field. If `errorsGiven` is true, the ErrorCells of the forward field
-/// replace the backward field.
+/// Flow between video and still. `cells` contains first the forward field (from video to still),
+/// then the backward field (from still to video). If `errorsGiven` is true, `cells` contains
+/// ErrorCells of the forward field instead of the backward field.
 struct FlowCells {
     Field<FlowCell> cells;
     Size forward, backward;
@@ -79,15 +80,15 @@ public:
     /// The still must be valid and have the still camera's size. `tone` is applied to its luma.
     virtual const StillPictures& run(const ImageView& still, SuperResMode mode,
                                      const StillTone& tone) = 0;
-    /// Prepares those members of StillPictures that the new mode needs, from the last run()'s
-    /// still.
+    /// Prepares the members of StillPictures that the new mode needs. They are computed from the
+    /// still of the last run().
     virtual void setMode(SuperResMode mode) = 0;
 };
 
 class PyramidStep {
 public:
     virtual ~PyramidStep() = default;
-    /// Does nothing if no tile of the frame is matched with a still.
+    /// Computes the video's pyramid. Does nothing if no tile of the frame is matched with a still.
     virtual const LumaPyramid& video(const VideoFrame& frame, const TileWork& work) = 0;
     virtual const LumaPyramid& still(const StillPictures& still) = 0;
 };
@@ -95,8 +96,8 @@ public:
 class FlowStep {
 public:
     using Cells = std::span<const std::array<float, 4>>;
-    /// Flow along epipolar lines. The first two numbers of each entry of `vectors` are the cell's
-    /// flow [px]; the first number of each entry of `errors` is its two-way error [px].
+    /// Flow along epipolar lines. In each entry of `vectors`, the first two numbers are the cell's
+    /// flow [px]. In each entry of `errors`, the first number is the cell's two-way error [px].
     struct AlongLines {
         Cells vectors, errors;
     };
@@ -112,18 +113,18 @@ public:
     /// Searches the flow from video to still (forward) and from still to video (backward). If
     /// `usePrior` is true, the last frame's flow vectors are candidates in all cells.
     virtual const FlowCells& run(const LumaPyramid& luma, const TileWork& work, bool usePrior) = 0;
-    /// Refines `along`, the flow along epipolar lines, whose vectors must have errors below a
-    /// pixel. Tiles in which the vectors do not fit the pictures are searched in two dimensions.
-    /// Then doubtful cells are compared with the still itself, see params::kPatchSamples. `luma`
-    /// must be that of `pictures`.
+    /// Refines `along`, the flow along epipolar lines. Its errors must be below a pixel. First,
+    /// tiles in which the flow does not fit the pictures are searched in two dimensions. Then,
+    /// doubtful cells are compared with the still at its full resolution, see
+    /// params::kPatchSamples. `luma` must contain the pyramids of `pictures`.
     virtual const FlowCells& refine(const Pictures& pictures, const LumaPyramid& luma,
                                     const TileWork& work, const AlongLines& along) = 0;
     /// Returns a flag for each tile, row-major: true if the last refine() searched the tile. Waits
     /// for the GPU if necessary.
     [[nodiscard]] virtual std::vector<bool> searchedTiles() const = 0;
     [[nodiscard]] virtual int searchedCount() const = 0;
-    /// Returns a searchedCount() without waiting: that of the last frame (SIMD engine), or that of
-    /// the frame before it (GLES engine).
+    /// Returns a searchedCount() without waiting for the GPU. With the SIMD engine, it is that of
+    /// the last frame. With the GLES engine, it is that of the frame before the last one.
     [[nodiscard]] virtual int finishedSearchedCount() const { return searchedCount(); }
 };
 
@@ -132,9 +133,9 @@ public:
     virtual ~WeighStep() = default;
     virtual const CellWeights& run(const LumaPyramid& luma, const FlowCells& flow,
                                    const TileWork& work) = 0;
-    /// Raises small weights, and lowers the weights of cells in which the still does not show the
-    /// video's finest detail as well as usual (`match`), see params::kFineRoom and kRaisedWeight.
-    /// Must be called after run() for the same frame.
+    /// Raises all weights below 1. Then lowers the weights of cells in which the still shows the
+    /// video's finest detail less well than usual; `match` says what is usual. See
+    /// params::kFineRoom and kRaisedWeight. Must be called after run() for the same frame.
     virtual const CellWeights& confirm(const VideoFrame& frame, const StillPictures& still,
                                        const TileWork& work, const FineMatch& match) = 0;
 };
@@ -161,8 +162,8 @@ public:
     struct Matched {
         const StillPictures& still;
         const CellWeights& weights;
-        /// A second still that is shown where its weight is larger than that of `still`, or null.
-        /// Used only in mode Detail with learned filters.
+        /// A second still, or null. It is shown where its weight is larger than that of `still`. It
+        /// is used only in mode Detail with learned filters.
         const Matched* second = nullptr;
     };
 
@@ -176,8 +177,8 @@ public:
     [[nodiscard]] virtual Field<std::uint32_t>& output() = 0;
     /// Summary of the last frame. Waits for the GPU if necessary.
     [[nodiscard]] virtual TileSummary summary() const = 0;
-    /// Returns a summary without waiting: that of the last frame (SIMD engine), or that of the
-    /// frame before it (GLES engine).
+    /// Returns a summary without waiting for the GPU. With the SIMD engine, it is that of the last
+    /// frame. With the GLES engine, it is that of the frame before the last one.
     [[nodiscard]] virtual TileSummary finishedSummary() const { return summary(); }
     [[nodiscard]] virtual std::vector<TileClass> classes() const = 0;
 };
@@ -195,8 +196,8 @@ struct LayerPicture {
 class OcclusionStep {
 public:
     virtual ~OcclusionStep() = default;
-    /// Draws the virtual objects over `picture`, except where the real scene hides them. `real`:
-    /// depth of the real scene, which must be unknown outside the rectangle `where` [video px].
+    /// Draws the virtual objects over `picture`, except where the real scene hides them. `real` is
+    /// the depth of the real scene. Outside the rectangle `where` [video px], it must be unknown.
     virtual void draw(const LayerPicture& layer, const InverseDepthField& real,
                       const PixelRect& where, const VideoFrame& frame,
                       Field<std::uint32_t>& picture) = 0;

@@ -12,11 +12,11 @@
 
 namespace mfar::enlarge {
 
-/// Differences between a pixel's neighbours and the pixel [grey levels], in the order of kTapAt.
+/// The grey levels of a pixel's neighbours minus that of the pixel, in the order of kTapAt.
 using Taps = Eigen::Matrix<double, kTaps, 1>;
 /// True picture minus Keys' cubic enlargement at a pixel's sub-pixels, row-major [grey levels].
 using Phases = Eigen::Matrix<double, kPhases, 1>;
-/// Weights of a class's filter. They are not halved; the weights in FilterBank::Filter are.
+/// Weights of a class's filter as they are applied. (FilterBank::Filter stores halved weights.)
 using ClassWeights = Eigen::Matrix<double, kTaps, kPhases>;
 
 /// The stored filter of a class, and the symmetry that maps the class's pixels onto this filter.
@@ -42,14 +42,15 @@ struct ClassSums {
     void add(const Taps& steps, const Phases& target);
     void add(const ClassSums& other);
     void fade(double share);
-    /// Returns the sums over the pictures together with the pictures rotated by 180 degrees. This
-    /// rotation changes no pixel's class.
+    /// Returns the sums over the same pictures and their copies rotated by 180 degrees. A pixel has
+    /// the same class in the picture and in the rotated copy.
     [[nodiscard]] ClassSums turnedToo() const;
     /// Returns the sum of squared errors of a filter with these weights.
     [[nodiscard]] double errorOf(const ClassWeights& weights) const;
 };
 
-/// Normal equations of all classes. Pixels are added in groups, which is faster than one by one.
+/// Normal equations of all classes. Pixels are added in groups, because adding them one by one is
+/// slower.
 class SumsOfClasses {
 public:
     SumsOfClasses();
@@ -69,7 +70,7 @@ private:
     };
     void finish(int unique) const;
 
-    // Mutable, because operator[] first adds an incomplete group of pixels.
+    // Mutable, because operator[] adds pixels that wait in an incomplete group.
     mutable std::vector<ClassSums> sums_;
     mutable std::vector<Group> groups_;
 };

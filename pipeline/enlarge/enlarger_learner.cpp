@@ -13,23 +13,26 @@ namespace {
 
 using namespace enlarge;
 
-// Smallest number of a class's pixels in a Part. With fewer pixels in Part::Learn or Part::Choose,
-// the class gets no learned filter. With fewer in Part::Check, its filter is not checked alone.
+// A class needs at least this number of pixels in each Part of the tiles. With fewer in Part::Learn
+// or Part::Choose, the class gets no learned filter. With fewer in Part::Check, the class's filter
+// is checked only together with the filters of all other classes.
 constexpr double kLeastPixels = 400;
-// A new still multiplies the sums of all older stills by this factor.
+// When a new still arrives, the sums over all older stills are multiplied by this factor.
 constexpr double kForgetting = 0.95;
-// Weight of the shipped filter in the least-squares fit [pixels].
+// In the least-squares fit, the shipped filter counts as much as this number of pixels.
 constexpr double kPriorPixels = 300;
 constexpr double kRidge = 20;  // added to the diagonal of the normal equations [grey levels^2]
-// Lower limit of the share of trusted pixels of a still to learn from. Below it, matching has
-// failed.
+// Stills with a smaller share of trusted pixels are not learned from, because matching has failed.
 constexpr double kLeastTrusted = 0.05;
-// Lower limit of TrustedPairs::sharpness() of a still to learn from.
+// Stills whose TrustedPairs::sharpness() is below this are not learned from, because they are
+// hardly sharper than the video.
 constexpr double kLeastSharpness = 1.03;
-// A tile is new if the mean of one of its 4x4-pixel blocks changed by more than this [grey levels].
+// A tile has changed if the mean of one of its 4x4-pixel blocks changed by more than this [grey
+// levels].
 constexpr int kNewFrom = 4;
 constexpr double kLeastNew = 0.1;
-// A new filter is used if its error is below this factor times the error of the filter it replaces.
+// A new filter replaces an old one if its error is less than kWorthwhile times the error of the old
+// one.
 constexpr double kWorthwhile = 0.998;
 
 constexpr int kBlock = 4;  // block size [px]
@@ -46,8 +49,9 @@ EnlargerLearner::EnlargerLearner() : learned_(kUnique, false) {
     putInPlace(prior_, learned_);
 }
 
-/// The part depends only on the tile's position. Otherwise, a camera at rest would check filters on
-/// pixels from which they were learned.
+/// Returns the part to which the tile at this position belongs. The part is the same in all
+/// pictures. If it changed, a camera at rest would check filters on pixels from which they were
+/// learned.
 EnlargerLearner::Part EnlargerLearner::partOf(int column, int row) {
     const int number = (column + 2 * row) % 5;
     return number == 0 ? Part::Check : number == 2 ? Part::Choose : Part::Learn;
@@ -100,8 +104,8 @@ EnlargerLearner::Outcome EnlargerLearner::addOlder(const MatchedPictures& truth,
     return changes ? Outcome::Replaced : Outcome::Kept;
 }
 
-// Forgets guidance if the tone curve has changed: guidance that was learned with another tone curve
-// adds and removes wrong shares of detail.
+// Learns the tone curve. If it has changed, guidance is forgotten, because guidance that was
+// learned with another tone curve adds and removes wrong shares of detail.
 void EnlargerLearner::learnTone(const TrustedPairs& pairs, const StillTone& applied) {
     const StillTone before = tone_.tone();
     tone_.add(pairs.toneSums(), applied);

@@ -21,12 +21,12 @@ namespace mfar {
 /// Learns the enlarger's filters from stills matched to the video. The method is recursive least
 /// squares in information form, per class, with the shipped filters as prior. Older pictures are
 /// gradually forgotten.
-/// The tiles of a picture form three parts. The first part is used to learn filters. The second
-/// part selects the best filter per class: the new filter, the shipped filter, or a zero filter,
-/// which leaves Keys' cubic enlargement unchanged. A class with few pixels keeps the shipped
-/// filter. The third part checks the selected filters before use: each class against Keys' cubic,
-/// and all classes together against the filters in use. Each pixel belongs to two classes, and the
-/// mean of both residuals is added to the cubic enlargement.
+/// The tiles of a picture form three parts. From the first part, filters are learned. In the second
+/// part, the best filter of each class is selected: the new filter, the shipped filter, or a zero
+/// filter, with which the result is Keys' cubic enlargement. A class with few pixels keeps the
+/// shipped filter. In the third part, the selected filters are checked before use: each class
+/// against Keys' cubic, and all classes together against the filters in use. Each pixel belongs to
+/// two classes; the mean of their two residuals is added to the cubic enlargement.
 /// The same pictures in the same order give the same filters.
 class EnlargerLearner {
 public:
@@ -37,16 +37,15 @@ public:
         Kept,      ///< learned from the still, but the new filters are not better
         Repeated,  ///< nothing learned: the still shows nothing new
         Stopped,   ///< nothing learned: `stop` was requested
-        Refused,   ///< nothing learned: too few trusted pixels, or the still is not sharper than
-                   ///< the video
+        Refused,   ///< nothing learned: few trusted pixels, or a still no sharper than the video
     };
-    /// Learns from a still. After a request of `stop`, the call returns soon and nothing is
-    /// learned.
+    /// Learns from a still. If `stop` is requested, the call returns soon and nothing is learned.
     Outcome add(const MatchedPictures& pictures, const std::stop_token& stop = {});
-    /// Learns the guidance (see enlarge::GuidanceLearner). `truth` is a frame matched with a new
-    /// still. `older` is the same frame matched with the older still with which it was drawn.
-    /// If `older` has no tone curve yet, the curve of new stills is applied to it. Returns Refused
-    /// if `older` has a tone curve that differs from the curve of new stills.
+    /// Learns the guidance (see enlarge::GuidanceLearner) from one frame and two stills. `truth` is
+    /// the frame matched with the new still. `older` is the same frame matched with the older
+    /// still, with which the frame was drawn.
+    /// If the older still has no tone curve yet, it gets the curve that new stills get. If it has a
+    /// different curve, the result is Refused.
     Outcome addOlder(const MatchedPictures& truth, MatchedPictures& older,
                      const std::stop_token& stop = {});
 
@@ -55,8 +54,9 @@ public:
     using Counts = LearnerCounts;
     [[nodiscard]] const Counts& counts() const { return counts_; }
 
-    /// Returns the learner's state for a later run of mfard. `key` identifies the pair of sensors.
-    /// Format: "mfarlern", little-endian numbers, then the FNV-1a checksum of all bytes before it.
+    /// Returns the state of the learner, to be stored for a later run of mfard. `key` identifies
+    /// the pair of sensors. Format: "mfarlern", little-endian numbers, then the FNV-1a checksum of
+    /// all bytes before the checksum.
     [[nodiscard]] std::vector<std::uint8_t> stored(const std::string& key) const;
     /// Restores a learner from the result of stored(). Error messages contain `name`. Throws
     /// FilterBankError if the data is damaged or was stored with another key.
@@ -70,8 +70,8 @@ private:
     };
 
     [[nodiscard]] static Part partOf(int column, int row);
-    /// Finds the tiles that changed since filters were last learned from them. Returns false if too
-    /// few tiles changed.
+    /// Finds the tiles that look different from the last time at which filters were learned from
+    /// them. Returns false if these are too few.
     bool findNew(const MatchedPictures& pictures);
     void rememberShown();
     struct StillSums {
@@ -95,8 +95,8 @@ private:
     enlarge::FineMatchLearner fineMatch_;
     enlarge::ToneLearner tone_;
     std::shared_ptr<const FilterBank> inPlace_;
-    // Means over 4x4 video pixels. `shown_` has, for each tile, the last picture used for learning.
-    // `means_` has the last picture given to findNew().
+    // Means over 4x4 video pixels. `shown_`: for each tile, the means when filters were last
+    // learned from it. `means_`: the means of the picture that was last given to findNew().
     std::vector<std::uint8_t> shown_, means_;
     Size shownSize_{};
     std::vector<std::uint8_t> isNew_;

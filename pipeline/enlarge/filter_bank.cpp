@@ -38,8 +38,8 @@ AlignedRows<std::int16_t> expanded(std::span<const FilterBank::Filter> unique, i
     return out;
 }
 
-/// Upper limit of the sum of a phase's absolute weights. A larger sum could overflow the SIMD
-/// code's 32-bit sums.
+/// A filter is refused if the sum of the absolute weights of one sub-pixel is larger than this.
+/// Larger sums could overflow the SIMD code's 32-bit sums.
 constexpr int kMostWeight = 16 * kWeightScale;
 
 bool fits(const FilterBank::Filter& filter) {

@@ -17,8 +17,9 @@ class FilterBankError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// Strength with which a still's finest detail replaces the video's; see params::kGuideReach. Zero
-/// factors mean no guidance. Both factors are similar if both sensors have the same exposure.
+/// How much of the video's finest detail is replaced by the still's; see params::kGuideReach. If
+/// both factors are zero, there is no guidance. If both sensors have the same exposure, the factors
+/// are similar.
 struct Guidance {
     float still = 0;  ///< added share of the still's detail, [0, 1]
     float video = 0;  ///< removed share of the video's detail, [0, kMost]
@@ -31,12 +32,12 @@ struct Guidance {
     bool operator==(const Guidance&) const = default;
 };
 
-/// Usual error of a correctly matched still: the variance of the video's finest detail that the
-/// still does not predict. It is noise + share * (variance of the finest detail); see
-/// params::kFineRoom. It is unknown if noise is 0.
+/// How much variance of the video's finest detail a correctly matched still usually leaves
+/// unexplained: noise + share * (variance of the finest detail). See params::kFineRoom. If noise is
+/// 0, this is not known yet.
 struct FineMatch {
-    float noise = 0;  ///< part that does not depend on the detail [grey levels^2], [0, kMostNoise]
-    float share = 0;  ///< share of the variance of the finest detail, [0, 1]
+    float noise = 0;  ///< constant part [grey levels^2], [0, kMostNoise]
+    float share = 0;  ///< share of the variance of the finest detail that is unexplained, [0, 1]
 
     static constexpr float kMostNoise = 4096;
     [[nodiscard]] bool isKnown() const { return noise > 0; }
@@ -51,7 +52,7 @@ struct FineMatch {
 class FilterBank {
 public:
     /// Weights of a class's filter. A weight w is stored as w * 16384 / 2. It is halved, because
-    /// the residuals of a pixel's two classes are added.
+    /// the residuals of a pixel's two classes are added to compute their mean.
     using Filter = std::array<std::int16_t, enlarge::kFilterSize>;
 
     /// `unique` must contain kUnique filters, gradient classes first. Throws FilterBankError.
@@ -61,7 +62,7 @@ public:
     /// mfar-train-enlarger.
     [[nodiscard]] static const FilterBank& prior();
 
-    /// A number that is different for every bank. It tells if a copy of the filters is up to date.
+    /// A number that no other bank has. It shows whether a copy of the filters is up to date.
     [[nodiscard]] std::uint64_t number() const { return number_; }
     [[nodiscard]] Rows<const std::int16_t> gradient() const { return gradient_.rows(); }
     [[nodiscard]] Rows<const std::int16_t> curvature() const { return curvature_.rows(); }
@@ -71,10 +72,11 @@ public:
     /// FineMatch is unknown for the shipped filters, because it must be learned for each pair of
     /// sensors: it depends on their noise and sharpness.
     [[nodiscard]] const FineMatch& fineMatch() const { return fineMatch_; }
-    /// The tone curve of the stills. The shipped filters leave stills as they are.
+    /// The tone curve of the stills. With the shipped filters, it changes nothing.
     [[nodiscard]] const StillTone& tone() const { return tone_; }
-    /// Keys' cubic minus the pixel itself, as a filter with the same taps and sub-pixels. A weight
-    /// w is stored as w * 16384, not halved.
+    /// A filter whose result is Keys' cubic enlargement minus the pixel's own value, with the same
+    /// taps and sub-pixels as the learned filters. A weight w is stored as w * 16384, without the
+    /// division by 2.
     [[nodiscard]] const std::int16_t* cubic() const { return cubic_[0]; }
 
 private:
@@ -87,7 +89,7 @@ private:
 
 /// Returns the filters in their stored form: "mfarfilt", little-endian 32-bit numbers (version,
 /// number of gradient filters, number of curvature filters, taps, phases), 16-bit weights, then the
-/// FNV-1a checksum of all bytes before it.
+/// FNV-1a checksum of all bytes before the checksum.
 [[nodiscard]] std::vector<std::uint8_t> storedFilters(std::span<const FilterBank::Filter> unique);
 /// Reads filters from their stored form. Error messages contain `name`. Throws FilterBankError if
 /// the data is damaged.

@@ -7,10 +7,11 @@
 #include <cstdint>
 
 /// Definitions shared by the learned enlarger, its trainer and its tests. The method follows RAISR
-/// (Romano, Isidoro, Milanfar, 2017). Luma is enlarged to 4x4 sub-pixels per pixel, as the sum of
-/// Keys' cubic and a residual. The residual is a weighted sum of the differences between 24
-/// neighbours and the pixel. The weights depend on the pixel's class. Each pixel has two classes,
-/// one by gradient and one by curvature, and the mean of both residuals is used.
+/// (Romano, Isidoro, Milanfar, 2017). Each pixel of the luma is enlarged to 4x4 sub-pixels. A
+/// sub-pixel is the sum of Keys' cubic enlargement and a residual. The residual is a weighted sum
+/// of the differences between 24 neighbours and the pixel, with weights that depend on the pixel's
+/// class. Each pixel has two classes, one by gradient and one by curvature, and the mean of their
+/// two residuals is used.
 namespace mfar::enlarge {
 
 using params::kGrid, params::kPairs, params::kLumaScale, params::kResidualScale;
@@ -73,9 +74,9 @@ struct CurvatureClasses {
     static constexpr int kCount = kAngles * kKinds;
 };
 
-/// Maps an angle bin to a bin with stored filters. The bins divide [-pi/2, pi/2) equally. If the
-/// picture is mirrored, or x and y are exchanged, or both, every bin becomes a bin of the first
-/// quarter. Therefore only the filters of the first quarter are stored.
+/// Maps an angle bin to a bin with stored filters. The bins divide [-pi/2, pi/2) equally. Mirroring
+/// the picture, or exchanging x and y, or both, turns every bin into a bin of the first quarter.
+/// Therefore, only the filters of the first quarter are stored.
 struct Symmetry {
     int unique;                ///< bin with the stored filter, in [0, bins / 4)
     bool mirrors, transposes;  ///< first mirror the picture upside down, then exchange x and y
@@ -87,8 +88,8 @@ struct Symmetry {
         const bool ascends = lower == left;
         return {ascends ? inHalf : bins / 2 - 1 - inHalf, lower, left};
     }
-    /// Maps a position in a square of (last + 1) x (last + 1) pixels. With last = 0, maps an offset
-    /// from a pixel, positive or negative.
+    /// Maps a position in a square whose coordinates run from 0 to `last`. With last = 0, `v` is
+    /// instead an offset from a pixel, positive or negative.
     [[nodiscard]] constexpr Offset map(Offset v, int last = 0) const {
         const Offset mirrored{v.x, mirrors ? last - v.y : v.y};
         return transposes ? Offset{mirrored.y, mirrored.x} : mirrored;
@@ -105,8 +106,8 @@ inline constexpr int kUniqueGradient = GradientClasses::kCount / 4;
 inline constexpr int kUniqueCurvature = CurvatureClasses::kCount / 4;
 inline constexpr int kUnique = kUniqueGradient + kUniqueCurvature;
 
-/// Limit of the enlarged value: the range of the surrounding 5x5 pixels, extended at both ends by
-/// its width shifted right by this number of bits (a quarter).
+/// The enlarged value is clamped to the range of the surrounding 5x5 pixels. The range is first
+/// extended at both ends by a quarter of its width: the width shifted right by this number of bits.
 inline constexpr int kOvershootShift = 2;
 static_assert(params::kOvershoot * (1 << kOvershootShift) == 1);
 

@@ -12,11 +12,12 @@ namespace {
 
 constexpr std::size_t kLeastCells = 200;
 constexpr double kMostStills = 8;
-// A cell has structure if the variance of its finest detail exceeds this factor times the noise.
+// A cell has structure if the variance of its finest detail exceeds this factor times the variance
+// of the noise.
 constexpr double kStructureOverNoise = 4;
 
-/// Variances of a cell's finest detail in video and still, and their covariance (`both`) [grey
-/// levels^2].
+/// Variances of a cell's finest detail in the video and in the still, and the covariance of the two
+/// (`both`) [grey levels^2].
 struct Sums {
     double video = 0, both = 0, still = 0;
 };
@@ -98,8 +99,8 @@ double quantile(std::vector<double>& values, double share) {
     return *at;
 }
 
-/// Two variances of each cell from which FineMatch is learned. `video` is the variance of the
-/// video's finest detail; `rest` is the part of `video` that the still does not predict.
+/// Two variances of each cell, from which FineMatch is learned. `video` is the variance of the
+/// video's finest detail. `rest` is the part of it that the still does not predict.
 struct Unexplained {
     std::vector<double> video, rest;
 };

@@ -9,10 +9,12 @@
 
 namespace mfar::enlarge {
 
-/// Learns FilterBank::fineMatch() as a mean over the last matched stills. FineMatch::noise is the
-/// 10 % quantile, over all trusted cells, of the variance that the still does not predict.
-/// FineMatch::share is the median of (this variance - noise) / variance over cells with structure.
-/// Wrongly matched parts of the picture hardly influence quantiles.
+/// Learns FilterBank::fineMatch() as a mean over the last matched stills. It measures the
+/// unexplained variance of each trusted cell: the part of the variance of the video's finest detail
+/// that the still does not predict. FineMatch::noise is the 10 % quantile of the unexplained
+/// variance over all trusted cells. FineMatch::share is the median of ((unexplained variance) -
+/// noise) / variance over cells with structure. Quantiles are used because wrongly matched parts of
+/// the picture hardly influence them.
 class FineMatchLearner {
 public:
     /// Learns from a matched still. Returns false if too few cells are trusted or have structure,
@@ -20,8 +22,8 @@ public:
     bool add(const MatchedPictures& pictures, const std::stop_token& stop = {});
     [[nodiscard]] const FineMatch& fineMatch() const { return match_; }
 
-    /// stored() returns the learner's state for a later run of mfard. restore() returns false if a
-    /// number is out of range.
+    /// stored() returns the state of the learner, to be kept for a later run of mfard. restore()
+    /// returns false if a number is out of range.
     static constexpr std::size_t kNumbers = 3;
     [[nodiscard]] std::array<double, kNumbers> stored() const;
     [[nodiscard]] bool restore(const std::array<double, kNumbers>& numbers);

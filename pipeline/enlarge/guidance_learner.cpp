@@ -13,25 +13,25 @@
 namespace mfar::enlarge {
 namespace {
 
-// A new pair of stills multiplies the sums over older pairs by this factor.
+// When a new pair of stills arrives, the sums over all older pairs are multiplied by this factor.
 constexpr double kForgetting = 0.95;
-// Weight of zero guidance, the prior, in the least-squares fit [pixels].
+// The prior of the least-squares fit is zero guidance. It counts as much as this number of pixels.
 constexpr double kPriorPixels = 2000;
 constexpr double kLeastPixels = 0.02;
-// Guidance is used if it removes at least this share of the squared error.
+// Guidance is used only if it reduces the squared error by at least this share.
 constexpr double kWorthwhile = 0.005;
-// New factors are ignored if both differ from the factors in use by at most this, because they
-// would change pictures without a gain.
+// If both new factors differ from the factors in use by at most this, they are ignored, because
+// they would change the pictures without improving them.
 constexpr float kSame = 0.01F;
-// Lower limit of the normal equations' determinant, divided by the product of their diagonal. Below
-// it, the two factors cannot be separated.
+// The two factors cannot be determined separately if the determinant of the normal equations,
+// divided by the product of their diagonal, is below this.
 constexpr double kLeastDeterminant = 1e-9;
 constexpr double kMostPairs = 1e15;  // a double represents counts below this exactly
 // Pixels with a video luma outside these limits may be saturated [1/8 grey level].
 constexpr int kDarkest = 2 * kLumaScale, kBrightest = 253 * kLumaScale;
 
-/// Computes what still, video and learned filters add to the cubic enlargement of a frame, at the
-/// sub-pixels of one pixel.
+/// Recomputes what was added to the cubic enlargement of a frame at the sub-pixels of one pixel: by
+/// the still, by the video's own detail, and by learned filters.
 class DrawnFrame {
 public:
     DrawnFrame(const MatchedPictures& pictures, const FilterBank& filters,
@@ -79,7 +79,8 @@ public:
     }
     struct Added {
         Phases unguided;  ///< addition to the cubic enlargement without guidance
-        /// Change of this addition if Guidance::still is 1, and if Guidance::video is 1.
+        /// Change of `unguided` if Guidance::still were 1 (`still`), and if Guidance::video were 1
+        /// (`video`).
         Phases still, video;
     };
     void addedTo(int x, int y, Added& out) const {
@@ -102,7 +103,8 @@ private:
     [[nodiscard]] std::size_t at(int x, int y) const {
         return static_cast<std::size_t>(y) * in_.video.width + x;
     }
-    /// Stores each value minus the local mean over known pixels; see params::kGuideReach.
+    /// Subtracts from each value the mean over the known pixels around it, see params::kGuideReach.
+    /// Stores the results in `out`.
     template <class Value>
     void beyondMean(const BoxSums& counts, std::vector<float>& out, const Value& value) const {
         const BoxSums sums(in_.video,
@@ -170,8 +172,8 @@ Guidance FactorSums::best(double prior) const {
     if (!(determinant > kLeastDeterminant * a2 * b2)) return {};
     const auto stillFor = [&](double video) { return (stillMissing - video * stillVideo) / a2; };
     const auto videoFor = [&](double still) { return (videoMissing - still * stillVideo) / b2; };
-    // `free` is the optimum without limits. If it is out of range, the best point on the border of
-    // the range is used.
+    // `free` is the best factor if factors could have any value. If it is out of range, the best
+    // point on the border of the range is used.
     const double free = (stillMissing * b2 - videoMissing * stillVideo) / determinant;
     double still = std::clamp(free, 0.0, 1.0);
     const double video = std::clamp(videoFor(still), 0.0, double(Guidance::kMost));
@@ -192,15 +194,16 @@ bool GuidanceLearner::add(const TrustedPairs& truth, const MatchedPictures& olde
             if (!truth.trusts(x, y) || !frame.knows(x, y) || isSaturated(older, x, y)) continue;
             frame.addedTo(x, y, added);
             const Phases missing = truth.target(x, y) - added.unguided;
-            // One third of the tiles is held out: guidance is not learned from them, and its gain
-            // is measured only in them.
+            // One third of the tiles is held out. Guidance is learned from the other tiles, and its
+            // gain is measured in the held-out tiles.
             FactorSums& to = (x / kTileSize + y / kTileSize) % 3 == 0 ? held : learn;
             to.add({added.still.squaredNorm(), added.video.squaredNorm(), missing.squaredNorm(),
                     added.still.dot(added.video), added.still.dot(missing),
                     added.video.dot(missing), 1});
         }
     }
-    // The other sums of products are not larger than this sum, so they are finite, too.
+    // If the sums of squares are finite, the sums of products are finite, too, because they are not
+    // larger.
     const double sum =
         learn.still2 + learn.video2 + learn.missing2 + held.still2 + held.video2 + held.missing2;
     if (stop.stop_requested() || !std::isfinite(sum)) return false;

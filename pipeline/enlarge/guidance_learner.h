@@ -11,10 +11,10 @@
 
 namespace mfar::enlarge {
 
-/// Sums over sub-pixels for a least-squares fit of the two factors of Guidance: squares and
-/// products of three values. `still` is the detail that the still would add. `video` is the change
-/// from removing the video's detail. `missing` is the detail that the drawn frame lacks. The fit
-/// approximates `missing` by a weighted sum of `still` and `video`.
+/// Sums over sub-pixels from which the two factors of Guidance are fitted by least squares. They
+/// are sums of squares and products of three values. `still` is the detail that the still would
+/// add. `video` is the change if the video's own detail is removed. `missing` is what the drawn
+/// frame lacks. The fit approximates `missing` by a weighted sum of `still` and `video`.
 struct FactorSums {
     double still2 = 0, video2 = 0, missing2 = 0;
     double stillVideo = 0, stillMissing = 0, videoMissing = 0;
@@ -22,26 +22,28 @@ struct FactorSums {
 
     void add(const FactorSums& other);
     void fade(double share);
-    /// Returns by how much the guidance `of` reduces the sum of squared errors.
+    /// Returns by how much the sum of squared errors decreases with the guidance `of`.
     [[nodiscard]] double gainOf(const Guidance& of) const;
-    /// Returns the factors with the largest gainOf(). The prior is zero guidance; it counts as much
-    /// as `prior` pixels.
+    /// Returns the factors with the largest gainOf(). The prior of the fit is zero guidance. It
+    /// counts as much as `prior` pixels.
     [[nodiscard]] Guidance best(double prior) const;
 };
 
-/// Learns FilterBank::guidance() by leaving one still out: a frame is drawn with an older still,
-/// and a new still is its ground truth. The method is recursive least squares with forgetting; the
-/// prior is zero guidance. Guidance is not learned from held-out tiles. It is used as long as it
-/// brings these tiles closer to the new stills.
-/// Only Guidance is learned in this way, not LookUpCell::weight, the weight of the whole detail of
-/// a still. Warping removes a part of a still's finest detail, so the new still contains less
-/// detail than the scene. A learned weight would be too low by 0.25 to 0.35 (synthetic scenes).
-/// Guidance is too low for the same reason, which does no harm.
+/// Learns FilterBank::guidance(). A frame was drawn with an older still. A new still shows what the
+/// frame should have looked like. Guidance is the pair of factors with which the frame would have
+/// been most similar to the new still. The method is recursive least squares with forgetting, and
+/// its prior is zero guidance. Some tiles are held out: guidance is not learned from them, and it
+/// is used as long as it makes them more similar to the new stills.
+///
+/// The weight of the whole detail of a still (LookUpCell::weight) is not learned in this way.
+/// Warping removes a part of a still's finest detail, so the warped new still has less detail than
+/// the scene. A learned weight would be too low by 0.25 to 0.35 (synthetic scenes). Guidance is too
+/// low for the same reason, which is harmless.
 class GuidanceLearner {
 public:
-    /// Learns from a frame matched with two stills: with the new still (`truth`), and with the
-    /// older still with which it was drawn (`older`). Returns false if too few pixels are trusted
-    /// in both stills or `stop` was requested.
+    /// Learns from one frame that was matched with two stills. `truth` is its match with the new
+    /// still. `older` is its match with the older still, with which the frame was drawn. Returns
+    /// false if too few pixels are trusted in both stills, or if `stop` was requested.
     bool add(const TrustedPairs& truth, const MatchedPictures& older, const FilterBank& filters,
              const std::stop_token& stop = {});
 
@@ -49,8 +51,8 @@ public:
     [[nodiscard]] std::uint64_t pairs() const { return pairs_; }
     [[nodiscard]] double gainDb() const;
 
-    /// stored() returns the learner's state for a later run of mfard. restore() returns false if a
-    /// number is out of range.
+    /// stored() returns the state of the learner, to be kept for a later run of mfard. restore()
+    /// returns false if a number is out of range.
     static constexpr std::size_t kNumbers = 17;
     [[nodiscard]] std::array<double, kNumbers> stored() const;
     [[nodiscard]] bool restore(const std::array<double, kNumbers>& numbers);

@@ -14,10 +14,10 @@ using namespace enlarge;
 constexpr char kMagic[] = "mfarlern";
 constexpr std::size_t kMagicSize = 8;
 constexpr std::array<std::uint64_t, 4> kHeader{6, kUnique, kTaps, kPhases};
-// Older versions of the format, which can still be read. The first has no guidance. The second has
-// one factor of guidance (ten numbers). The third has both factors, but no FineMatch. The fourth
-// has no tone curve. FineMatch of the fourth and fifth was measured within blocks of 2x2 pixels; it
-// is skipped and learned again.
+// Older versions of the format, which can still be read. Version 1 has no guidance. Version 2 has
+// one factor of guidance (ten numbers). Version 3 has both factors, but no FineMatch. Version 4 has
+// no tone curve. In versions 4 and 5, FineMatch was measured within blocks of 2x2 pixels; it is
+// skipped and learned again.
 constexpr std::uint64_t kWithoutGuidance = 1, kOneFactor = 2, kTwoFactors = 3, kWithoutTone = 4,
                         kFineInBlocks = 5;
 constexpr int kOneFactorNumbers = 10;

@@ -9,11 +9,12 @@ namespace mfar {
 class MatchListener {
 public:
     virtual ~MatchListener() = default;
-    /// Reports a still and the first frame matched with it. Called only in mode Detail.
+    /// Reports a still and the first frame that was matched with it. Called only in mode Detail.
     virtual void matched(const RgbPlanes& video, Rows<const std::uint8_t> still,
                          Rows<const LookUpCell> lookUps,
                          const MatchedPictures::LookedUp& lookedUp) = 0;
-    /// Reports the last drawn frame and its old still, before a new still replaces the old one.
+    /// Called when a new still replaces an old one. Reports the old still and the last frame that
+    /// was drawn with it.
     virtual void replaced(const RgbPlanes& video, Rows<const std::uint8_t> still,
                           Rows<const LookUpCell> lookUps,
                           const MatchedPictures::LookedUp& lookedUp) {

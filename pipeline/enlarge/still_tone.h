@@ -8,16 +8,16 @@
 
 namespace mfar {
 
-/// The tone curve from a still to the video: where the still's sensor shows grey level i, the
-/// video's sensor shows levels[i]. The curve is applied to the luma of a still before the still is
-/// matched, so that the still's detail has the contrast of the video.
+/// The tone curve from a still to the video: where the still has grey level i, the video has
+/// levels[i]. The curve is applied to the luma of a still before the still is matched, so that the
+/// still's detail has the contrast of the video.
 struct StillTone {
     static constexpr int kLevels = 256;
     std::array<std::uint8_t, kLevels> levels = unchanged();
 
     [[nodiscard]] bool isIdentity() const { return *this == StillTone{}; }
     bool operator==(const StillTone&) const = default;
-    /// True if the curves differ by so little that filters learned with one curve also suit the
+    /// True if the two curves differ so little that filters learned with one of them also suit the
     /// other.
     [[nodiscard]] bool isNear(const StillTone& other) const {
         constexpr int kNear = 4;  // mean difference [grey levels]

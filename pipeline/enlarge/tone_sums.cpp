@@ -8,9 +8,8 @@ namespace mfar::enlarge {
 namespace {
 
 constexpr double kLeastOfRange = 100;   // ranges with fewer pixels are left out
-constexpr double kKeptPerStill = 0.25;  // with every new still, the sums over older stills are
-                                        // multiplied by this factor
-// A tone curve is replaced if it is wrong by more than this in the mean [grey levels].
+constexpr double kKeptPerStill = 0.25;  // factor of the sums over older stills with every new still
+// A tone curve is replaced if its mean error exceeds this [grey levels].
 constexpr double kWrongTone = 2;
 constexpr double kMostOfRange = 1e12;
 

@@ -12,20 +12,22 @@ namespace mfar::enlarge {
 class ToneSums {
 public:
     void add(double still, double video, double count = 1);
-    /// Adds the pairs of `others`. Their stills had the tone curve `tone`, which is undone first.
+    /// Adds the pairs of `others`. Their stills had the tone curve `tone`, so the levels before
+    /// this curve are computed and added.
     void add(const ToneSums& others, const StillTone& tone);
     /// Multiplies all sums by the factor `share`.
     void fade(double share);
 
     using Curve = std::array<float, StillTone::kLevels>;
-    /// Returns the video's level for each level of the still. Ranges with few pixels are left out.
+    /// Returns the video's level for each level of the still. Ranges with few pixels are not used
+    /// for the interpolation.
     [[nodiscard]] Curve curve() const;
-    /// Mean absolute difference between the video's grey level and the still's grey level after
-    /// `tone`, over all summed pairs [grey levels].
+    /// Returns the mean absolute error of `tone` over all summed pairs: the difference between the
+    /// video's grey level and tone(still's grey level) [grey levels].
     [[nodiscard]] double distanceFrom(const StillTone& tone) const;
 
-    /// stored() returns the sums for a later run of mfard. restore() sets them, and returns false
-    /// if a number is out of range.
+    /// stored() returns the sums, to be kept for a later run of mfard. restore() sets them. It
+    /// returns false if a number is out of range.
     static constexpr std::size_t kRanges = 16, kNumbers = 3 * kRanges;
     [[nodiscard]] std::array<double, kNumbers> stored() const;
     [[nodiscard]] bool restore(const std::array<double, kNumbers>& numbers);
@@ -41,13 +43,14 @@ private:
 /// exposure of the sensors may change.
 class ToneLearner {
 public:
-    /// Learns from `seen`, pairs of a grey level of a still and the video's grey level at the same
-    /// place. The tone curve `tone` was already applied to this still.
+    /// Learns from the pairs `seen`. Each pair consists of a still's grey level and the video's
+    /// grey level at the same place. `tone` is the tone curve that was already applied to the
+    /// still.
     void add(const ToneSums& seen, const StillTone& tone);
     [[nodiscard]] const StillTone& tone() const { return tone_; }
 
-    /// stored() returns the learner's state for a later run of mfard. restore() sets this state,
-    /// and returns false if a number is out of range.
+    /// stored() returns the state of the learner, to be kept for a later run of mfard. restore()
+    /// sets it. It returns false if a number is out of range.
     static constexpr std::size_t kNumbers = ToneSums::kNumbers;
     [[nodiscard]] std::array<double, kNumbers> stored() const { return sums_.stored(); }
     [[nodiscard]] bool restore(const std::array<double, kNumbers>& numbers);

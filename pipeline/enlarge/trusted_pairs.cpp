@@ -14,8 +14,8 @@ namespace {
 
 constexpr int kBorder = 8;  // unused border of the picture [video px]
 // A pixel is trusted if the mean squared difference between video and still around it is at most
-// the noise plus this factor times the video's variance there. A factor of 0.1 costs 0.07 dB on
-// photographs, because it also trusts inexact look-ups, which blur the still.
+// the noise plus kMostDifference times the video's variance there. A factor of 0.1 would also trust
+// inexact look-ups, which blur the still, and would cost 0.07 dB on photographs.
 constexpr double kMostDifference = 0.03;
 constexpr double kLeastNoise = 1;  // lower limit of the noise variance [grey levels^2]
 constexpr int kTrustReach = 3;     // trust() averages over 7x7 pixels
@@ -23,10 +23,9 @@ constexpr int kMeanReach = 8;
 constexpr double kMostShift = 0.5;  // largest correction of a look-up along each axis [video px]
 constexpr double kStructure = 36;   // least variance of a pixel with structure [grey levels^2]
 
-/// Returns the mean squared difference between video and still that noise alone can cause: 1.5
-/// times the 20 % quantile of `differences`, which are means over 7x7 pixels. At this quantile,
-/// noise is the only cause. The factor 1.5 is a margin, so that noise alone rarely exceeds the
-/// result.
+/// Returns the largest mean squared difference between video and still that noise alone causes: 1.5
+/// times the 20 % quantile of `differences`, which are means over 7x7 pixels. The differences at
+/// this quantile come from noise only. The factor 1.5 is a margin for pixels with more noise.
 double noiseOf(std::vector<double>& differences) {
     if (differences.empty()) return kLeastNoise;
     const auto fifth = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 5);
@@ -84,8 +83,8 @@ float TrustedPairs::toneOf(float value) const {
     return tone_[level] + (value - static_cast<float>(level)) * (tone_[level + 1] - tone_[level]);
 }
 
-/// The sensors have different point spread functions. Fits a symmetric 5x5 kernel that blurs the
-/// still like the video, so that only wrong matches appear as differences.
+/// Fits a symmetric 5x5 kernel that blurs the still as much as the video, because the sensors have
+/// different point spread functions. Afterwards, only wrong matches appear as differences.
 void TrustedPairs::fitBlur() {
     constexpr int kReach = 2, kWeights = 6;
     using Weights = Eigen::Matrix<double, kWeights, 1>;
@@ -142,7 +141,7 @@ void TrustedPairs::fitMean() {
         }
 }
 
-/// Returns, per cell, the sums from which shift() estimates the error of the cell's look-up.
+/// Returns the sums from which shift() estimates the error of each cell's look-up.
 std::vector<TrustedPairs::ShiftSums> TrustedPairs::shiftSums() const {
     const auto isKnown = [&](int x, int y) { return known_[y / kCell][x / kCell] != 0; };
     std::vector<ShiftSums> out(static_cast<std::size_t>(cells_.width) * cells_.height);
@@ -160,8 +159,8 @@ std::vector<TrustedPairs::ShiftSums> TrustedPairs::shiftSums() const {
     return out;
 }
 
-/// Corrects look-ups by a fraction of a pixel: one Lucas-Kanade step over the 12x12 pixels in and
-/// around each cell.
+/// Corrects each cell's look-up by a fraction of a pixel, with one Lucas-Kanade step over 12x12
+/// pixels: the cell and its eight neighbours.
 void TrustedPairs::shift() {
     const std::vector<ShiftSums> sums = shiftSums();
     for (int y = 0; y < cells_.height; ++y)
@@ -171,8 +170,7 @@ void TrustedPairs::shift() {
             for (int j = std::max(y - 1, 0); j <= std::min(y + 1, cells_.height - 1); ++j)
                 for (int i = std::max(x - 1, 0); i <= std::min(x + 1, cells_.width - 1); ++i)
                     s.add(sums[static_cast<std::size_t>(j) * cells_.width + i]);
-            constexpr double kDamping = 400;  // contribution of noise to s.xx and s.yy [grey
-                                              // levels^2 / px^2]
+            constexpr double kDamping = 400;  // noise in s.xx and s.yy [grey levels^2 / px^2]
             const double a = s.xx + kDamping, b = s.yy + kDamping, det = a * b - s.xy * s.xy;
             const double dx = (s.xe * b - s.ye * s.xy) / det, dy = (s.ye * a - s.xe * s.xy) / det;
             lookUps_[y][x].x +=

@@ -12,32 +12,33 @@
 
 namespace mfar::enlarge {
 
-/// A matched still, sampled at the sub-pixels of a video frame, with the brightness of the video.
-/// The still is warped by the look-ups, after a correction of their sub-pixel errors. Its tone
-/// curve and its mean over larger areas are fitted to the video, so that gain and gamma of the
-/// sensors leave no offset. Differences in blur and noise remain, because the filters must learn
+/// A matched still, resampled at the sub-pixels of a video frame, with the brightness of the video.
+/// First, sub-pixel errors of the look-ups are corrected, and the still is warped by them. Then, a
+/// tone curve and a local mean are fitted to the video, so that different gain and gamma of the
+/// sensors cause no offset. Differences in blur and noise remain, because the filters must learn
 /// them.
 class TrustedPairs {
 public:
-    /// After a request of `stop`, the constructor returns soon and no pixel is trusted.
+    /// If `stop` is requested, the constructor returns soon, and no pixel is trusted.
     explicit TrustedPairs(const MatchedPictures& pictures, std::stop_token stop = {});
 
     [[nodiscard]] Size size() const { return video_; }
-    /// True if still and video agree around the pixel, except for noise and blur.
+    /// True if still and video agree around the pixel, apart from noise and blur.
     [[nodiscard]] bool trusts(int x, int y) const { return trusted_[y][x] != 0; }
-    /// Returns the still minus the video enlarged by Keys' cubic, at the pixel's sub-pixels [grey
-    /// levels].
+    /// Returns the still minus Keys' cubic enlargement of the video, at the sub-pixels of this
+    /// pixel [grey levels].
     [[nodiscard]] Phases target(int x, int y) const;
     [[nodiscard]] double trustedShare() const { return trustedShare_; }
-    /// Variance of the still among a pixel's sub-pixels, divided by the variance of the video
-    /// enlarged by Keys' cubic. It is measured over trusted pixels with structure. The still is no
-    /// sharper than the video if the result is at most one.
+    /// How much sharper the still is than the video. It is the variance of the still among the
+    /// sub-pixels of a pixel, divided by the same variance of the video enlarged by Keys' cubic,
+    /// over trusted pixels with structure. If it is at most one, the still is no sharper.
     [[nodiscard]] double sharpness() const { return sharpness_; }
     /// The pairs of grey levels from which the tone curve was fitted.
     [[nodiscard]] const ToneSums& toneSums() const { return toneSums_; }
 
 private:
-    /// Sums of products of the still's gradient (x, y) and the pictures' difference e.
+    /// Sums of products of the still's gradient (x, y) and the difference e between video and
+    /// still.
     struct ShiftSums {
         double xx = 0, xy = 0, yy = 0, xe = 0, ye = 0;
         void add(const ShiftSums& other) {

@@ -31,8 +31,8 @@ float sample(const AlignedRows<std::uint8_t>& picture, float x, float y) {
     return out;
 }
 
-/// The two cells between which a position is interpolated along one axis, and the weight t of the
-/// second. The position `at` is in video px.
+/// The two cells between which a position is interpolated along one axis. `at` is the position in
+/// video px, and t is the weight of the second cell.
 struct BetweenCells {
     BetweenCells(double at, int count) {
         const double cell = std::clamp((at - 1.5) / kCell, 0.0, count - 1.0);

@@ -10,14 +10,14 @@
 
 namespace mfar::enlarge {
 
-/// A still warped to the sub-pixels of a video frame, and its mean over each pixel [grey levels].
+/// The grey levels of a still at the sub-pixels of a video frame, and their mean over each pixel.
 class WarpedGrid {
 public:
     explicit WarpedGrid(Size video);
 
-    /// Samples the still at the look-ups of all pixels in known cells. Other pixels keep their
-    /// values. `known` is 1 for cells with a valid look-up. After a request of `stop`, the call
-    /// returns soon.
+    /// Samples the still for all pixels in known cells, at the positions in `lookUps`. Other pixels
+    /// keep their values. `known` is 1 for cells with a valid look-up, else 0. If `stop` is
+    /// requested, the call returns soon.
     void warp(const MatchedPictures& pictures, const AlignedRows<LookUpCell>& lookUps,
               const AlignedRows<std::uint8_t>& known, const std::stop_token& stop);
 
@@ -37,8 +37,8 @@ private:
     std::vector<float> mean_;
 };
 
-/// Returns the member `part` of the look-ups at a pixel's sub-pixels. It is interpolated bilinearly
-/// between cells, as in the detail step.
+/// Returns one member of LookUpCell, interpolated at the sub-pixels of a pixel. The interpolation
+/// between cells is bilinear, as in the detail step.
 [[nodiscard]] Phases betweenCells(const AlignedRows<LookUpCell>& cells, float LookUpCell::* part,
                                   int x, int y);
 

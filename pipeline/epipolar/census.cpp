@@ -8,12 +8,12 @@ namespace mfar {
 namespace {
 
 constexpr int kRadius = simd::kCensusRadius, kSide = 2 * kRadius + 1;
-// Largest number of pixels for censusAtEnd(): pixels at one end of a row whose windows extend
-// beyond the picture, or a whole row of a narrow picture.
+// Number of pixels of a row, at both ends together, whose windows extend beyond the picture.
+// censusAtEnd() processes a row as a whole if it is not longer.
 constexpr int kMostAtEnd = 2 * kRadius;
 
-/// Computes the census of `count` pixels from `first` on, on a copy of the rows that repeats the
-/// border pixels.
+/// Computes the census of `count` pixels from pixel `first` on. Pixels beyond the ends of the rows
+/// are taken from a copy that repeats the border pixels.
 void censusAtEnd(const std::uint8_t* const (&rows)[kSide], int width, int first, int count,
                  const std::uint8_t* seen, std::uint32_t* out) {
     std::array<std::array<std::uint8_t, kMostAtEnd + 2 * kRadius>, kSide> padded{};

@@ -11,10 +11,10 @@ namespace mfar {
 using simd::kCensusBits, simd::kNoCensus;
 
 /// Computes the census transform of a picture over 5x5 pixels, for rows [first, last) of `out`.
-/// Each bit of a pixel's census is set if one neighbour is darker than the pixel. A rising tone
-/// curve of the picture does not change the census. Pixels outside the picture repeat its border.
-/// Pixels with 0 in `seen` are invalid and get kNoCensus. If `seen` is null, all pixels are valid.
-/// Source: Zabih and Woodfill, ECCV 1994.
+/// Each bit of a pixel's census belongs to one neighbour, and is set if this neighbour is darker
+/// than the pixel. A rising tone curve of the picture does not change the census. Pixels outside
+/// the picture repeat its border. If `seen` is not null, pixels with 0 in `seen` are invalid and
+/// get kNoCensus. Source: Zabih and Woodfill, ECCV 1994.
 void census(const LumaImage& picture, int first, int last, std::vector<std::uint32_t>& out,
             const std::uint8_t* seen = nullptr);
 

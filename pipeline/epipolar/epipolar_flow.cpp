@@ -13,18 +13,20 @@ namespace mfar {
 namespace {
 
 constexpr float kNowhere = 1e4F;
-// A pixel is near the epipole, and its epipolar line counts as a point, if it moves by at most this
-// distance [px] under a change of s that moves the fastest pixel by 1 px.
+// Near the epipole, a change of s hardly moves a pixel, and its epipolar line counts as a point. To
+// find out, s is changed by the step that moves the fastest pixel of the picture by 1 px. A pixel
+// that moves by at most kLeastWay [px] is near the epipole.
 constexpr float kLeastWay = 0.05F;
-// Two neighbouring cells that match the same cell of the still count as one slanted surface if
-// their flow vectors differ by at most this distance [px].
+// Two neighbouring cells can match the same cell of the still. They count as one slanted surface if
+// their flow vectors differ by at most this distance [px]. Otherwise, the nearer one occludes the
+// other.
 constexpr float kSlope = 1.0F;
-// Margin around the rectangle that needs depth [px] for census windows, for the cost aggregation,
-// and for the motion until the next frame.
+// Width of the margin that is searched around the rectangle that needs depth [px]. It is needed for
+// census windows, for the cost aggregation, and for the motion until the next frame.
 constexpr int kRoom = 16;
 
-/// Returns the rectangle to search if depth is needed in `where`. It includes a margin and, except
-/// at the picture's border, consists of whole cells.
+/// Returns the rectangle that is searched if depth is needed in `where`. It includes a margin. It
+/// consists of whole cells, except at the picture's border.
 PixelRect searchedFor(const PixelRect& where, Size video) {
     const PixelRect around = widened(where, kRoom, video);
     const auto down = [](int x) { return x / kRoom * kRoom; };
@@ -115,8 +117,9 @@ void EpipolarFlow::run(const Rows<const std::uint8_t>& video, const Pose& pose,
     unit_ = relative.unit;
     lengthError_ = relative.lengthError;
     search(relative, where);
-    // Rotates rays from the frame's orientation to the video camera's orientation at the time of
-    // the still. The search has resampled the still in the frame's orientation.
+    // rotation_ rotates rays of the frame into the orientation that the video camera had when the
+    // still was taken. It is computed from the pose of the search, which has resampled the still as
+    // seen in the frame's orientation.
     rotation_ = (rig_.T_still_video.rotation.conjugate() * search_.pose().rotation)
                     .toRotationMatrix()
                     .cast<float>();
@@ -130,8 +133,8 @@ void EpipolarFlow::run(const Rows<const std::uint8_t>& video, const Pose& pose,
 
 void EpipolarFlow::search(const UnitPose& relative, const PixelRect& where) {
     const PixelRect wanted = searchedFor(where, rig_.video.size);
-    // The prediction does not contain objects that enter the picture or move by themselves. They
-    // are found only by a search from coarse to fine, without prediction.
+    // A predicted search misses objects that enter the picture or move by themselves, because the
+    // prediction does not contain them. They are found only by a search from coarse to fine.
     const bool isNew = around(search_.area(), wanted) != search_.area();
     const auto predicted = predictedFrames_ < mostPredicted_ && !isNew
                                ? prediction_.in(relative.T_other_frame, relative.unit)
@@ -161,9 +164,9 @@ float EpipolarFlow::sAt(int x, int y) const {
     return search_.s()[static_cast<std::size_t>(row) * (area.x1 - area.x0) + column];
 }
 
-// Returns the pixel position, in the still resampled with the video's lens, of the point with
-// inverse depth s on a ray of the frame. It is far outside the picture if the point is behind the
-// still camera or too close to its image plane.
+// Returns where the still shows the point with inverse depth s on a ray of the frame. The result is
+// a pixel position in the still after its resampling with the video's lens. It is far outside the
+// picture if the point is behind the still camera or too close to the image plane.
 EpipolarLens::Point EpipolarFlow::endOf(float rayX, float rayY, float s) const {
     const Eigen::Vector3f& t = search_.translation();
     const Eigen::Vector3f p = rotation_ * Eigen::Vector3f(rayX + s * (t.x() - rayX * t.z()),
@@ -248,8 +251,8 @@ void EpipolarFlow::fillForward() {
     });
 }
 
-// Returns s of a cell: the mean of the two middle values of its four central pixels. A depth edge
-// between these pixels does not distort it.
+// Returns s of a cell from its four central pixels: the mean of the two middle values. If a depth
+// edge separates one of the pixels from the others, it does not distort this mean.
 float EpipolarFlow::depthOf(int i, int j) const {
     const Middle x = middleOf(i, rig_.video.size.width), y = middleOf(j, rig_.video.size.height);
     std::array<float, 4> s{sAt(x.first, y.first), sAt(x.last, y.first), sAt(x.first, y.last),

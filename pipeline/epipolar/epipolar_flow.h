@@ -12,8 +12,8 @@
 
 namespace mfar {
 
-/// Computes the flow between a frame and the still by the epipolar search, one vector per cell.
-/// s is an inverse depth, see EpipolarLens.
+/// Computes the flow between a frame and the still by the epipolar search. There is one flow vector
+/// per cell. s is an inverse depth, see EpipolarLens.
 class EpipolarFlow {
 public:
     using Cells = std::vector<simd::CellVector>;
@@ -28,24 +28,25 @@ public:
     void dropStill();
     [[nodiscard]] bool hasStill() const { return stillPose_.has_value(); }
 
-    /// Refines the relative pose and matches the frame with the still. Requires a still. Pixels in
-    /// `where` [video px] and in a margin around it are matched. All other pixels get s of the
-    /// nearest matched pixel. `where` must not be empty.
+    /// Refines the relative pose and matches the frame with the still. May be called only while
+    /// there is a still. Pixels in `where` [video px] and in a margin around it are matched. All
+    /// other pixels get the s of the nearest matched pixel. `where` must not be empty.
     void run(const ImageView& video, const Pose& pose, const PixelRect& where);
     void run(const ImageView& video, const Pose& pose) {
         run(video, pose, {0, 0, rig_.video.size.width, rig_.video.size.height});
     }
     void run(const Rows<const std::uint8_t>& video, const Pose& pose, const PixelRect& where);
 
-    /// Flow of each cell from the video to the still, which is resampled as the video's lens would
-    /// show it: x, y [video px], and two unused numbers.
+    /// Flow from the video to the still, one entry per cell: x, y [video px], and two unused
+    /// numbers. The still counts as resampled with the video's lens.
     [[nodiscard]] const Cells& forward() const { return forward_; }
-    /// Two-way error of each cell (eq. 2 of the paper in docs/paper.md) [px], and three zeros. It
-    /// is the difference between the cell's parallax and the parallax of the nearest surface that
-    /// matches the same cell of the still.
+    /// Two-way error [px], one entry per cell: the error (eq. 2 of the paper in docs/paper.md), and
+    /// three zeros. Several surfaces can match the same cell of the still. The error of a cell is
+    /// the difference between its parallax and that of the nearest of these surfaces.
     [[nodiscard]] const Cells& occlusion() const { return hidden_; }
-    /// Returns for every cell the s whose point on the epipolar line is closest to the end of
-    /// `flow`. Usually `flow` is forward() after a refinement in both dimensions.
+    /// Converts flow vectors to inverse depths. For every cell, finds the point on its epipolar
+    /// line that is nearest to the end of its vector in `flow`, and returns the s of this point.
+    /// `flow` is usually forward() after a refinement in both dimensions.
     [[nodiscard]] const std::vector<float>& sOf(const Cells& flow);
     /// Returns the flow at every video pixel [px], x and y interleaved. The flow of a point that
     /// the still camera cannot see ends far outside the picture.
@@ -53,8 +54,9 @@ public:
     /// Returns the distance of a flow vector's end from the pixel's epipolar line [px]. Without
     /// parallax, the line is a point.
     [[nodiscard]] float offLine(int x, int y, float flowX, float flowY) const;
-    /// The epipolar search with its results. Its unit of length is the distance from the video
-    /// camera at the time of the frame to the still camera at the time of the still.
+    /// The epipolar search with its results. Its unit of length is the distance between the
+    /// position of the video camera at the frame's time and that of the still camera at the still's
+    /// time.
     [[nodiscard]] const EpipolarSearch& search() const { return search_; }
     [[nodiscard]] double unit() const { return unit_; }
     [[nodiscard]] double lengthError() const { return lengthError_; }
@@ -62,7 +64,8 @@ public:
     [[nodiscard]] const Eigen::Matrix3f& rotation() const { return rotation_; }
     /// Luma of the frame. Valid as long as the input of run() is valid.
     [[nodiscard]] const Rows<const std::uint8_t>& luma() const { return frame_; }
-    /// True if the last frame was searched only around values of s that the frame before predicted.
+    /// True if the last frame was searched only around the values of s that were predicted from the
+    /// frame before.
     [[nodiscard]] bool predicted() const { return predictedFrames_ > 0; }
 
 private:
@@ -92,8 +95,8 @@ private:
     Rows<const std::uint8_t> frame_;
     Cells forward_, hidden_;
     std::vector<float> predicted_;
-    // s_, aligned_: s of each video cell. nearest_: for each cell of the still, the largest s of
-    // the video cells that match it.
+    // s_, aligned_: s of each cell of the video. nearest_: for each cell of the still, the largest
+    // s of the video's cells that match it.
     std::vector<float> s_, aligned_, nearest_;
     std::vector<std::int32_t> landing_;
     // Rays through the point between each cell's four central pixels.

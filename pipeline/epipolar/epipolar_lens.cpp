@@ -3,8 +3,9 @@
 namespace mfar {
 namespace {
 
-// Largest radius of a valid ray, as a multiple of the radius of the picture's corners. If the lens
-// model folds rays back at a smaller radius, that radius is the limit instead.
+// Rays with a larger radius than this are invalid. It is a multiple of the radius of the picture's
+// corners. Some lens models fold rays back from a certain radius on: the distorted radius decreases
+// again. If this radius is smaller, it is the limit.
 constexpr double kBeyondPicture = 2;
 
 }  // namespace
@@ -62,7 +63,7 @@ EpipolarLens::EpipolarLens(const CameraModel& camera, int level)
             rim = std::max(rim, ray.squaredNorm());
         }
     }
-    // The limit 1e-12 is for a picture of one pixel, whose only ray may be the optical axis.
+    // The lower limit 1e-12 is for a picture of one pixel. Its only ray may be the optical axis.
     lens_.rim2 = std::max(
         static_cast<float>(std::pow(rimOf(camera, std::sqrt(rim), kBeyondPicture), 2)), 1e-12F);
 }
@@ -76,7 +77,8 @@ void EpipolarLens::cover(const EpipolarLens& whole, const PixelRect& pixels) {
         rays_ = whole.rays_;
         return;
     }
-    // If no copy of this lens shares the rays, their memory is reused.
+    // If other lenses share the rays, this lens needs new memory. Otherwise, the memory is used
+    // again.
     if (rays_.use_count() > 1) rays_ = std::make_shared<Rays>();
     const auto take = [&](const std::vector<float>& from, std::vector<float>& to) {
         to.clear();

@@ -13,24 +13,24 @@ namespace mfar {
 /// Returns the largest radius of the rays (x/z, y/z) through the picture's corners.
 [[nodiscard]] double cornerRadius(const CameraModel& camera);
 
-/// Returns the radius of the rays (x/z, y/z) up to which the lens model does not fold rays back.
-/// `picture` is the radius of the picture's corners. The result is between `picture` and `beyond`
+/// Beyond a certain radius, a lens model can fold rays (x/z, y/z) back towards the centre. Returns
+/// this radius, but at least `picture`, the radius of the picture's corners, and at most `beyond`
 /// times `picture`.
 [[nodiscard]] double rimOf(const CameraModel& camera, double picture, double beyond);
 
-/// The rays of a camera's pixels at one pyramid level, and the motion of their points under a
-/// translation of the camera. Copies share the table of rays.
+/// The rays of a camera's pixels at one pyramid level, and the motion of their points when the
+/// camera is translated. Copies of this object share the table of rays.
 ///
-/// The unknown is s [1/unit of length], the inverse depth of a point in the second view. The first
-/// view sees the point at ray r = (x, y) and depth Z. The second view has the same orientation; the
-/// point's coordinates in it are those in the first view plus t. It sees the point at the ray
-/// r + s (t.xy - r t.z) with s = 1 / (Z + t.z).
+/// The unknown is s [1/unit of length], the inverse depth of a point in a second view with the same
+/// orientation. The first view sees the point at ray r = (x, y) and depth Z. Adding t to the
+/// point's coordinates in the first view gives those in the second view. The second view sees the
+/// point at the ray r + s (t.xy - r t.z) with s = 1 / (Z + t.z).
 /// This is linear in s, so equal steps of s are equal steps on the epipolar line. The inverse depth
 /// in the first view is s / (1 - s t.z). Source: Hartley and Zisserman, 9.5.
 class EpipolarLens {
 public:
-    /// `camera` is the camera of the finest pyramid level. Its picture is halved `level` times;
-    /// each time, width and height are rounded up.
+    /// `camera` is the camera at full size. Its picture is halved `level` times. Each time, width
+    /// and height are rounded up.
     EpipolarLens(const CameraModel& camera, int level);
 
     /// Makes this object the lens of the rectangle `pixels`, a part of the picture of `whole`.
@@ -46,8 +46,8 @@ public:
     struct Point {
         float x, y;
     };
-    /// Maps a ray (x / z, y / z) to a pixel of this level, with distortion. Rays outside the valid
-    /// radius are first moved to it, so that distortion never folds them back.
+    /// Maps a ray (x / z, y / z) to a pixel of this level, with distortion. A ray outside the valid
+    /// radius is first moved to this radius, so that distortion never folds it back.
     [[nodiscard]] Point project(float x, float y) const {
         // Has no branch, so that the compiler can vectorize loops over pixels.
         const float r2 = x * x + y * y;
@@ -63,8 +63,8 @@ public:
 
     /// Returns the row-major index of the pixel that contains the point, or -1 outside the picture.
     [[nodiscard]] int pixelAt(Point p) const {
-        // Adds 0.5 and truncates, because the oldest supported x86 CPUs cannot round in one
-        // instruction.
+        // Rounds by adding 0.5 and truncating, because the oldest supported x86 CPUs cannot round
+        // in one instruction.
         const float u = p.x + 0.5F, v = p.y + 0.5F;
         const bool inside = u >= 0 && v >= 0 && u < static_cast<float>(size_.width) &&
                             v < static_cast<float>(size_.height);

@@ -1,12 +1,13 @@
-// The parts of EpipolarSearch that work on labels (candidates of s) along epipolar lines: matching
-// costs, and values between two labels.
+// Member functions of EpipolarSearch that work on labels (candidates of s, counted in steps). They
+// compute matching costs along epipolar lines, and refine the best label to a position between
+// labels.
 #include "pipeline/epipolar/epipolar_search.h"
 
 namespace mfar {
 namespace {
 
-// If normalError() is at most this distance [px of the pyramid level], only pixels on the epipolar
-// line are searched, and no pixels beside it.
+// If normalError() is at most this distance [px of the pyramid level], the pixels beside an
+// epipolar line are not searched.
 constexpr double kNoSlack = 0.5;
 
 simd::LabelRow rowOf(const EpipolarLens& lens, int y) {

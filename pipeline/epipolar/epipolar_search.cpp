@@ -11,10 +11,10 @@
 namespace mfar {
 namespace {
 
-// Lower limit of the shorter side of a pyramid level [px].
+// A pyramid level is left out if its shorter side would be less than this [px].
 constexpr int kCoarsest = 60;
-// Number of labels beyond infinity (s < 0) at the finest pyramid level. Noise and pose errors can
-// move the match of a distant point there.
+// Number of labels beyond infinity (s < 0) at the finest pyramid level. They are searched, because
+// noise and pose errors can move the match of a distant point there.
 constexpr int kBeyond = 4;
 constexpr int kSmallestCanvas = 16;
 constexpr int kMostStep = 30;
@@ -28,8 +28,8 @@ Smoothness smoothnessFor(double noise, const EpipolarOptions& options) {
 }
 
 // Returns the weight of each neighbour in the 3-pixel filter that smooths pictures before the
-// census. The weight is 0 up to a noise of one grey level, because smoothing clean pictures causes
-// a third more wrong pixels. From about two grey levels, it is 1/4, as in the binomial filter.
+// census. Up to a noise of one grey level, the weight is 0, because smoothing clean pictures causes
+// a third more wrong pixels. From about two grey levels on, it is 1/4, as in the binomial filter.
 float smoothingFor(double noise) {
     return static_cast<float>(std::clamp(0.2 * (noise - 1.0), 0.0, 0.25));
 }
@@ -65,8 +65,8 @@ float soundLabel(float label, float longest) {
     return label > -kBeyond ? std::min(label, longest) : static_cast<float>(-kBeyond);
 }
 
-// From this number of matched patches on, normalError() is their median distance from the epipolar
-// lines. With fewer patches, it is computed from the covariance of the pose.
+// If at least this number of patches is matched, normalError() is the median of their distances
+// from the epipolar lines. Otherwise, it is computed from the covariance of the pose.
 constexpr int kEnoughPatches = 16;
 
 double normalErrorOf(const Matrix6& covariance, double focal) {
@@ -153,7 +153,8 @@ bool EpipolarSearch::run(const Rows<const std::uint8_t>& video, const RigidTrans
     videoNoise_ = noiseOf(levels_[0].video);
     refinement_ = {};
     normalError_ = 0;
-    // A search around predicted s needs one pyramid level. Matching patches needs the finest two.
+    // If s is predicted, the search needs only the pyramid levels up to finestLevel(). Matching
+    // patches needs the finest two.
     const int all = static_cast<int>(levels_.size());
     const int searched = predicted.empty() ? all : finestLevel() + 1;
     const int drawn = covariance ? std::min(std::max(searched, 2), all) : searched;
@@ -184,8 +185,8 @@ int EpipolarSearch::finestLevel() const {
     return std::min(options_.finest, static_cast<int>(levels_.size()) - 1);
 }
 
-// Gives each full-size pixel the s of the pixel of finestLevel() that contains it. A finest level
-// of half size suffices for the flow of cells, because the four middle pixels of a cell lie in four
+// Gives each full-size pixel the s of the pixel of finestLevel() that contains it. If finestLevel()
+// has half size, this suffices for the flow of cells: the four middle pixels of a cell lie in four
 // different pixels of half size.
 void EpipolarSearch::readInverseDepth() {
     const int finest = finestLevel();
@@ -222,9 +223,9 @@ bool EpipolarSearch::place(const RigidTransform& told, int levels) {
     return true;
 }
 
-// Matching patches needs s. Predicted s was computed with refined poses and is accurate enough.
-// Otherwise, s comes from the coarsest pyramid level: its pixels are so large that the epipolar
-// lines of the unrefined pose still pass through the matches.
+// Refines the pose by matching patches, which needs s. Predicted s was computed with refined poses
+// and is accurate enough. Without a prediction, s comes from the coarsest pyramid level. Its pixels
+// are so large that the epipolar lines of the unrefined pose still pass through the matches.
 void EpipolarSearch::refine(const Matrix6& covariance, std::span<const float> predicted) {
     const PosePrior prior{translation_.cast<double>(), covariance};
     const Level& half = levels_[std::min<std::size_t>(1, levels_.size() - 1)];
@@ -247,8 +248,9 @@ void EpipolarSearch::refine(const Matrix6& covariance, std::span<const float> pr
                                                         : refinement_.normalAfter;
 }
 
-// Resamples the still as its camera would have shown it in the frame's orientation. A pure rotation
-// needs no depth. The resampled part is as large as the longest parallax requires.
+// Resamples the still as the video camera would show it from the still camera's position, in the
+// frame's orientation. This needs no depth, because only the orientation changes. The result
+// extends beyond the searched part of the frame by up to the longest parallax on each side.
 bool EpipolarSearch::turnStill(const Eigen::Matrix3d& R_still_video, int levels) {
     const double beyond = options_.longestParallax * whole_.size.width / video_.size.width;
     turned_.place(video_, still_, R_still_video, beyond);
@@ -272,7 +274,8 @@ bool EpipolarSearch::turnStill(const Eigen::Matrix3d& R_still_video, int levels)
     return true;
 }
 
-// Chooses the step of s between labels so that no pixel moves by more than one pixel per label.
+// Computes pixelsPerUnit_. A label is a step of s by 1 / pixelsPerUnit_, so no pixel moves by more
+// than one pixel per label.
 void EpipolarSearch::measureParallax() {
     const EpipolarLens& lens = levels_[0].lens;
     const Size size = lens.size();
@@ -362,8 +365,10 @@ void EpipolarSearch::match(int index, int vectors) {
         placeLabels(index);
 }
 
-// Each pixel searches the labels that the coarser pyramid level found around it, plus kRoom labels
-// on both sides. Its window of labels is centred on this range.
+// Chooses the window of labels that each pixel searches. The window is centred on the range of
+// labels that the coarser pyramid level found around the pixel. If this range plus kRoom labels on
+// both sides does not fit into the window, the window is the part of the widened range around the
+// pixel's own label.
 void EpipolarSearch::centreWindows(const Coarser& coarse, Level& fine) {
     constexpr int kRoom = 2;
     const Size from = coarse.size, to = fine.lens.size();

@@ -18,29 +18,29 @@
 
 namespace mfar {
 
-/// Returns the still camera, scaled down to the focal length [px] of the video camera. It is never
-/// scaled up.
+/// Returns the still camera, reduced to the focal length [px] of the video camera. If the still
+/// camera has the shorter focal length, it stays unchanged.
 [[nodiscard]] CameraModel atScaleOf(const StereoRig& rig);
 
-/// Matches every pixel of a video frame with a still of known relative pose. Searches along each
-/// pixel's epipolar line, from coarse to fine, with a census cost and semi-global smoothness. Runs
-/// on the CPU, without GL.
+/// Matches every pixel of a video frame with a still whose relative pose is known. The search
+/// follows each pixel's epipolar line, from coarse to fine. Matching costs come from the census
+/// transform and are smoothed by semi-global matching. Runs on the CPU, without GL.
 class EpipolarSearch {
 public:
     /// Throws std::invalid_argument if an option is out of range.
     EpipolarSearch(const StereoRig& rig, std::shared_ptr<Workers> workers,
                    const EpipolarOptions& options = {});
 
-    /// Sets the options that can change between frames (see changed() in flow_options.h) for the
-    /// next run. Throws std::invalid_argument if an option is out of range.
+    /// Sets options for the next run. Only options that can change between frames are used, see
+    /// changed() in flow_options.h. Throws std::invalid_argument if an option is out of range.
     void setOptions(const EpipolarOptions& options) { options_ = changed(options_, options); }
 
-    /// Sets the still as its sensor delivered it.
+    /// Sets the still. It is given at full size and is reduced here, see atScaleOf().
     void setStill(const ImageView& still);
     void setStill(const Rows<const std::uint8_t>& still);
 
-    /// Sets the rectangle of video pixels to match. It is widened to a grid of a few pixels, see
-    /// area(). Initially, the whole picture is matched.
+    /// Sets the rectangle of video pixels to match. It is widened to multiples of a few pixels;
+    /// area() returns the result. Before the first call, the area is the whole picture.
     void setArea(const PixelRect& pixels);
     [[nodiscard]] const PixelRect& area() const { return area_; }
     [[nodiscard]] const EpipolarLens& videoLens() const { return lenses_.front(); }
@@ -49,34 +49,35 @@ public:
     /// camera coordinates at the frame's time to still camera coordinates at the still's time, in
     /// any unit of length.
     ///
-    /// `covariance` is the covariance of a small motion x in T_still_video * exp(x). If given, the
-    /// pose is first refined from the pictures, otherwise it counts as exact. `predicted` is an
-    /// approximate s of every cell in the area, row-major. If given, the coarser pyramid levels are
-    /// skipped.
-    /// Returns false and sets s() to zero if the pose is invalid (soundMotion()) or no
-    /// part of the still can show the area.
+    /// `covariance` is the covariance of a small motion x in T_still_video * exp(x). With it, the
+    /// pose is first refined from the pictures. Without it, the pose counts as exact. `predicted`
+    /// is empty or contains an approximate s of every cell in the area, row-major. With it, the
+    /// coarser pyramid levels are not searched.
+    /// Returns false and sets s() to zero if the pose is invalid (soundMotion()) or if no part of
+    /// the still can show the area.
     bool run(const Rows<const std::uint8_t>& video, const RigidTransform& T_still_video,
              const std::optional<Matrix6>& covariance = std::nullopt,
              std::span<const float> predicted = {});
 
-    /// The relative pose T_still_video that the last run() used. If run() refined it, refinement()
-    /// describes the difference from the argument of run().
+    /// The relative pose T_still_video with which the last run() searched. If run() refined the
+    /// pose that it was given, refinement() describes the difference.
     [[nodiscard]] const RigidTransform& pose() const { return pose_; }
     [[nodiscard]] const PoseRefinement& refinement() const { return refinement_; }
     /// Expected distance of matches from their epipolar lines [px]. At pyramid levels where it
-    /// exceeds half a pixel, one pixel on both sides of each line is searched too.
+    /// exceeds half a pixel, one pixel on each side of a line is searched, too.
     [[nodiscard]] double normalError() const { return normalError_; }
 
     /// s [1/unit of length] of each pixel of the area, see EpipolarLens. Noise or pose errors can
-    /// make it negative, which is beyond infinity.
+    /// make it negative; such a point would be beyond infinity.
     [[nodiscard]] const std::vector<float>& s() const { return s_; }
-    /// Largest motion of any pixel along its epipolar line [px] per unit of s. Zero if there is no
-    /// parallax; then nothing was searched.
+    /// Largest motion of any pixel along its epipolar line [px] per unit of s. If there is no
+    /// parallax, it is zero, and nothing was searched.
     [[nodiscard]] double pixelsPerUnit() const { return pixelsPerUnit_; }
-    /// Translation of points from the frame's to the still's camera, in the frame's orientation.
+    /// Adding this translation to a point's coordinates in the frame's camera gives those in the
+    /// still camera, if the still camera is rotated into the frame's orientation.
     [[nodiscard]] const Eigen::Vector3f& translation() const { return translation_; }
-    /// Number of labels (candidates of s) per pixel at the finest pyramid level. Zero if nothing
-    /// was searched.
+    /// Number of labels (candidates of s) per pixel at the finest pyramid level. If nothing was
+    /// searched, it is zero.
     [[nodiscard]] int labels() const { return labels_; }
 
 private:
@@ -104,9 +105,10 @@ private:
     void searchAround(std::span<const float> predicted);
     void refine(const Matrix6& covariance, std::span<const float> predicted);
     void prepare(int index);
-    /// Approximate labels (steps of s, see simd::LabelLines), either predicted or found at the next
-    /// coarser pyramid level. `scale` converts them to labels of the finer level. Each value covers
-    /// 2^shift pixels of the finer level along each axis.
+    /// Approximate labels, which were either predicted or found at the next coarser pyramid level.
+    /// A label is an inverse depth, counted in steps (see simd::LabelLines). `scale` converts the
+    /// labels to those of the finer level. Each label belongs to 2^shift pixels of the finer level
+    /// along each axis.
     struct Coarser {
         const std::vector<float>& labels;
         Size size;

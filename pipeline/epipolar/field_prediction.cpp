@@ -10,8 +10,8 @@ namespace {
 
 constexpr int kCellLevel = 2;  // a pixel of this pyramid level is a cell
 constexpr float kUnknown = -1e9F;
-// Gaps at the picture's border and at depth edges are filled up to this number of cells from their
-// edges. This allows motions of 12 px per frame.
+// Gaps at the picture's border and at depth edges are filled from their edges inwards, up to this
+// number of cells. This suffices for motions of 12 px per frame.
 constexpr int kWidestGap = 3;
 
 }  // namespace
@@ -63,8 +63,9 @@ void FieldPrediction::land(const RigidTransform& T_still_frame, double unit) {
     }
 }
 
-// Fills cells to which no point moved. An area that becomes visible beside a depth edge gets the
-// depth of the farthest surface next to it. Returns false if a gap is too wide.
+// Fills cells to which no point moved. Such a cell often lies beside a depth edge and shows an area
+// that was occluded before, so it gets the depth of the farthest surface next to it. Returns false
+// if a gap is too wide.
 bool FieldPrediction::fillGaps() {
     const Size size = cells_.size();
     for (int round = 0; round < kWidestGap; ++round) {

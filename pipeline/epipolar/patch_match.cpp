@@ -9,20 +9,21 @@
 namespace mfar {
 namespace {
 
-// Width and height of the blocks over which structure tensors are summed [px]. A patch has two by
-// two blocks.
+// Width and height of a block [px]. Structure tensors are summed over blocks, and a patch consists
+// of two by two blocks.
 constexpr int kBlock = kPatch / 2;
-// The picture is divided into at least this number of equal parts. A small picture is divided into
-// fewer, because a part has at least two by two blocks.
+// The picture is divided into at least this number of equal parts. In a small picture, there are
+// fewer, because a part consists of at least two by two blocks.
 constexpr int kPlaces = 300;
 constexpr int kPixels = kPatch * kPatch;
-// kLeastScore: lower limit of the correlation of a match. A match is ambiguous if the correlation
-// at a position farther away than kRivalDistance [px] is lower by less than kRival.
+// A match is valid if its correlation is at least kLeastScore. It is ambiguous if a position that
+// is more than kRivalDistance [px] away has a correlation that is lower by less than kRival.
 constexpr double kLeastScore = 0.75;
 constexpr double kRival = 0.06;
 constexpr double kRivalDistance = 2.5;
-// kMatchSteps: largest number of inverse-compositional steps. kLongestWay: upper limit of the
-// distance from their start along each axis [px]. A step shorter than kShortStep [px] is the last.
+// Limits of the refinement of a match by inverse-compositional steps. There are at most kMatchSteps
+// steps. They end after a step that is shorter than kShortStep [px]. They must not lead farther
+// than kLongestWay [px] away from the start along any axis.
 constexpr int kMatchSteps = 6;
 constexpr float kLongestWay = 1.5F, kShortStep = 0.01F;
 constexpr double kFar = 1e6;
@@ -46,9 +47,9 @@ struct Tensor {
     }
 };
 
-/// Structure tensors of all blocks of a picture, from central differences (twice the gradient).
-/// Block (i, j) starts at pixel 1 + kBlock (i, j), so that no difference needs a pixel outside the
-/// border.
+/// Structure tensors of all blocks of a picture. They are computed from central differences, which
+/// are twice the gradient. Block (i, j) starts at pixel 1 + kBlock (i, j), so all pixels for the
+/// differences are inside the picture.
 struct TensorField {
     int width = 0, height = 0;
     std::vector<Tensor> blocks;
@@ -86,7 +87,8 @@ struct Sums {
             }
         }
     }
-    /// Returns the variance of the second patch `b` times the square of its number of pixels.
+    /// Returns the variance of the second patch `b`, multiplied by the square of its number of
+    /// pixels.
     [[nodiscard]] double power() const { return 1.0 * kPixels * ss - 1.0 * s * s; }
 };
 
@@ -96,8 +98,8 @@ public:
         : own_(picture.row(place.y) + place.x), stride_(picture.size.width),
           self_(own_, stride_, own_, stride_) {}
 
-    /// Returns the correlation with the patch at (x, y) of `picture`, in [-1, 1], or 0 if either
-    /// patch is uniform.
+    /// Returns the correlation with the patch at (x, y) of `picture`, in [-1, 1]. If one of the
+    /// patches is uniform, returns 0.
     [[nodiscard]] double with(const LumaImage& picture, int x, int y) const {
         const Sums sums(own_, stride_, picture.row(y) + x, picture.size.width);
         const double powers = self_.power() * sums.power();
@@ -127,8 +129,7 @@ float withoutMean(Grey& values) {
     return std::sqrt(squares);
 }
 
-/// A patch and its gradient, both minus their means, and the inverse of the gradient's structure
-/// tensor.
+/// A patch and its gradient, each minus its mean, and the inverse of the structure tensor.
 class Template {
 public:
     Template(const LumaImage& picture, PatchPlace place) {
@@ -189,8 +190,8 @@ std::vector<PatchPlace> texturedPlaces(const LumaImage& picture, double noise) {
     if (field.width < 2 || field.height < 2) return out;
     const int right = field.width - 1, bottom = field.height - 1;
     const int cell = std::max(2, static_cast<int>(std::sqrt(1.0 * right * bottom / kPlaces)));
-    // Lower limit of the texture: twice the sum of squared central differences that noise alone
-    // causes, plus the sum that rounding causes.
+    // A patch with less texture than this is skipped. The limit is twice the sum of squared central
+    // differences that noise alone causes, plus the sum that rounding causes.
     const double least = kPixels * (4 * noise * noise + 8);
     for (int j0 = 0; j0 < bottom; j0 += cell) {
         for (int i0 = 0; i0 < right; i0 += cell) {
@@ -210,8 +211,8 @@ std::vector<PatchPlace> texturedPlaces(const LumaImage& picture, double noise) {
     return out;
 }
 
-// True if all pixels of the patch at (x, y) and of the next row and column are valid. Bilinear
-// samples need the next row and column. Testing the corners suffices, because the valid area is
+// True if all pixels of the patch at (x, y) are valid, and also the row below and the column to the
+// right, which bilinear samples need. Testing the four corners suffices, because the valid area is
 // nearly convex.
 bool PatchMatcher::shows(int x, int y) const {
     const int w = to_.size.width;

@@ -12,8 +12,8 @@ namespace mfar {
 
 inline constexpr int kPatch = 8;
 
-/// First column and first row of a patch. A border of at least one pixel must surround the patch in
-/// its picture.
+/// First column and first row of a patch. Around the patch, its picture must have at least one more
+/// pixel on each side.
 struct PatchPlace {
     int x = 0, y = 0;
     [[nodiscard]] Eigen::Vector2d middle() const {
@@ -21,14 +21,14 @@ struct PatchPlace {
     }
 };
 
-/// Divides the picture into 300 to 700 equal parts (fewer if it is small) and returns the most
-/// textured patch of each part: the smaller eigenvalue of its structure tensor is the largest in
-/// the part. Parts in which noise alone could cause this eigenvalue are skipped. `noise` is the
+/// Divides the picture into 300 to 700 equal parts (fewer if the picture is small), and returns the
+/// patch of each part with the most texture. Texture is the smaller eigenvalue of the patch's
+/// structure tensor. A part is skipped if noise alone could cause this texture. `noise` is the
 /// standard deviation of a pixel's noise [grey levels]. Source: Shi and Tomasi, CVPR 1994.
 [[nodiscard]] std::vector<PatchPlace> texturedPlaces(const LumaImage& picture, double noise);
 
-/// Positions at which a patch is searched: up to alongSteps pixels from `middle` along the epipolar
-/// line and up to acrossSteps pixels perpendicular to it, in both directions.
+/// Positions at which a patch is searched. They are at most alongSteps pixels from `middle` along
+/// the epipolar line, and at most acrossSteps pixels perpendicular to it, in both directions.
 struct PatchWindow {
     Eigen::Vector2d middle;
     Eigen::Vector2d along;
@@ -39,18 +39,18 @@ struct PatchWindow {
 /// pictures must outlive this object.
 class PatchMatcher {
 public:
-    /// `seen` has one byte per pixel of `to`, 1 for valid pixels.
+    /// `seen` has one byte per pixel of `to`: 1 for valid pixels, else 0.
     PatchMatcher(const LumaImage& from, const LumaImage& to, const std::vector<std::uint8_t>& seen)
         : from_(from), to_(to), seen_(seen) {}
 
-    /// Returns the middle, to whole pixels, of the patch of `to` with the highest zero-mean
-    /// normalised correlation in `window`. Empty if no patch fits well, or if a distant patch fits
-    /// about equally well.
+    /// Returns the middle of the patch of `to` in `window` that has the highest zero-mean
+    /// normalised correlation. The result is accurate to whole pixels. It is empty if no patch fits
+    /// well, or if a distant patch fits about equally well.
     [[nodiscard]] std::optional<Eigen::Vector2d> find(PatchPlace place,
                                                       const PatchWindow& window) const;
 
-    /// Refines the match `near` to a fraction of a pixel by inverse-compositional steps. Empty if
-    /// the steps lead too far away from `near`. Source: Baker and Matthews, IJCV 2004.
+    /// Refines the match `near` to a fraction of a pixel by inverse-compositional steps. The result
+    /// is empty if the steps lead too far away from `near`. Source: Baker and Matthews, IJCV 2004.
     [[nodiscard]] std::optional<Eigen::Vector2d> polish(PatchPlace place,
                                                         const Eigen::Vector2d& near) const;
 

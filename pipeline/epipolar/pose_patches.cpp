@@ -9,10 +9,10 @@
 namespace mfar {
 namespace {
 
-// Upper limit of the search perpendicular to an epipolar line [px of the searched pyramid level].
+// A patch is searched at most this far from its epipolar line [px of the searched pyramid level].
 constexpr int kMostSteps = 8;
 
-/// Searches a patch at half size and refines its match at full size.
+/// Searches patches at half size and refines their matches at full size.
 class PatchSearch {
 public:
     PatchSearch(const TurnedPair& full, const TurnedPair& half, const PatchPrior& prior)
@@ -29,8 +29,8 @@ public:
         if (!placed) return std::nullopt;
         Eigen::Vector2d seen = toFull(*placed + originOf(half_));
         if (scale_ > 1) {
-            // `inner` is the patch at full size with the same middle as the patch at half size. If
-            // it cannot be matched, the match at half size remains.
+            // `inner` is the patch at full size that has the same middle as the patch at half size.
+            // If `inner` cannot be matched, the match at half size is used.
             const PatchPlace inner{2 * place.x + kPatch / 2, 2 * place.y + kPatch / 2};
             if (const auto finer = atFull_.polish(inner, seen - originOf(full_)))
                 seen = *finer + originOf(full_);
@@ -47,8 +47,8 @@ private:
         return ((pixel.array() + 0.5) * scale_ - 0.5).matrix();
     }
 
-    /// Returns the ray of the pixel that contains the point. The point must be inside the picture
-    /// of half size.
+    /// Returns the ray of the pixel that contains the point. The point is a position in the picture
+    /// of half size and must be inside it.
     [[nodiscard]] Eigen::Vector2d rayNear(const Eigen::Vector2d& point) const {
         const auto pixel = static_cast<std::size_t>(point.y()) * half_.lens.size().width +
                            static_cast<std::size_t>(point.x());
@@ -81,14 +81,15 @@ private:
         out.middle = expected - originOf(half_);
         const Eigen::Vector2d across(-out.along.y(), out.along.x());
         out.acrossSteps = stepsFor(across.dot(spread * across));
-        // If the error of s requires at most one step, the pixel is near the epipole. The error of
-        // the prior pose can then be larger and determines the number of steps along the line.
+        // If the error of s requires at most one step along the line, the pixel is near the
+        // epipole. There, the error of the prior pose can be larger, so the number of steps is
+        // computed from that error.
         if (out.alongSteps <= 1) out.alongSteps = stepsFor(out.along.dot(spread * out.along));
         return out;
     }
 
-    /// Returns the number of one-pixel steps that cover three standard deviations. `variance` is in
-    /// [rays^2].
+    /// Returns the number of steps of one pixel that cover three standard deviations. The unit of
+    /// `variance` is that of squared rays (x/z, y/z).
     [[nodiscard]] int stepsFor(double variance) const {
         const double pixels = 3 * std::sqrt(variance) * prior_.camera.fx / scale_;
         return pixels < kMostSteps ? std::max(1, static_cast<int>(std::ceil(pixels))) : kMostSteps;

@@ -9,11 +9,11 @@
 
 namespace mfar {
 
-/// One pyramid level of a frame and of the still rotated into the frame's orientation. Refers to
-/// data that must outlive it.
+/// One pyramid level of a frame and of the still. The still is rotated into the frame's
+/// orientation. The members refer to data that must outlive this object.
 struct TurnedPair {
     const EpipolarLens& lens;
-    PixelOffset origin;  ///< pixel of the frame at the first pixel of `still`
+    PixelOffset origin;  ///< position of the first pixel of `still` in the frame [px]
     const LumaImage& video;
     const LumaImage& still;
     const std::vector<std::uint8_t>& seen;  ///< 1 for valid pixels of the still
@@ -24,17 +24,17 @@ struct PatchPrior {
     const PosePrior& pose;
     /// Standard deviation of a pixel's noise in frame and still [grey levels].
     double noise;
-    double pixelsPerUnit;  ///< largest motion of a pixel per unit of s; 0: no parallax
-    /// Returns s at a pixel of the frame, with an error of at most kAlongSlack pixels along the
-    /// epipolar line.
+    double pixelsPerUnit;  ///< largest motion of a pixel per unit of s [px]; 0: no parallax
+    /// Returns s at a pixel of the frame. Its error must move the pixel by at most kAlongSlack
+    /// pixels along the epipolar line.
     std::function<double(const Eigen::Vector2d&)> sAt;
 };
 inline constexpr int kAlongSlack = 6;
 
-/// Matches the textured patches of a frame with the still. At half size, they are searched along
-/// the epipolar lines within the error of s and across them within three standard deviations of the
-/// prior pose. The matches are refined at full size. `half` and `full` may be the same pyramid
-/// level.
+/// Matches the textured patches of a frame with the still. At half size, a patch is searched around
+/// the place where its s and the prior pose predict it: along the epipolar line as far as the error
+/// of s requires, and across it within three standard deviations of the prior pose. Then the match
+/// is refined at full size. `half` and `full` may be the same pyramid level.
 [[nodiscard]] std::vector<RayMatch> matchPatches(const TurnedPair& full, const TurnedPair& half,
                                                  const PatchPrior& prior, Workers& workers);
 

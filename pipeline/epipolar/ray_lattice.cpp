@@ -6,7 +6,8 @@
 namespace mfar {
 namespace {
 
-// Additional points on each side of the requested ones, because the next frame often needs them.
+// On each side, this number of additional points is computed, because the next frame often needs
+// them.
 constexpr int kRoom = 4;
 
 }  // namespace
@@ -53,7 +54,8 @@ void RayLattice::cover(const PixelRect& points) {
             }
             const Eigen::Vector2d pixel(kStep * i, kStep * j);
             const Eigen::Vector2d ray = camera_.unproject(pixel);
-            // Outside the radius where the lens model folds back, no ray belongs to a pixel.
+            // If the lens model folds rays back beyond a certain radius, no ray belongs to a pixel
+            // beyond it.
             const bool shown = (camera_.project(ray) - pixel).squaredNorm() < 1e-2;
             constexpr float kNoRay = std::numeric_limits<float>::quiet_NaN();
             x.push_back(shown ? static_cast<float>(ray.x()) : kNoRay);

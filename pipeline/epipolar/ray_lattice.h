@@ -12,15 +12,16 @@ struct PixelOffset {
 
 [[nodiscard]] bool isSame(const CameraModel& a, const CameraModel& b);
 
-/// Rays of every kStep-th pixel of a camera, also outside its picture. They are computed at the
-/// first request and stored. A camera that differs only in size, and in its principal point by
-/// whole steps, uses the same rays.
+/// Rays of every kStep-th pixel of a camera, also outside its picture. They are computed when first
+/// requested, and stored. They are used again for a camera that differs only in size, or whose
+/// principal point differs by whole steps.
 class RayLattice {
 public:
     static constexpr int kStep = 8;
 
-    /// The rays of points [x0, x1) x [y0, y1) of the lattice, counted in steps. Valid until the
-    /// next call of part(). A ray is NaN if the lens maps no ray to its pixel.
+    /// The rays of the points [x0, x1) x [y0, y1) of the lattice; coordinates are counted in steps.
+    /// They are valid until the next call of part(). A ray is NaN if the lens maps no ray to its
+    /// pixel.
     struct Part {
         const float *x, *y;
         int pitch;
@@ -30,8 +31,8 @@ public:
 private:
     void cover(const PixelRect& points);
 
-    // The camera of the stored rays, moved by whole steps, so that its principal point is in
-    // [0, kStep). Its size is always 0x0.
+    // The camera whose rays are stored. Its principal point is moved by whole steps into [0,
+    // kStep), and its size is set to 0x0.
     CameraModel camera_;
     PixelRect known_;
     std::vector<float> x_, y_;

@@ -19,24 +19,26 @@ constexpr int kMostSolves = 15;
 constexpr double kSettled = 0.01;  // a step shorter than this ends the refinement [px]
 constexpr int kFewest = 16;
 constexpr double kFewestShare = 0.4;
-// Matches with an error above this number of standard deviations have no weight.
+// A match whose error exceeds this number of standard deviations has no weight.
 constexpr double kTukey = 4.685;
-// Standard deviation of a good match [px]. The scale of the robust weights is at least half of it.
+// Standard deviation of a good match [px]. Robust weights assume at least half of it, even if the
+// matches fit better.
 constexpr double kMatchError = 0.3;
 constexpr double kExplained = 1;
 constexpr double kNotExplained = 1e6;  // error of a match that fits no pose [px]
 
-/// Estimated motion of points from frame to still, relative to the orientation of the prior pose.
-/// The unit of length is Solver::unit_.
+/// The estimated motion of points from the frame's camera to the still camera. Its rotation is
+/// relative to the rotation of the prior pose. The unit of length is Solver::unit_.
 struct Estimate {
     Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
     Eigen::Vector3d translation;
 };
 
-/// Residual of a match under an estimated pose, at the inverse depth that fits best.
+/// Residual of a match under an estimated pose. The inverse depth of the match is the one with the
+/// smallest residual.
 struct Residual {
     Eigen::Vector2d error;  // predicted minus matched ray (x/z, y/z)
-    // Derivatives with respect to rotation and translation, with inverse depth eliminated.
+    // Derivatives with respect to rotation and translation. The inverse depth is eliminated.
     Matrix26 jacobian;
 };
 
@@ -46,9 +48,9 @@ Matrix23 rayOfPoint(const Eigen::Vector2d& ray, double z) {
     return out / z;
 }
 
-// Near the epipole, depth hardly moves the point, so an unlimited depth could explain any error. A
-// prior therefore keeps the inverse depth near zero there: its mean is zero, and its standard
-// deviation is one per unit of length.
+// Computes the residual of a match. Near the epipole, depth hardly moves the point, so some extreme
+// depth could explain any error. Therefore, the inverse depth has a prior with mean zero and a
+// standard deviation of one per unit of length, which keeps it small there.
 std::optional<Residual> residualOf(const RayMatch& match, const Estimate& at, double focal) {
     const double held = std::pow(kMatchError / focal, 2);
     const Eigen::Vector3d turned = at.rotation * match.video.homogeneous();
@@ -77,7 +79,7 @@ double quantileOf(std::vector<double> values, double quantile) {
 }
 
 /// Robust Gauss-Newton solver. Rotations are in radians. The unit of length is the length of the
-/// prior's translation.
+/// prior's translation or the standard deviation of this translation, whichever is larger.
 class Solver {
 public:
     Solver(std::span<const RayMatch> matches, const PosePrior& prior, double focal)
@@ -89,8 +91,8 @@ public:
         Vector6 scale = Vector6::Ones();
         scale.tail<3>().setConstant(1 / unit_);
         Matrix6 covariance = scale.asDiagonal() * prior.covariance * scale.asDiagonal();
-        // Unknowns with a variance of zero in the prior get a standard deviation of a millionth, so
-        // that the covariance can be inverted.
+        // An unknown can have a variance of zero in the prior. Its standard deviation is set to a
+        // millionth, so that the covariance can be inverted.
         covariance.diagonal().array() += 1e-12;
         const Eigen::LLT<Matrix6> factors(covariance);
         usable_ = covariance.allFinite() && prior.translation.allFinite() &&
@@ -119,9 +121,9 @@ public:
             const double error = r ? focal_ * r->error.norm() : kNotExplained;
             errors_.push_back(error < kNotExplained ? error : kNotExplained);
         }
-        // A quantile below one half gives a correct scale even if slightly more than half of the
-        // matches are outliers. kNormal is this quantile of the absolute value of a standard normal
-        // variable.
+        // The scale of the errors is computed from a quantile below one half, so it is correct even
+        // if slightly more than half of the matches are outliers. kNormal is the same quantile of
+        // the absolute value of a standard normal variable.
         constexpr double kQuantile = 0.4, kNormal = 0.5244;
         scale_ = std::clamp(quantileOf(errors_, kQuantile) / kNormal, 0.5 * kMatchError, scale_);
     }

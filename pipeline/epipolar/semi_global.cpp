@@ -6,7 +6,8 @@
 namespace mfar {
 namespace {
 
-/// Hands out pieces of temporary memory, one to each part into which Workers splits a loop.
+/// Divides memory into pieces, and hands out one piece to each part of a loop that Workers splits
+/// into parts.
 class Slots {
 public:
     Slots(std::vector<std::uint8_t>& memory, std::size_t bytes, int most)

@@ -13,8 +13,9 @@
 
 namespace mfar {
 
-/// Penalties for different labels of neighbouring pixels, in bits of the census cost: `step` for a
-/// difference of one label, `jump` (at most 60) for a larger difference in uniform areas.
+/// Penalties for different labels of neighbouring pixels. The unit is a bit of the census cost.
+/// `step` is for a difference of one label. `jump` (at most 60) is for a larger difference in
+/// uniform areas.
 struct Smoothness {
     int step = 12;
     int jump = 60;
@@ -24,29 +25,31 @@ struct Smoothness {
 
 using simd::Valley;
 
-/// Returns the position of the lowest cost between labels: the vertex of two lines with opposite
-/// slopes through the costs of the best label and of its neighbours. (With such costs, the vertex
-/// of a parabola would be too close to whole labels.)
+/// Returns the position of the lowest cost, which usually lies between two labels. It is the vertex
+/// of two lines with opposite slopes through the costs of the best label and of its neighbours.
+/// (The vertex of a parabola through these costs would be too close to whole labels.)
 float vertexOf(const Valley& valley);
 
 /// Semi-global matching with costs aggregated from left, right, top and bottom. Each pixel has its
 /// own window of labels with its own first label. Costs aggregated along one path stay below 85
-/// (kCensusBits + Smoothness::jump), so the sum over three directions fits into a byte. Source:
-/// Hirschmueller, PAMI 2008; windows per pixel: Rothermel et al., LC3D 2012 (tSGM).
+/// (kCensusBits + Smoothness::jump), so the sum over three directions fits into a byte. (The fourth
+/// is added when the best label is found.) Source: Hirschmueller, PAMI 2008; windows per pixel:
+/// Rothermel et al., LC3D 2012 (tSGM).
 class SemiGlobal {
 public:
     static constexpr int kLabels = simd::kLabels;
 
-    /// Writes the matching costs of row y: kLabels * vectors bytes per pixel, for the labels base,
-    /// base + 1, ... of the pixel. Each cost is at most kCensusBits. run() calls it from several
-    /// threads at once.
+    /// A function that writes the matching costs of row y to `costs`: for each pixel, kLabels *
+    /// vectors bytes for the labels base, base + 1, ... (its first label and the following ones).
+    /// Each cost is at most kCensusBits. run() calls the function from several threads at once.
     using CostRow = std::function<void(int y, std::uint8_t* costs)>;
 
-    /// `vectors`: largest number of SIMD vectors of kLabels labels that a picture needs in total.
+    /// `vectors`: the largest number of SIMD vectors that all pixels of one picture need together.
+    /// A vector holds the costs of kLabels labels of a pixel.
     explicit SemiGlobal(std::size_t vectors);
 
     /// Finds the best label of every pixel among kLabels * `vectors` labels. `base` is the first
-    /// label of each pixel. Smoothness::jump counts less at edges of `guide`. `base` and `out` have
+    /// label of each pixel. At edges of `guide`, Smoothness::jump is reduced. `base` and `out` have
     /// one entry per pixel of `guide`.
     void run(const LumaImage& guide, const std::vector<std::int16_t>& base, int vectors,
              const Smoothness& smoothness, const CostRow& costs, Workers& workers,

@@ -11,12 +11,13 @@ namespace {
 
 static_assert(TurnedPicture::kAlign == simd::kTurnedCell);
 
-// A ray (x, y, 1) whose z is smaller than this after the rotation is outside the camera's view.
+// A ray (x, y, 1) is outside the camera's view if its z after the rotation is smaller than this.
 constexpr double kBeside = 0.2;
 constexpr int kSidePoints = 16;
 
-// Largest radius of a valid ray, as a multiple of the radius of the picture's corners. If the lens
-// model folds rays back at a smaller radius, that radius is the limit instead.
+// Rays with a larger radius than this are invalid. It is a multiple of the radius of the picture's
+// corners. Some lens models fold rays back from a certain radius on: the distorted radius decreases
+// again. If this radius is smaller, it is the limit.
 constexpr double kFarthestRay = 4;
 
 double rimOf(const CameraModel& camera) {
@@ -58,15 +59,17 @@ void TurnedPicture::know(const CameraModel& camera, const CameraModel& source) {
     }
 }
 
-/// Returns the bounds, in pixels of the camera and within `whole`, of the part of the source's
-/// picture that the camera sees. Empty if the camera sees nothing of it.
+/// Returns the bounds of the part of the source's picture that the camera sees, in pixels of the
+/// camera. The bounds are clipped to `whole`. They are empty if the camera sees nothing of the
+/// picture.
 Eigen::AlignedBox2d TurnedPicture::boundsOf(const Eigen::Matrix3d& R_source_camera,
                                             const Eigen::AlignedBox2d& whole) const {
     Eigen::AlignedBox2d bounds;
     bool before = false;
     for (const Eigen::Vector2d& ray : known_.outline) {
         const Eigen::Vector3d turned = R_source_camera.transpose() * ray.homogeneous();
-        // If a ray points sideways or backwards, the bounds are at least `whole`.
+        // A ray that points sideways or backwards has no position in the camera's picture. The
+        // bounds then include all of `whole`.
         if (!(turned.z() > kBeside)) {
             bounds.extend(whole);
             continue;

@@ -13,29 +13,30 @@
 
 namespace mfar {
 
-/// Resamples a picture as another camera with the same optical centre would show it. The result,
-/// the canvas, can extend beyond that camera's own picture.
+/// Resamples a picture (the source) as another camera with the same optical centre would show it.
+/// The resampled picture is called the canvas. It can extend beyond the other camera's own picture.
 class TurnedPicture {
 public:
-    /// Sets size and position of the canvas: the part of the source's picture that `camera` would
-    /// see if its picture were extended on each side by `beyond` times its width. `R_source_camera`
-    /// rotates rays from `camera` to `source`. The size is 0x0 if there is no such part.
+    /// Sets the position and the size of the canvas. The picture of `camera` is extended on each
+    /// side by `beyond` times its width. The canvas is the part of this extended picture that shows
+    /// the source's picture. If there is no such part, its size is 0x0. `R_source_camera` rotates
+    /// rays from `camera` to `source`.
     void place(const CameraModel& camera, const CameraModel& source,
                const Eigen::Matrix3d& R_source_camera, double beyond);
 
     [[nodiscard]] Size size() const { return size_; }
-    /// Pixel of `camera` at canvas pixel (0, 0), a multiple of kAlign along each axis.
+    /// The pixel of `camera` at canvas pixel (0, 0). Its coordinates are multiples of kAlign.
     [[nodiscard]] PixelOffset origin() const { return origin_; }
     static constexpr int kAlign = RayLattice::kStep;
 
-    /// Resamples the source's `picture` bilinearly to the canvas `out`. `seen` is 1 for canvas
+    /// Resamples the source's `picture` bilinearly into the canvas `out`. `seen` is 1 for canvas
     /// pixels that `picture` covers, else 0.
     void draw(const LumaImage& picture, Workers& workers, LumaImage& out,
               std::vector<std::uint8_t>& seen) const;
 
 private:
-    /// A pair of cameras and values that depend only on them. They are computed again when the pair
-    /// changes.
+    /// A pair of cameras, and values that depend only on these. The values are computed again when
+    /// the pair changes.
     struct Cameras {
         CameraModel camera, source;
         double rim = 0, sourceRim = 0;
@@ -51,7 +52,7 @@ private:
     Cameras known_;
     RayLattice lattice_;
     int gridWidth_ = 0;
-    // Position in the source's picture of every kAlign-th canvas pixel [px].
+    // For every kAlign-th canvas pixel along each axis: its position in the source's picture [px].
     std::vector<float> gridX_, gridY_;
 };
 

@@ -5,9 +5,9 @@
 namespace mfar {
 namespace {
 
-// Standard deviations that are added to those of each relative pose: of the rotation [rad] and of
-// the translation [fraction of its length]. Even a pose that is reported as exact has errors from
-// the calibration, the exposure times and rounding.
+// Standard deviations that are added to every relative pose: of the rotation [rad], and of the
+// translation [fraction of its length]. Even a pose that is said to be exact has errors from the
+// calibration, the exposure times and rounding.
 constexpr double kLeastTurn = 2.6e-3;
 constexpr double kLeastShift = 0.01;
 constexpr double kRounding = 1e-12;

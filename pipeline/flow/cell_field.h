@@ -19,8 +19,8 @@ inline constexpr int kCellsPerTile = 4;
     return {divideUp(picture.width, kCell), divideUp(picture.height, kCell)};
 }
 
-/// Interpolates one channel bilinearly at pixel (x, y). `cells` has four channels per cell. Beyond
-/// the centres of the outermost cells, returns the value of the nearest cell.
+/// Interpolates one channel of `cells` bilinearly at pixel (x, y). There are four channels per
+/// cell. Beyond the centres of the outermost cells, returns the value of the nearest cell.
 [[nodiscard]] inline float sampleCells(const std::vector<float>& cells, Size count, int channel,
                                        double x, double y) {
     const double gx = std::clamp((x + 0.5) / 4 - 0.5, 0.0, count.width - 1.0);

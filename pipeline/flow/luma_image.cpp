@@ -11,7 +11,7 @@
 namespace mfar {
 namespace {
 
-// Rec. 601 weights, multiplied by 65536.
+// Weights of red, green and blue in the luma (Rec. 601), multiplied by 65536.
 constexpr int kRed = 19595, kGreen = 38470, kBlue = 7471;
 
 void lumaRow(const ImageView& picture, int y, std::uint8_t* to) {
@@ -35,8 +35,9 @@ void lumaRow(const ImageView& picture, int y, std::uint8_t* to) {
     }
 }
 
-/// The range of pixels that one pixel of a smaller picture covers along one axis. The first and the
-/// last of them may be covered only partly. All weights add up to one.
+/// The pixels that one pixel of a smaller picture covers along one axis, and their weights. The
+/// first and the last of these pixels may be covered only partly. The weights of all pixels add up
+/// to one.
 struct Span {
     int first, last;
     float firstWeight, innerWeight, lastWeight;
@@ -77,8 +78,8 @@ void lumaOf(const ImageView& picture, LumaImage& out) {
 
 namespace {
 
-/// `rowOf(y, scratch)` returns row y of the luma, which is either in the picture's memory or
-/// written to `scratch`.
+/// `rowOf(y, scratch)` returns row y of the luma. The row is either in the picture's memory, or
+/// rowOf() writes it to `scratch`.
 template <class RowOf>
 void shrinkRows(Size from, Size size, const RowOf& rowOf, Workers& workers, LumaImage& out) {
     if (!(out.size == size)) out = LumaImage(size);
@@ -178,8 +179,9 @@ double noiseOf(const Rows<const std::uint8_t>& picture) {
     if (sums.empty()) return 0;
     const auto quiet = sums.begin() + static_cast<std::ptrdiff_t>(sums.size() / 5);
     std::nth_element(sums.begin(), quiet, sums.end());
-    // The mask in noiseColumns() multiplies the standard deviation of white noise by 6. The factor
-    // sqrt(pi / 2) converts a mean absolute value to a standard deviation.
+    // For white noise, the result of the filter in noiseColumns() has 6 times the standard
+    // deviation of the noise. The factor sqrt(pi / 2) converts a mean absolute value to a standard
+    // deviation.
     return std::sqrt(1.5708) * *quiet / (6.0 * kBlock * kBlock);
 }
 

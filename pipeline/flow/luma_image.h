@@ -17,7 +17,7 @@ struct LumaImage {
 
     LumaImage() = default;
     explicit LumaImage(Size s) : size(s), pixels(static_cast<std::size_t>(s.width) * s.height) {}
-    /// Sets the size and leaves the pixel values undefined. The memory is kept if it is large
+    /// Sets the size. Pixel values are undefined afterwards. The memory is kept if it is large
     /// enough.
     void setSize(Size s) {
         size = s;
@@ -38,22 +38,23 @@ struct LumaImage {
 
 [[nodiscard]] ImageView viewOf(const LumaImage& picture);
 
-/// Converts a picture to luma and sets the size of `out`. The luma of RGBA and BGRA is computed as
-/// in luma.glsl (Rec. 601). For other formats it is the camera's Y with any matrix and range,
-/// because matching for flow and pose does not depend on gain and offset.
+/// Converts a picture to luma and sets the size of `out`. For RGBA and BGRA, luma is computed as in
+/// luma.glsl (Rec. 601). For other formats, it is the camera's Y, with any matrix and range; this
+/// is possible because matching for flow and pose does not depend on gain and offset.
 void lumaOf(const ImageView& picture, LumaImage& out);
 
-/// Computes the luma of the picture at `size`, which must not be larger than the picture. Each
-/// pixel of `out` is the mean of the area that it covers.
+/// Computes the luma of the picture at the smaller or equal size `size`. Each pixel of `out` is the
+/// mean of the area that it covers in the picture.
 void shrinkLuma(const ImageView& picture, Size size, Workers& workers, LumaImage& out);
 
 void shrinkLuma(const Rows<const std::uint8_t>& luma, Size size, Workers& workers, LumaImage& out);
 
-/// Copies the rectangle `pixels`, which must be completely inside the picture.
+/// Copies the rectangle `pixels` of `picture` to `out`. The rectangle must be completely inside the
+/// picture.
 void cut(const Rows<const std::uint8_t>& picture, const PixelRect& pixels, LumaImage& out);
 
-/// Halves the size, rounded up: each pixel is the mean of 2x2 pixels. An odd last column or row is
-/// repeated.
+/// Halves the size of a picture: each pixel of `coarse` is the mean of 2x2 pixels. An odd width or
+/// height is rounded up, and its last column or row is repeated.
 void halve(const LumaImage& fine, LumaImage& coarse);
 
 /// Smooths a picture with a three-tap filter along both axes. `side` is the weight of each of the
@@ -62,7 +63,8 @@ void smooth(const LumaImage& in, float side, LumaImage& out);
 
 /// Returns the standard deviation of the picture's noise [grey levels]. A filter (Immerkaer, Fast
 /// noise variance estimation, 1996) first removes smooth slopes, and steps and lines along the
-/// axes. The result is the 20 % quantile of the noise of all blocks of 8x8 pixels.
+/// axes. Then the noise of each block of 8x8 pixels is measured. The result is the 20 % quantile
+/// over all blocks.
 [[nodiscard]] double noiseOf(const Rows<const std::uint8_t>& picture);
 
 }  // namespace mfar

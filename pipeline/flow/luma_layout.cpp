@@ -6,7 +6,7 @@
 namespace mfar {
 namespace {
 
-// Smallest height and width of a pyramid level [px], because patches must fit.
+// Smallest height and width of a pyramid level [px]. Patches must fit into each level.
 constexpr int kShortestSide = 26;
 constexpr std::size_t kMaxLevels = 6;
 // The second level always exists, because the gain between the sensors is measured there.
@@ -14,8 +14,8 @@ constexpr std::size_t kMinLevels = 2;
 
 }  // namespace
 
-// A box filter of one pixel has a variance of 1/12 px^2. The three-tap smoothing increases it by
-// 2 * kLumaSmoothing px^2.
+// The area of a pixel is a box filter with a variance of 1/12 px^2. The smoothing with three taps
+// adds 2 * kLumaSmoothing px^2 to this variance.
 double lumaBoxWidening() {
     return std::sqrt(1 + 12 * 2 * kLumaSmoothing);
 }

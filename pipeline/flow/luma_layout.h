@@ -12,17 +12,17 @@ using params::kLumaMarginWords;
 using params::kLumaSmoothing;
 using params::LumaLevel;
 
-/// Number of unused words after the last pyramid level. The shaders always read three words for a
-/// row of a patch, so they can read beyond the end of the last level.
+/// Number of unused words after the last pyramid level. They are necessary because the shaders
+/// always read three words for a row of a patch, which can be beyond the end of the last level.
 inline constexpr int kLumaSpareWords = 2;
 
-/// Width of a box filter [video px] that blurs as much (has the same variance) as the area of a
-/// pixel and the smoothing by kLumaSmoothing together.
+/// Returns the width of a box filter [video px] that blurs as much as the area of a pixel and the
+/// smoothing by kLumaSmoothing together. (Both blurs have the same variance.)
 [[nodiscard]] double lumaBoxWidening();
 
-/// Layout of the pyramid levels for a picture of `size`, finest first. Each level has half the size
-/// of the level before, rounded up. `words` is the offset of the first level and becomes the offset
-/// after the last level.
+/// Returns the layout of the pyramid levels for a picture of `size`, finest first. Each level has
+/// half the size of the level before, rounded up. On entry, `words` is the offset of the first
+/// level. On return, it is the offset after the last level.
 [[nodiscard]] std::vector<LumaLevel> lumaLayout(Size size, std::int32_t& words);
 
 }  // namespace mfar

@@ -6,12 +6,12 @@
 namespace mfar {
 namespace {
 
-// Number of pixels of a reduced still per output pixel along each axis. Detail is interpolated
-// between the still's pixels, so a value of 1 would lose the finest detail. (Measured on
-// photographs: 1.4 gains 0.2 to 0.9 dB over 1, and 1.8 is no better.)
+// A reduced still has this number of pixels per output pixel along each axis. With a value of 1,
+// the finest detail would be lost, because detail is interpolated between the still's pixels.
+// (Measured on photographs: 1.4 gains 0.2 to 0.9 dB over 1, and 1.8 is no better.)
 constexpr double kFiner = 1.4;
-// A still is reduced only if its width and its height both shrink to less than this fraction.
-// Otherwise, the blur by resampling would be worse than the aliasing that it prevents.
+// A still is reduced only if both its width and its height shrink to less than this fraction. With
+// a smaller reduction, the blur by resampling would be worse than the aliasing that it prevents.
 constexpr double kWorthReducing = 0.9;
 
 }  // namespace

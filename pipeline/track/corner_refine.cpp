@@ -15,13 +15,10 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kStep = 0.25;       // distance between samples along the edge's normal [px]
-constexpr double kMostReach = 2.5;   // largest distance of a sample from the edge [px]; suffices
-                                     // for a blur of 1 px
-constexpr double kEnds = 0.08;       // ignored fraction at each end of an edge, because corners
-                                     // look round
+constexpr double kMostReach = 2.5;   // largest distance of a sample from the edge [px]
+constexpr double kEnds = 0.08;       // ignored fraction at each end of an edge: corners look round
 constexpr double kFarthestMove = 2;  // largest shift of a corner or an edge point [px]
-constexpr double kLeastContrast = 0.006;  // smallest contrast of an edge [linear light; grey level
-                                          // 255 is 1]
+constexpr double kLeastContrast = 0.006;  // smallest contrast of an edge [linear light, 1 is white]
 
 class Light {
 public:
@@ -49,9 +46,10 @@ struct EdgePoint {
     double weight;
 };
 
-/// Finds the position near `middle` where the light increases along `normal` (from dark to bright).
-/// The result is the mean of all positions, weighted with the increase of the light at each
-/// position. A second pass centres the search window on the result of the first pass.
+/// Finds the brightness step of an edge near `middle`. `normal` is perpendicular to the edge and
+/// points from dark to bright. The step is at the mean position along `normal`, weighted with the
+/// increase of light at each position. This is done twice; the second time, the search window is
+/// centred on the first result.
 std::optional<EdgePoint> findStep(const Light& light, const Vector2d& middle,
                                   const Vector2d& normal, double reach) {
     double centre = 0, contrast = 0;
@@ -111,8 +109,8 @@ std::optional<Vector2d> intersect(const Line& a, const Line& b) {
     return Vector2d{(a.d * b.n.y() - b.d * a.n.y()) / det, (b.d * a.n.x() - a.d * b.n.x()) / det};
 }
 
-/// Measures the edge from corner a to corner b of a tag. Seen in the picture from a towards b, the
-/// tag's inside is to the left. Returns a line in normalised rays.
+/// Measures the edge of a tag from its corner a to its corner b. On the way from a to b, the inside
+/// of the tag is on the left in the picture. Returns a line in rays (x/z, y/z).
 std::optional<Line> measureEdge(const Light& light, const CameraModel& camera, const Vector2d& a,
                                 const Vector2d& b, const TagFamilyInfo& family) {
     const double length = (b - a).norm();

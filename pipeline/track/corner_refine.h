@@ -10,23 +10,23 @@ namespace mfar {
 
 /// Refines the corners of tag detections to fractions of a pixel.
 ///
-/// The steepest brightness step is measured along each edge of the quad. Straight lines are fitted
-/// to these positions in undistorted coordinates, where a tag's edges are straight for any lens.
-/// The corners are the intersections of the lines.
+/// Along each edge of the quad, the positions of the brightness step are measured. They are
+/// undistorted, because only then the edges of a tag are straight for any lens. A straight line is
+/// fitted to the positions of each edge. The corners are the intersections of these lines.
 ///
-/// The blur of a lens is symmetric in light but not in grey levels. Edges measured in grey levels
-/// would be up to 0.25 px too far out or in, and all distances from tags would be wrong
-/// accordingly.
+/// Brightness is measured in linear light, because the blur of a lens is symmetric in light but not
+/// in grey levels. Edges measured in grey levels would be up to 0.25 px too far out or in, and all
+/// distances from tags would be wrong accordingly.
 class CornerRefiner {
 public:
-    /// `gamma` is the exponent of the picture's encoding: grey level ~ light^(1 / gamma). It is
-    /// about 2 for pictures made for viewing (nominally 2.2, but smoothing after the encoding
-    /// lowers it), and 1 for raw values. Throws std::invalid_argument unless 0.2 <= gamma <= 5.
+    /// `gamma` describes the picture's encoding: grey level ~ light^(1 / gamma). For raw values, it
+    /// is 1. For pictures made for viewing, it is about 2. (The nominal value is 2.2, but smoothing
+    /// after the encoding lowers it.) Throws std::invalid_argument unless 0.2 <= gamma <= 5.
     explicit CornerRefiner(double gamma = 2);
 
-    /// `luma` is the Gray8 picture of `camera`'s size in which the tag was found. The corners stay
-    /// unchanged if too little of an edge is visible, or if a corner would move by more than two
-    /// pixels.
+    /// Refines the corners of `detection`. `luma` is the Gray8 picture in which the tag was found,
+    /// with the size of `camera`. The corners stay unchanged if too little of an edge is visible,
+    /// or if a corner would move by more than two pixels.
     void refine(const ImageView& luma, const CameraModel& camera, TagDetection& detection) const;
 
 private:

@@ -14,8 +14,8 @@ using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// Returns the homography from the square's corners to their rays, scaled so that its last entry is
-/// 1. Empty if the corners do not determine it.
+/// Returns the homography from the square's corners to their rays. It is scaled so that its last
+/// entry is 1. Empty if the corners do not determine it.
 std::optional<Matrix3d> homography(const std::array<Vector2d, 4>& rays) {
     Eigen::Matrix<double, 8, 8> A = Eigen::Matrix<double, 8, 8>::Zero();
     Eigen::Matrix<double, 8, 1> b;
@@ -36,7 +36,8 @@ std::optional<Matrix3d> homography(const std::array<Vector2d, 4>& rays) {
 }
 
 Matrix3d towards(const Vector2d& p) {
-    // The angle between `direction` and the z axis is below 90 degrees, so w is above sqrt(0.5).
+    // w is the cosine of half the angle between `direction` and the z axis. This angle is below 90
+    // degrees, so w is above sqrt(0.5), and dividing by it is safe.
     const Vector3d direction = p.homogeneous().normalized();
     const double w = std::sqrt((1 + direction.z()) / 2);
     return Eigen::Quaterniond(w, -direction.y() / (2 * w), direction.x() / (2 * w), 0)
@@ -49,8 +50,8 @@ double largestSingularValue(const Matrix2d& A) {
            2;
 }
 
-/// Returns the least-squares translation t for u (r3 . X + tz) = r1 . X + tx and v (r3 . X + tz) =
-/// r2 . X + ty, with the four corners X and their rays (u, v).
+/// Returns the translation t that fits the four corners X and their rays (u, v) best. The equations
+/// u (r3 . X + tz) = r1 . X + tx and v (r3 . X + tz) = r2 . X + ty are solved by least squares.
 Vector3d translationOf(const Matrix3d& R, const std::array<Vector2d, 4>& rays) {
     Eigen::Matrix<double, 8, 3> A;
     Eigen::Matrix<double, 8, 1> b;
@@ -77,8 +78,8 @@ double errorOf(const RigidTransform& T, const std::array<Vector2d, 4>& rays) {
 std::optional<std::array<RigidTransform, 2>> planarPoses(const std::array<Vector2d, 4>& rays) {
     const auto H = homography(rays);
     if (!H) return std::nullopt;
-    // Both poses follow from the image p of the square's centre and from the homography's Jacobian
-    // J at the centre.
+    // Both poses follow from two things: the image p of the square's centre, and the homography's
+    // Jacobian J at the centre.
     const Vector2d p = H->topRightCorner<2, 1>();
     const Matrix2d J = H->topLeftCorner<2, 2>() - p * H->bottomLeftCorner<1, 2>();
     const Matrix3d V = towards(p);

@@ -18,9 +18,9 @@ Pose poseOf(const CameraPose& solved, const Matrix6& ambiguous,
     return out;
 }
 
-/// Returns the covariance that the choice between the two solutions of the pose adds. Each solution
-/// is the true one with a probability that follows from its error. So the chosen pose may be wrong
-/// by the difference between both solutions.
+/// Returns the covariance that the pose has because the other solution may be the true one. The
+/// error of each solution determines the probability that it is the true one. If the choice is
+/// wrong, the pose is wrong by the difference between the two solutions.
 Matrix6 ambiguity(const CameraPoses& poses, const CameraPose& chosen, double sigma) {
     if (!poses.other) return Matrix6::Zero();
     const bool isBest = &chosen == &poses.best;

@@ -8,9 +8,9 @@
 namespace mfar {
 namespace {
 
-// Standard deviation of the initial rates of rotation [rad/s] and translation [distances/s]. In a
-// second, a tracked camera mostly turns by less than one radian, and moves by less than its
-// distance from the tags.
+// When the filter starts, the rates of rotation [rad/s] and translation [distances/s] are unknown
+// and have this standard deviation. (In a second, a tracked camera usually turns by less than one
+// radian, and moves by less than its distance from the tags.)
 constexpr double kStartRate = 1;
 
 double secondsBetween(Timestamp a, Timestamp b) {
@@ -136,7 +136,8 @@ void PoseFilter::reset() {
 std::optional<Pose> PoseFilter::predict(Timestamp t) const {
     if (!state_ || missed_ > options_.bridgeFrames || !reaches(*state_, t)) return std::nullopt;
     const State at = propagated(*state_, t);
-    // Double precision was not enough for the covariance, so the prediction has failed.
+    // A covariance that is not finite, or has a negative variance, shows that double precision was
+    // not enough. There is then no valid prediction.
     if (!isFinite(at.T_world_video) || !at.P.allFinite() || !(at.P.diagonal().minCoeff() >= 0))
         return std::nullopt;
     Pose out;

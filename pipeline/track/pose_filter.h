@@ -11,34 +11,35 @@
 namespace mfar {
 
 struct PoseFilterOptions {
-    /// In the constant-velocity model, accelerations are white noise. Lengths are relative to the
-    /// distance from the tags, because the errors of a pose are proportional to it.
+    /// Strength of the accelerations, which are white noise in the constant-velocity model. Lengths
+    /// are relative to the camera's distance from the tags, because the errors of a pose are
+    /// proportional to this distance.
     double angularAcceleration = 0.4;  ///< [rad/s^2 per root Hz]
     double linearAcceleration = 0.4;   ///< [distances/s^2 per root Hz]
-    /// Largest squared Mahalanobis distance (6 degrees of freedom) of a pose from the prediction.
-    /// Above it, the pose is an outlier.
+    /// A pose is an outlier if its squared Mahalanobis distance from the prediction (6 degrees of
+    /// freedom) is larger than this.
     double gate = 50;
-    /// Number of consecutive outliers that restart the filter if they agree with each other.
+    /// The filter restarts after this number of consecutive outliers that agree with each other.
     int jumpFrames = 3;
-    /// Predictions end after this time or after bridgeFrames frames without an accepted pose.
+    /// Limits of predictions without an accepted pose: this time and bridgeFrames frames. Beyond
+    /// one of them, there is no prediction.
     std::chrono::nanoseconds bridge = std::chrono::milliseconds(400);
     int bridgeFrames = 12;
 };
 
 /// Constant-velocity Kalman filter on SE(3). The camera is assumed to keep its rates of rotation
-/// and translation in its own coordinates. The error state has 12 dimensions in the camera's
-/// coordinates: errors of the pose (rotation, translation) and of the twist (the rates). Only one
-/// thread at a time may use it.
+/// and translation, in its own coordinates. The state's error has 12 dimensions in the camera's
+/// coordinates: 6 for the pose (rotation, translation), and 6 for the rates of both (the twist).
+/// Only one thread at a time may use the filter.
 class PoseFilter {
 public:
     explicit PoseFilter(const PoseFilterOptions& options = {});
 
     enum class Outcome {
-        Started,  ///< the filter starts: first pose, or first after too long a gap or a step back
-                  ///< in time
+        Started,  ///< the filter (re)started: no earlier pose, a long gap, or a step back in time
         Accepted,
         Rejected,
-        Jumped  ///< several outliers agreed with each other, and the filter restarted from them
+        Jumped  ///< the filter restarted, because several outliers agreed with each other
     };
     /// Adds a measured pose. `distance` is the distance of the camera from the measured tags, in
     /// the pose's unit of length.
@@ -46,9 +47,9 @@ public:
     void missed();
     void reset();
 
-    /// Returns the pose at time t, with tags = 0. Returns nothing before the first pose, more than
-    /// `bridge` before or after the last accepted pose, or after bridgeFrames frames without an
-    /// accepted pose.
+    /// Returns the predicted pose at time t, with tags = 0. Returns nothing in three cases: there
+    /// was no pose yet; t is more than `bridge` before or after the last accepted pose; or more
+    /// than bridgeFrames frames had no accepted pose.
     [[nodiscard]] std::optional<Pose> predict(Timestamp t) const;
 
 private:
@@ -70,7 +71,7 @@ private:
 
     PoseFilterOptions options_;
     std::optional<State> state_;
-    std::optional<State> rival_;  ///< a second state, which is updated with the outliers
+    std::optional<State> rival_;  ///< a second filter state, which is updated with the outliers
     int missed_ = 0;
 };
 

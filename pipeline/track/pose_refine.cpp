@@ -25,7 +25,7 @@ struct Estimate {
     double edgeShift = 0;
 };
 
-// Points almost in the image plane are excluded, because no lens sees them.
+// True unless the point is behind the camera or almost in its image plane, where no lens sees it.
 bool inFront(const Eigen::Vector3d& p) {
     return p.z() > 1e-3 * p.norm();
 }
@@ -40,9 +40,9 @@ double totalError(std::span<const CornerSet> sets, const Estimate& at, const Cam
     return sum;
 }
 
-/// Linearises the reprojection errors at the pose `at`, with respect to the small motion x in
-/// T_world_camera * exp(x). The motion x moves a point p in camera coordinates by
-/// cross(p, rotation) - translation.
+/// Linearises the reprojection errors at the pose `at`. The variable is the small motion x in
+/// T_world_camera * exp(x). It moves a point p in camera coordinates by cross(p, rotation) -
+/// translation.
 NormalEquations linearise(std::span<const CornerSet> sets, const Estimate& at,
                           const CameraModel& camera, double shiftWeight) {
     const RigidTransform T_camera_world = at.T_world_camera.inverse();
@@ -83,8 +83,9 @@ std::array<Eigen::Vector2d, 4> outwardsOf(const std::array<Eigen::Vector2d, 4>& 
     for (int k = 0; k < 4; ++k) {
         const Eigen::Vector2d a = outwardNormal(corners[k] - corners[(k + 3) % 4]);
         const Eigen::Vector2d b = outwardNormal(corners[(k + 1) % 4] - corners[k]);
-        // If both edges at a corner move outwards by 1 px, the corner moves to their new
-        // intersection. A corner that is too flat for a stable intersection does not move.
+        // If the two edges at a corner move outwards by 1 px, the corner moves to their new
+        // intersection. At a very flat corner, the intersection is unstable, and the corner does
+        // not move.
         const double flat = 1 + a.dot(b);
         out[k] = flat > 0.1 ? Eigen::Vector2d((a + b) / flat) : Eigen::Vector2d::Zero();
     }

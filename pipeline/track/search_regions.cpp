@@ -8,8 +8,7 @@ namespace mfar {
 namespace {
 
 constexpr double kRoom = 10;         // margin for errors that the prediction does not model [px]
-constexpr double kQuietZone = 0.3;   // margin for the tag's white border, relative to the tag's
-                                     // size; the border is 1/8 to 1/5 of it
+constexpr double kQuietZone = 0.3;   // margin for the tag's white border [tag sizes]
 constexpr double kMostRoom = 80;     // upper limit of a usable prediction's uncertainty [px]
 constexpr double kSmallestTag = 10;  // smallest extent of a searched tag [px]
 
@@ -17,8 +16,8 @@ bool overlap(const PixelRect& a, const PixelRect& b) {
     return a.x0 < b.x1 && b.x0 < a.x1 && a.y0 < b.y1 && b.y0 < a.y1;
 }
 
-/// Returns three standard deviations [px] of a point's position in the picture. `distance` is the
-/// point's distance from the camera.
+/// Returns how uncertain the position of a point in the picture is: three standard deviations [px].
+/// `distance` is the point's distance from the camera.
 double uncertainty(const Matrix6& covariance, double distance, const CameraModel& camera) {
     const double turn = covariance.diagonal().head<3>().maxCoeff();
     const double move = covariance.diagonal().tail<3>().maxCoeff() / (distance * distance);
@@ -67,8 +66,8 @@ std::vector<PixelRect> searchRegions(const TagMap& map, const CameraModel& camer
     for (const auto& [key, tag] : map.tags()) {
         std::optional<PixelRect> region = regionOf(tag, camera, T_camera_world, covariance);
         if (!region) continue;
-        // Merges the region with all regions that overlap it. The search starts again after each
-        // merge, because the merged region may overlap others.
+        // Merges the region with all regions that overlap it. After each merge, the loop begins
+        // again, because the merged region may overlap regions that the original did not.
         for (auto it = out.begin(); it != out.end();) {
             if (!overlap(*it, *region)) {
                 ++it;

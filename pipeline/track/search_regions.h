@@ -9,10 +9,12 @@
 
 namespace mfar {
 
-/// Returns a rectangle around every tag of the map that faces the camera, whose centre is in the
-/// picture, and that appears large enough to be found. The margin suffices for the tag's white
-/// border, the tag's motion, and three standard deviations of the predicted pose. Overlapping
-/// rectangles are merged. `covariance` is the covariance of T_world_camera in camera coordinates.
+/// Returns the rectangles in which the tags of the map must be searched. There is one for each tag
+/// that faces the camera, whose centre is in the picture, and that appears large enough to be
+/// found. It includes a margin for the tag's white border, the tag's motion, and three standard
+/// deviations of the predicted pose. If the prediction is too uncertain, it is the whole picture.
+/// Overlapping rectangles are merged. `covariance` is the covariance of T_world_camera in camera
+/// coordinates.
 [[nodiscard]] std::vector<PixelRect> searchRegions(const TagMap& map, const CameraModel& camera,
                                                    const RigidTransform& T_world_camera,
                                                    const Matrix6& covariance);

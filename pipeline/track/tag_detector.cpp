@@ -43,7 +43,7 @@ FamilyHandle makeFamily(TagFamily family) {
     return {maker.create(), maker.destroy};
 }
 
-/// Widens the black border by one cell. The codes of the tags stay the same.
+/// Makes the black border of the tags one cell wider. The codes stay the same.
 void widenBorder(apriltag_family_t& family) {
     family.width_at_border += 2;
     family.total_width += 2;
@@ -60,7 +60,8 @@ struct DetectionsDeleter {
     void operator()(zarray_t* d) const { apriltag_detections_destroy(d); }
 };
 
-// Does the same as image_u8_destroy(), which is in another library on Debian.
+// Does the same as image_u8_destroy(). That function cannot be used here, because on Debian it is
+// in another library.
 struct ImageDeleter {
     void operator()(image_u8_t* image) const {
         std::free(image->buf);
@@ -84,8 +85,8 @@ void check(const DetectorOptions& o) {
     require(o.minMargin >= 0 && o.minMargin <= 255, "minMargin must be from 0 to 255");
 }
 
-/// Returns the part of the picture that is searched for `region`, aligned to the threshold tiles of
-/// the whole picture.
+/// Returns the rectangle in which tags in `region` are searched. It is enlarged to whole threshold
+/// tiles of the picture.
 PixelRect searched(Size size, const std::optional<PixelRect>& region, double decimation) {
     if (!region) return {0, 0, size.width, size.height};
     const int grid = static_cast<int>(kTile * decimation);
@@ -113,7 +114,7 @@ struct TagDetector::Library {
         out.tag = {tagFamilyNamed(found.family->name).value(), found.id};
         out.hamming = found.hamming;
         out.margin = found.decision_margin;
-        // In libapriltag, the centre of the first pixel is at (0.5, 0.5).
+        // libapriltag places the centre of the first pixel at (0.5, 0.5), mfar at (0, 0).
         for (int k = 0; k < 4; ++k)
             out.corners[k] = {found.p[k][0] - 0.5 + from.x0, found.p[k][1] - 0.5 + from.y0};
         return out;
@@ -136,8 +137,8 @@ TagDetector::TagDetector(const DetectorOptions& options)
     for (const TagFamily family : families) {
         library_->families.push_back(makeFamily(family));
         if (options.borderCells == 2) widenBorder(*library_->families.back());
-        // Up to one wrong bit is corrected. Tables for two bits would take 90 MB for
-        // tagStandard41h12, and would double the number of false detections.
+        // One wrong bit is corrected. To correct two bits, libapriltag would need tables of 90 MB
+        // for tagStandard41h12, and would find twice as many false tags.
         apriltag_detector_add_family_bits(&detector, library_->families.back().get(), 1);
     }
 }
@@ -156,7 +157,7 @@ std::vector<TagDetection> TagDetector::detect(const ImageView& luma,
     const double least = kSmallestSide * options_.decimation;
     if (!(width >= least && height >= least)) return {};
     const std::uint8_t* first = luma.data + part.y0 * luma.stride + part.x0;
-    // If libapriltag blurs without decimation, it writes to its input. In this case, it gets a
+    // If libapriltag blurs a picture that is not decimated, it writes to its input. It then gets a
     // copy.
     auto* pixels = const_cast<std::uint8_t*>(first);
     auto stride = static_cast<int>(luma.stride);
@@ -178,7 +179,8 @@ std::vector<TagDetection> TagDetector::detect(const ImageView& luma,
         const TagDetection detection = library_->translate(*one, part);
         if (trusted(detection, options_)) out.push_back(detection);
     }
-    // libapriltag's order depends on the number of threads.
+    // The order in which libapriltag returns tags depends on the number of threads, so they are
+    // sorted.
     std::sort(out.begin(), out.end(), [](const TagDetection& a, const TagDetection& b) {
         return std::tuple(a.tag, a.corners[0].x(), a.corners[0].y()) <
                std::tuple(b.tag, b.corners[0].x(), b.corners[0].y());

@@ -16,26 +16,26 @@ struct TagDetection {
     TagKey tag;
     int hamming = 0;    ///< number of corrected bits
     double margin = 0;  ///< mean difference between the data bits and their threshold [grey levels]
-    /// Positions in the whole picture [px], with pixel centres at integers, in the order of
-    /// kTagCorners: bottom left, bottom right, top right, top left of an upright tag seen from its
-    /// front.
+    /// Positions of the corners in the whole picture [px]; pixel centres are at integers. The order
+    /// is that of kTagCorners: bottom left, bottom right, top right, top left, as seen from the
+    /// front of an upright tag.
     std::array<Eigen::Vector2d, 4> corners;
 };
 
-/// Corners of a tag in its coordinates (origin in the centre, x right, y down, z into the surface),
-/// in units of half the tag's size.
+/// Corners of a tag in tag coordinates. The unit is half the tag's size. The origin is in the
+/// centre; x points right, y down, and z into the surface.
 inline const std::array<Eigen::Vector2d, 4> kTagCorners{{{-1, 1}, {1, 1}, {1, -1}, {-1, -1}}};
 
 struct DetectorOptions {
     std::vector<TagFamily> families{TagFamily::Tag36h11};
-    /// Factor by which the picture is reduced for the search for quads: 1.5 or a whole number from
+    /// For the search for quads, the picture is reduced by this factor: 1.5 or a whole number from
     /// 1 to 8. Bits and edges are read in the full picture.
     double decimation = 2;
     int threads = 1;
     double blur = 0;     ///< sigma of the blur before the search for quads [decimated px], 0 to 5
     bool refine = true;  ///< true: libapriltag moves the quad's edges to the strongest gradient
-    /// Largest number of corrected bits of a detection, 0 or 1. tag16h5 is often found in noise, so
-    /// its tags must have no corrected bit and at least twice minMargin.
+    /// Largest number of corrected bits of a detection, 0 or 1. Tags of tag16h5 are often found in
+    /// noise. They must therefore have no corrected bit, and a margin of at least twice minMargin.
     int maxHamming = 1;
     /// Width of the tags' black border [cells]: 2 for tags printed by Kalibr, otherwise 1.
     int borderCells = 1;
@@ -54,8 +54,9 @@ public:
     /// tag, then from left to right. Throws std::invalid_argument if the format or the size is not
     /// supported.
     ///
-    /// With `region`, only tags completely inside the region are found, exactly as in the whole
-    /// picture: the region is clipped to the picture and enlarged to libapriltag's grid of tiles.
+    /// With `region`, only tags completely inside the region are found. They are found exactly as
+    /// in the whole picture, because the region is enlarged to whole tiles of libapriltag. It is
+    /// also clipped to the picture.
     [[nodiscard]] std::vector<TagDetection> detect(const ImageView& luma,
                                                    std::optional<PixelRect> region = {});
 
@@ -66,9 +67,9 @@ private:
     std::vector<unsigned char> copy_;
 };
 
-/// The black-and-white picture of a tag, with one pixel (0 or 255) per cell, including the white
-/// border. Row 0 is at the top. `corner` is the number of cells from the picture's edge to the
-/// tag's corners. drawTag() throws std::invalid_argument if the family does not have the id.
+/// The black-and-white picture of a tag, including the white border. There is one pixel (0 or 255)
+/// per cell, and row 0 is at the top. `corner` is the number of cells from the picture's edge to
+/// the tag's corners. drawTag() throws std::invalid_argument if the family does not contain the id.
 struct TagPicture {
     int size = 0;
     int corner = 0;

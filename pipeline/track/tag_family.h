@@ -15,8 +15,7 @@ struct TagFamilyInfo {
     std::string_view name;
     int count;  ///< ids are 0 to count - 1
     int cells;
-    bool brightInside;  ///< true: the cells just inside the corners are white, those just
-                        ///< outside are black
+    bool brightInside;  ///< true: at the corners, cells inside are white, outside black
 };
 
 inline constexpr std::array<TagFamilyInfo, 4> kTagFamilies{{

@@ -10,8 +10,7 @@
 namespace mfar {
 namespace {
 
-constexpr std::size_t kLargestFile = 4U << 20U;  // [bytes]; a map with all 2115 tags of a family
-                                                 // has 0.4 MB
+constexpr std::size_t kLargestFile = 4U << 20U;  // [bytes]; the largest useful map has 0.4 MB
 
 std::string readAll(const std::filesystem::path& file) {
     try {

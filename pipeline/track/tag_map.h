@@ -12,8 +12,8 @@
 
 namespace mfar {
 
-/// Thrown if a tag map is invalid. The message is one line. It begins with "file:line: ", or with
-/// "file: " if the fault is not in a single line.
+/// Thrown if a tag map is invalid. The message is one line. It begins with "file:line: ". If no
+/// single line is to blame, it begins with "file: ".
 class TagMapError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
@@ -24,8 +24,8 @@ struct MappedTag {
     RigidTransform T_world_tag;  ///< tag coordinates: x right, y down, z into the surface
 };
 
-/// Transforms coordinates of objects on a tag (x right and y up in the tag's print, z out of the
-/// print) to tag coordinates.
+/// Returns the transformation from coordinates of objects that stand on a tag to tag coordinates.
+/// Object coordinates: x right and y up in the tag's print, z out of the print.
 [[nodiscard]] inline RigidTransform standOnTag() {
     return {Eigen::Quaterniond(0, 1, 0, 0), Eigen::Vector3d::Zero()};
 }
@@ -35,7 +35,7 @@ public:
     TagMap() = default;
     explicit TagMap(const std::vector<MappedTag>& tags);
 
-    /// Returns null if the tag is not in the map. The result is valid as long as the map exists.
+    /// Returns null if the tag is not in the map. The result is valid as long as the map.
     [[nodiscard]] const MappedTag* find(TagKey tag) const;
     [[nodiscard]] bool empty() const { return tags_.empty(); }
     [[nodiscard]] const std::map<TagKey, MappedTag>& tags() const { return tags_; }
@@ -45,24 +45,26 @@ private:
     std::map<TagKey, MappedTag> tags_;
 };
 
-/// Reads tags.toml. The file has `family` for all tags, and a list `[[tags]]` with `id`, `size`
-/// [m], `position` [x, y, z] [m], `orientation` [w, x, y, z] and, for a tag of another family,
-/// `family`. Files with the ending .yaml or .yml are read by tagMapFromRosYaml(). Throws
-/// TagMapError.
+/// Reads a tag map from a file. A .yaml or .yml file is read by tagMapFromRosYaml(). Any other file
+/// is TOML like tags.toml: `family` for all tags, and a list `[[tags]]` with `id`, `size` [m],
+/// `position` [x, y, z] [m] and `orientation` [w, x, y, z]. A tag of another family has its own
+/// `family`. Throws TagMapError.
 [[nodiscard]] TagMap loadTagMap(const std::filesystem::path& file);
 
-/// `file` is the file name for error messages. Throws TagMapError.
+/// Reads a tag map from TOML text. `file` is the file name for error messages. Throws TagMapError.
 [[nodiscard]] TagMap tagMapFromToml(std::string_view text, const std::string& file);
 
 [[nodiscard]] std::string tomlOf(const TagMap& map);
 
 /// Reads the tags.yaml of apriltag_ros (ROS 1). `tag_bundles` may have one entry, whose coordinates
-/// become the world. Each tag in the entry's `layout` has `id`, `size` and a pose x, y, z, qw, qx,
-/// qy, qz (default: identity). Tags in `standalone_tags` have no pose in this world, so they are
-/// only checked. Without a bundle, there must be a single standalone tag, which is the world.
+/// become the world. Each tag in the `layout` of this entry has `id`, `size` and a pose x, y, z,
+/// qw, qx, qy, qz (default: identity). Tags in `standalone_tags` have no pose in this world, so
+/// they are only checked. If there is no bundle, there must be a single standalone tag. Its
+/// coordinates become the world.
 ///
-/// In the file's tag coordinates, y points up and z out of the surface; poses are converted to the
-/// tag coordinates of MappedTag. The file does not name the tag family. Throws TagMapError.
+/// In the file's tag coordinates, y points up and z out of the surface. Poses are converted to the
+/// tag coordinates of MappedTag. The file does not name the tag family, so `family` does. Throws
+/// TagMapError.
 [[nodiscard]] TagMap tagMapFromRosYaml(std::string_view text, const std::string& file,
                                        TagFamily family = TagFamily::Tag36h11);
 

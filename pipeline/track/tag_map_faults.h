@@ -12,7 +12,7 @@
 
 namespace mfar {
 
-/// The values of a tag as read from a file of any format. wrongWith() checks them.
+/// The values of a tag as they are in a file of any format, before wrongWith() has checked them.
 struct RawTag {
     TagFamily family = TagFamily::Tag36h11;
     std::int64_t id = -1;
@@ -26,8 +26,8 @@ struct RawTag {
                                : fmt::format("{}: {}", file, what));
 }
 
-/// Returns a description of the fault in the tag's values. If the tag is valid, adds it to `seen`
-/// and returns nothing.
+/// Checks the values of a tag. If one is wrong, returns a description of the fault. If all are
+/// right, adds the tag to `seen` and returns nothing.
 inline std::optional<std::string> wrongWith(const RawTag& raw, std::set<TagKey>& seen) {
     const TagFamilyInfo& family = info(raw.family);
     if (raw.id < 0 || raw.id >= family.count)
@@ -43,7 +43,7 @@ inline std::optional<std::string> wrongWith(const RawTag& raw, std::set<TagKey>&
             return fmt::format("the position must be from {} to {} m, not {}",
                                plausible::kTagPosition.least, plausible::kTagPosition.most,
                                coordinate);
-    // Numbers in the files have nine digits, so rounding cannot change the length by 1e-3.
+    // The numbers in files have nine digits. Rounding them cannot change the length by 1e-3.
     if (!(std::abs(raw.wxyz.norm() - 1) < 1e-3))
         return fmt::format("the quaternion must have length 1, not {}", raw.wxyz.norm());
     if (!seen.insert({raw.family, static_cast<int>(raw.id)}).second)

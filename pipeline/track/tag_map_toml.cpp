@@ -85,7 +85,7 @@ private:
     [[nodiscard]] TagFamily family(const toml::table& tag) const {
         const toml::node* node = tag.get("family");
         if (node == nullptr) node = root_.get("family");
-        if (node == nullptr) fail(tag, "neither this tag nor the file has the key family");
+        if (node == nullptr) fail(tag, "neither this tag nor the file has the key \"family\"");
         const auto name = node->value<std::string>();
         const auto out = name ? tagFamilyNamed(*name) : std::nullopt;
         if (!out)

@@ -10,8 +10,8 @@
 namespace mfar {
 namespace {
 
-/// Rotates tag coordinates to the tag coordinates of apriltag_ros, where x points right, y up and z
-/// out of the surface. It is half a turn about x.
+/// Rotates tag coordinates to the tag coordinates of apriltag_ros (x right, y up, z out of the
+/// surface). The rotation is half a turn about x.
 const Eigen::Quaterniond kRosTagOfTag(0, 1, 0, 0);
 
 class BundleReader {

@@ -16,8 +16,9 @@ using Eigen::Vector3d;
 
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr std::size_t kStarts = 8;  // number of largest tags whose solutions bestStart() compares
-// Scale of a tag's rms error in the robust weights at the start [px]. It is large, because a pose
-// from a single tag is inaccurate for distant tags.
+// Robust weights of tags depend on each tag's rms error, relative to a scale that decreases. This
+// is the scale at the start [px]. It is large, because the first pose comes from a single tag and
+// is inaccurate for distant tags.
 constexpr double kStartCutoff = 10;
 constexpr double kSameMinimum = 0.1 * kDegree;
 
@@ -32,8 +33,8 @@ double cross(const Vector2d& a, const Vector2d& b) {
     return a.x() * b.y() - a.y() * b.x();
 }
 
-/// Returns the area of a tag's quad [px^2], or 0 if the quad is too small or is not a tag seen from
-/// its front.
+/// Returns the area of a tag's quad [px^2]. Returns 0 if the quad is too small, or cannot be a tag
+/// seen from its front.
 double usableArea(const TagObservation& tag, const CameraModel& camera, double smallestEdge) {
     const auto& c = tag.corners;
     double area = 0;
@@ -42,7 +43,7 @@ double usableArea(const TagObservation& tag, const CameraModel& camera, double s
               c[k].y() <= camera.size.height - 0.5))
             return 0;
         const Vector2d edge = c[(k + 1) % 4] - c[k], next = c[(k + 2) % 4] - c[(k + 1) % 4];
-        // Because y points down, the edges of a convex quad turn by negative angles.
+        // y points down in the picture, so the edges of a valid quad turn by negative angles.
         if (!(cross(edge, next) < 0) || !(edge.norm() >= smallestEdge)) return 0;
         area -= cross(c[k], c[(k + 1) % 4]) / 2;
     }
@@ -86,8 +87,8 @@ double cappedError(std::span<const CornerSet> sets, const RigidTransform& T_worl
     return sum;
 }
 
-/// Returns the pose that fits all tags best, among the two solutions of each of the kStarts largest
-/// tags. If errors are equal, larger tags are preferred.
+/// Returns the pose that fits all tags best. The candidates are the two solutions of each of the
+/// kStarts largest tags. If two candidates fit equally well, that of the larger tag is returned.
 RigidTransform bestStart(std::span<const Candidate> tags, std::span<const CornerSet> sets,
                          const CameraModel& camera) {
     RigidTransform best = tags[0].T_world_camera[0];
@@ -116,9 +117,9 @@ bool keepFitting(std::span<CornerSet> sets, const RigidTransform& T_world_camera
     return any;
 }
 
-/// Minimises the error over all tags that agree, starting at the pose from one tag. At first, tags
-/// with larger errors have smaller weights (Geman-McClure), with a scale that decreases. Then the
-/// weights are 1 or 0.
+/// Minimises the error over all tags that agree with each other, starting from the pose `T` of one
+/// tag. At first, tags with larger errors have smaller weights (Geman-McClure), and the scale of
+/// the errors decreases. At the end, each weight is 1 or 0.
 std::optional<RefinedPose> refineRobustly(std::span<CornerSet> sets, RigidTransform T,
                                           const CameraModel& camera, double farthest) {
     for (const double scale : {kStartCutoff, 0.5 * (kStartCutoff + farthest), farthest}) {
@@ -166,8 +167,8 @@ bool sameMinimum(const RigidTransform& a, const RigidTransform& b) {
     return a.rotation.angularDistance(b.rotation) < kSameMinimum;
 }
 
-/// Finds the second local minimum of the error over the used tags. Starts from the two solutions of
-/// the largest used tag.
+/// Finds the second local minimum of the error over the used tags. The starting points are the two
+/// solutions of the largest used tag. Returns nothing if both lead to the pose `best`.
 std::optional<RefinedPose> otherMinimum(std::span<const Candidate> tags,
                                         std::span<const CornerSet> sets, const RefinedPose& best,
                                         const CameraModel& camera) {

@@ -12,8 +12,8 @@
 namespace mfar {
 namespace {
 
-// Largest share of the picture that the regions may cover. Above it, searching them is not faster
-// than searching the whole picture.
+// If the regions around the expected tags cover a larger share of the picture than this, the whole
+// picture is searched instead, which is then as fast.
 constexpr double kWorthwhile = 0.6;
 
 PixelRect wholeOf(Size size) {
@@ -57,8 +57,8 @@ std::vector<TagDetection> Tracker::search(Eye& eye, const ImageView& picture,
                                           const std::vector<PixelRect>& regions) {
     std::vector<TagDetection> out;
     for (const PixelRect& region : regions) {
-        // The detector enlarges a region to its grid of tiles, and the corner refiner reads
-        // slightly beyond that.
+        // Luma is needed beyond the region, because the detector enlarges the region to its grid of
+        // tiles, and the corner refiner reads slightly more.
         const int over = static_cast<int>(4 * eye.decimation) + 8;
         const ImageView luma = eye.luma.of(
             picture, {region.x0 - over, region.y0 - over, region.x1 + over, region.y1 + over});
@@ -127,7 +127,8 @@ std::optional<Pose> Tracker::track(const ImageView& picture, Timestamp time) {
     const bool adopts = map_.empty();
     if (adopts) adoptWorld(detections_);
     const auto out = estimator_.update(placed(detections_), rig_.video, time);
-    // Without a valid pose, the tag that became the world may be a false detection. It is removed.
+    // If the tag that just became the world gave no valid pose, it may be a false detection. The
+    // world is then left undefined again.
     if (adopts && !estimator_.raw()) map_ = {};
     const std::chrono::duration<double, std::milli> span = std::chrono::steady_clock::now() - begin;
     count(span.count());

@@ -15,18 +15,18 @@ namespace mfar {
 
 struct TrackerOptions {
     /// The coordinates of the map are the world, and only tags of the map's families are searched.
-    /// If the map is empty, tags of `families` are searched. Then the largest tag of the first
-    /// picture with a tag becomes the world: origin in its centre, x right and y up in the tag's
-    /// print, z out of the print.
+    /// If the map is empty, tags of `families` are searched instead. In the first picture that
+    /// shows tags, the largest one becomes the world: the origin is its centre, x points right and
+    /// y up in its print, and z out of the print.
     TagMap map;
     std::vector<TagFamily> families{TagFamily::Tag36h11};
     double tagSize = 0.1;  ///< size of the tag that becomes the world [m]
-    /// Decimation of the search for tags, in video and stills, see DetectorOptions.
+    /// DetectorOptions::decimation for video and for stills.
     double decimation = 2;
     double stillDecimation = 4;
     int threads = 1;              ///< threads of libapriltag for each sensor
     int fullSearchInterval = 15;  ///< number of frames between two searches of the whole picture
-    /// Gamma of video and stills, see CornerRefiner.
+    /// Gamma of the video and of stills, see CornerRefiner.
     double gamma = 2;
     double stillGamma = 2;
     PoseEstimatorOptions pose;
@@ -36,9 +36,9 @@ struct TrackStats {
     std::int64_t frames = 0;
     std::int64_t fullSearches = 0;
     std::int64_t roiSearches = 0;
-    /// `flips`: number of changes between the two planar solutions. `rejected`: number of outliers
-    /// of the filter. `jumps`: number of restarts of the filter after outliers that agreed with
-    /// each other.
+    /// flips: number of changes from one of the two planar solutions to the other. rejected: number
+    /// of poses that the filter rejected as outliers. jumps: number of restarts of the filter
+    /// because several outliers agreed with each other.
     int flips = 0;
     int rejected = 0;
     int jumps = 0;
@@ -47,31 +47,31 @@ struct TrackStats {
     double worstMs = 0;
 };
 
-/// Tracks the pose of the video camera from AprilTags. track() must be called from one thread,
-/// which need not be the picture thread. trackStill() may be called from one other thread at the
-/// same time. The remaining functions, except detections(), are thread-safe.
+/// Tracks the pose of the video camera from AprilTags. track() must always be called from the same
+/// thread; it need not be the thread that processes pictures. trackStill() may be called from one
+/// other thread at the same time. All other functions are thread-safe, except detections().
 class Tracker {
 public:
     Tracker(const StereoRig& rig, TrackerOptions options);
 
-    /// Processes a video frame of any format. Times must increase; a step back in time restarts
-    /// the filter. Returns the filtered pose. If no tag is visible, returns the predicted pose
-    /// (tags = 0) as long as the filter predicts, then nothing. Throws std::invalid_argument if the
-    /// picture does not have the size of the rig's video.
+    /// Processes a video frame of any format. Times must increase; a step back in time restarts the
+    /// filter. Returns the filtered pose. If no tag is visible, returns the filter's prediction
+    /// (tags = 0). Returns nothing if the filter does not predict any more. Throws
+    /// std::invalid_argument if the picture does not have the size of the rig's video.
     std::optional<Pose> track(const ImageView& picture, Timestamp time);
     [[nodiscard]] std::optional<Pose> raw() const;
     [[nodiscard]] std::optional<Pose> predict(Timestamp time) const;
-    /// Returns the video camera's pose at the time of a still. It is measured in the still, with
-    /// the still camera and T_still_video, and not filtered. Returns nothing if the still shows no
-    /// usable tag.
+    /// Returns the video camera's pose at the time of a still. The tags are found in the still
+    /// itself, and T_still_video is used to compute the pose of the video camera. The pose is not
+    /// filtered. Returns nothing if the still shows no usable tag.
     [[nodiscard]] std::optional<Pose> trackStill(const ImageView& still, Timestamp time);
 
-    /// Tags of the last frame with refined corners, including tags that are not in the map. May be
-    /// called only from the thread of track(). Valid until the next call of track().
+    /// All tags of the last frame, with refined corners. They include tags that are not in the map.
+    /// May be called only from the thread of track(). Valid until the next call of track().
     [[nodiscard]] const std::vector<TagDetection>& detections() const { return detections_; }
     [[nodiscard]] TrackStats stats() const;
-    /// Returns the map of the options, or the map with the tag that became the world. Empty if no
-    /// tag has become the world yet.
+    /// Returns the map of the options. If that is empty, returns a map with the tag that became the
+    /// world, or an empty map if none has become the world yet.
     [[nodiscard]] TagMap map() const;
 
 private:

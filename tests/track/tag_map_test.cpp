@@ -82,7 +82,7 @@ TEST(TagMap, BrokenTomlIsRefusedWithFileAndLine) {
         {"family = \"tag16h5\"\n", "", "t.toml:10: tag 3 of family tag36h11 occurs twice"},
         {"family = \"tag16h5\"", "family = \"tag\"", "t.toml:12: family must be one of"},
         {"family = \"tag36h11\"\n", "",
-         "t.toml:3: neither this tag nor the file has the key family"},
+         "t.toml:3: neither this tag nor the file has the key \"family\""},
         {"# a comment", "units = \"mm\"", "t.toml:1: unknown key units"},
     };
     for (const auto& [from, to, message] : cases) {

@@ -18,18 +18,18 @@ inline constexpr int kResidualScale = 32;
 /// Between passes, shaders store colours and luma in steps of 1/64 grey level.
 inline constexpr int kPassScale = 64;
 
-/// Thresholds of GradientClasses: three for the strength [grey levels per px], two for the
+/// Borders between GradientClasses: three for the strength [grey levels per px], two for the
 /// coherence.
 inline constexpr float kWeakFrom = 2.0F;
 inline constexpr float kMediumFrom = 6.0F;
 inline constexpr float kStrongFrom = 16.0F;
 inline constexpr float kPartlyCoherentFrom = 0.25F;
 inline constexpr float kCoherentFrom = 0.5F;
-/// Number of GradientClasses for each angle, and number of angles.
+/// Number of GradientClasses with the same angle, and number of angles.
 inline constexpr int kGradientKinds = 12;
 inline constexpr int kGradientAngles = 16;
 
-/// Thresholds of CurvatureClasses [grey levels per px^2]: three for the absolute Laplacian, three
+/// Borders between CurvatureClasses [grey levels per px^2]: three for the absolute Laplacian, three
 /// for the difference of the eigenvalues.
 inline constexpr float kLowLaplacian = 2.5F;
 inline constexpr float kMediumLaplacian = 8.0F;
@@ -40,13 +40,14 @@ inline constexpr float kHighDifference = 25.0F;
 inline constexpr int kCurvatureKinds = 28;
 inline constexpr int kCurvatureAngles = 8;
 
-/// Tangents of 22.5 and 67.5 degrees: two borders between the bins into which twice the gradient's
-/// angle is sorted.
+/// A pixel's class depends on the angle of its gradient. To sort the angle into a bin, twice the
+/// angle is compared with the borders between bins. These are the tangents of two borders: 22.5 and
+/// 67.5 degrees.
 inline constexpr float kLowTangent = 0.414213562F;
 inline constexpr float kHighTangent = kLowTangent + 2.0F;
 
-/// The sum of Keys' cubic and the residual stays within the range of the surrounding 5x5 pixels,
-/// extended at both ends by this fraction of its width.
+/// The enlarged value (Keys' cubic plus the residual) is clamped to the range of the surrounding
+/// 5x5 pixels, extended at both ends by this fraction of the range's width.
 inline constexpr float kOvershoot = 0.25F;
 
 struct alignas(16) EnlargeTiles {

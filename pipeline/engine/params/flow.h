@@ -9,63 +9,73 @@
 // translates this header to GLSL.
 namespace mfar::params {
 
-/// Search radius at the coarsest pyramid level [px] if the last frame's flow is a candidate. It is
-/// small, because only moving objects still need the search then.
+/// Search radius at the coarsest pyramid level [px] if the last frame's flow is known. A small
+/// radius suffices, because the last flow is tried first and fails only on moving objects.
 inline constexpr int kTrackingRadius = 3;
 /// Search radius at the coarsest pyramid level [px] in tiles without a reliable match along
-/// epipolar lines. 5 px at this level are 80 px of a frame of 640x480. Twice the radius would find
-/// objects that have moved farther since the still, but would take four times as long.
+/// epipolar lines. For video of 640x480, 5 px at this level are 80 px at full size. Twice the
+/// radius would find objects that have moved farther since the still, but would take four times as
+/// long.
 inline constexpr int kListedRadius = 5;
-/// Number of Gauss-Newton steps from a neighbour's flow vector that costs less than the cell's own.
+/// A cell tries the flow vectors of its neighbours. If one of them costs less than the cell's own,
+/// it is improved by this number of Gauss-Newton steps.
 inline constexpr int kPropagateSteps = 2;
-/// Number of Gauss-Newton steps from a flow vector whose error is less than a pixel. Four steps are
-/// not more accurate.
+/// Number of Gauss-Newton steps that improve a flow vector whose error is already less than a
+/// pixel. Four steps would not make it more accurate.
 inline constexpr int kAlignSteps = 2;
-/// Finest pyramid level of the backward field. The full resolution is not necessary, because this
-/// field only verifies the forward field: a typical error of 0.1 px at this level is 0.2 video px,
-/// a tenth of the two-way error at which the confidence becomes zero (kTwoWayAlpha).
+/// Finest pyramid level of the backward field (flow from still to video). Half resolution suffices,
+/// because this field only verifies the forward field. A typical error at this level is 0.1 px,
+/// which is 0.2 video px. The confidence becomes zero at a ten times larger two-way error
+/// (kTwoWayAlpha).
 inline constexpr int kBackwardFinest = 1;
 inline constexpr int kBackwardPropagations = 1;
 
-/// The cost of an 8x8 patch is meaningful if the patch's texture (see FlowCell) exceeds this
-/// multiple of the noise variance. The variance of its pixels is then above 8 times that of noise.
+/// The cost of an 8x8 patch is meaningful if the patch's texture (see FlowCell) exceeds this factor
+/// times (noise variance + 1) [grey levels^2]. The variance of its pixels is then more than 8 times
+/// that of the noise.
 inline constexpr float kTexturePerVariance = 8.0F * kPatchPixels;
 inline constexpr float kUnexplainedCost = 0.4F;
-/// Cells with at least this two-way error [px] are outside the still and are not searched. Cells
-/// that seem to be occluded have a smaller error. They are searched, because they can belong to a
-/// moving object. Its depth from epipolar lines is wrong, so the test for occlusion is wrong, too.
+/// A cell with at least this two-way error [px] is outside the still and is not searched in two
+/// dimensions. A cell that seems to be occluded has a smaller error and is searched, because it may
+/// belong to a moving object: for such an object, depth from epipolar lines is wrong, and so is the
+/// test for occlusion.
 inline constexpr float kNotShown = 100.0F;
-/// A tile is searched in both dimensions if at least this number of its 16 cells has no reliable
-/// match.
+/// A tile is searched in two dimensions if at least this number of its 16 cells has no reliable
+/// match along epipolar lines.
 inline constexpr int kLeastUnexplained = 3;
 
-/// Two-way error [px] of a cell of a moving object. The test for occlusion is meaningless for such
-/// a cell, so the error is computed from the match's cost: max(cost - kGoodCost, 0) *
-/// kErrorPerCost.
+/// On a moving object, the test for occlusion is meaningless. Therefore, the two-way error [px] of
+/// a cell there is computed from the cost of its match: max(cost - kGoodCost, 0) * kErrorPerCost.
 inline constexpr float kGoodCost = 0.1F;
 inline constexpr float kErrorPerCost = 5.0F;
-/// A flow vector within this distance [px] of the match along the epipolar line is the same match.
+/// A flow vector whose end is within this distance [px] of the match along the epipolar line counts
+/// as the same match.
 inline constexpr float kOnLine = 1.0F;
-/// A cell gets a flow vector off its epipolar line only if the vector costs less than this fraction
-/// of the cost on the line. Otherwise, one of many vectors may fit noise by chance.
+/// A cell gets a flow vector off its epipolar line only if the vector's cost is below this fraction
+/// of the cost on the line. A weaker condition would accept vectors that fit noise by chance,
+/// because many vectors are tried.
 inline constexpr float kClearlyLess = 0.5F;
 
-/// The pyramids contain the still reduced to the video's resolution. Fine print and gravel are so
-/// fine that they alias in the video, and they alias differently in the reduced still, because its
-/// pixels lie elsewhere. Correct matches then have a high cost, and Gauss-Newton steps move away
-/// from them. Doubtful cells are therefore also compared with the still itself: its mean over each
-/// video pixel, from kPatchSamples samples along each axis, aliases as the video does.
+/// The pyramids contain the still reduced to the video's resolution. Very fine structure, such as
+/// print and gravel, aliases in the video and in the reduced still, but differently, because their
+/// pixels lie at different places. Correct matches then have a high cost, and Gauss-Newton steps
+/// move away from them. Doubtful cells are therefore also compared with the still at its full
+/// resolution: it is averaged over each video pixel, with kPatchSamples samples along each axis,
+/// and then aliases as the video does.
 inline constexpr int kPatchSamples = 2;
-/// The flow along the epipolar line replaces the refined flow if its squared correlation with the
-/// still itself is larger by more than this. Below this margin, the difference may be noise, and in
-/// noise the refined flow is more accurate.
+/// Each doubtful cell has two candidates: the flow along the epipolar line and the refined flow.
+/// The first is chosen only if its squared correlation with the full-size still is larger by more
+/// than this. A smaller difference may be noise, and the refined flow is then usually more
+/// accurate.
 inline constexpr float kClearlyAlike = 0.05F;
-/// The flow along the epipolar line is smoothed before the comparison with the still itself: a cell
-/// gets the mean over pairs of opposite neighbours up to kCleanUpRadius cells away. On a plane,
-/// each pair's mean is the flow at the cell. A pair whose mean differs from the median around the
-/// cell by this [px] or more is on another surface and is left out.
+/// The flow along the epipolar line is smoothed before the comparison with the full-size still. A
+/// cell gets the mean over pairs of opposite neighbours, up to kCleanUpRadius cells away. On a
+/// plane, the mean of each pair is the flow at the cell. If the mean of a pair differs from the
+/// median around the cell by kPairReach [px] or more, the pair is on another surface and is left
+/// out.
 inline constexpr float kPairReach = 0.5F;
-/// If the distance of two flow vectors is at most this [px], only one of them is compared.
+/// Two flow vectors whose ends are at most this distance apart [px] count as equal, and only one of
+/// them is compared.
 inline constexpr float kSameFlow = 0.05F;
 
 /// Largest change of the flow within one surface [px per px]. A larger change is a depth edge.
@@ -73,23 +83,24 @@ inline constexpr float kSteepestFlow = 0.25F;
 
 /// A plane is fitted to the flow of cells within this distance along each axis [cells].
 inline constexpr int kCleanUpRadius = 2;
-/// A neighbour whose flow differs from the fitted plane by more than kPlaneReach [px] belongs to
-/// another surface. The first fit uses kFirstPlaneReach instead, because the plane's slope is not
-/// known yet.
+/// A plane is fitted to the flow around a cell. A neighbour whose flow differs from the plane by
+/// more than kPlaneReach [px] belongs to another surface. For the first fit, the limit is
+/// kFirstPlaneReach, because the slope of the plane is not known yet.
 inline constexpr float kFirstPlaneReach = 1.2F;
 inline constexpr float kPlaneReach = 0.5F;
-/// A cell whose patch has this texture (see FlowCell) has half of the full weight in the fit [grey
-/// levels^2].
+/// Cells with more texture (see FlowCell) have more weight in the fit. With this texture [grey
+/// levels^2], the weight is half of the largest one.
 inline constexpr float kHalfTrusted = 2000.0F;
 inline constexpr float kLeastPlaneWeight = 1e-4F;
-/// Damping of a plane's slopes, because a single neighbour does not determine them. The sum
-/// kSlopeDamping + kSlopeDampingPerWeight * (sum of weights) is added to the equations' diagonal.
+/// Damping of the slopes of a fitted plane. It is necessary because a single neighbour does not
+/// determine the slopes. The sum kSlopeDamping + kSlopeDampingPerWeight * (sum of weights) is added
+/// to the diagonal of the equations.
 inline constexpr float kSlopeDamping = 0.5F;
 inline constexpr float kSlopeDampingPerWeight = 0.05F;
 
-/// Parameters of flow_search.comp. Each flow field is a part of the array cells[]. The members
-/// target, coarser, lastFrame and errors are indices of a field's first cell, or -1 if there is no
-/// such field.
+/// Parameters of flow_search.comp. All flow fields are parts of the array cells[]. The members
+/// target, coarser, lastFrame and errors say at which index of cells[] a field begins. -1: there is
+/// no such field.
 struct alignas(16) SearchFlow {
     /// Pyramid levels of the patches and of the searched picture.
     LumaLevel from, to;
@@ -101,9 +112,11 @@ struct alignas(16) SearchFlow {
     std::int32_t lastFrameColumns;
     std::int32_t radius;
     std::int32_t candidates, steps;
-    /// Factor from the last frame's flow to pixels of the searched pyramid level.
+    /// The last frame's flow vectors are multiplied by this factor to convert them to pixels of the
+    /// searched pyramid level.
     float perLastFrame;
-    /// Number of columns and rows of the last frame's field divided by that of the target field.
+    /// lastFrameX: number of columns of the last frame's field per column of the target field.
+    /// lastFrameY: the same for rows.
     float lastFrameX, lastFrameY;
     std::int32_t firstGroup;
     std::int32_t errors;
@@ -120,8 +133,8 @@ struct alignas(16) FilterFlow {
     std::int32_t columns, rows;
     std::int32_t target, source;
     std::int32_t planeFits;
-    /// 1: each workgroup processes one tile, and only matched tiles are filtered (finest pyramid
-    /// level). 0: all cells are filtered.
+    /// 1: each workgroup processes one tile, and tiles that are not matched are skipped (finest
+    /// pyramid level). 0: all cells are filtered.
     std::int32_t byTile;
 };
 
@@ -149,7 +162,7 @@ struct alignas(16) ListTiles {
     std::int32_t groupColumns, groupRows;
     std::int32_t tilesPerGroup;
     std::int32_t margin;  ///< a group is listed if a flagged tile is within this distance [tiles]
-    /// Index of the command in commands[] and of the first group in lists[].
+    /// `command`: index of the command in commands[]. `first`: index of the first group in lists[].
     std::int32_t command, first;
 };
 

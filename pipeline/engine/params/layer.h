@@ -3,9 +3,9 @@
 // params_to_glsl.cmake translates this header to GLSL.
 namespace mfar::params {
 
-/// The depth z of a virtual shadow on the real scene is reduced by this fraction. Otherwise the
-/// real surface at the same depth could hide the shadow. The shadow therefore also falls on flat
-/// real objects that lie on the surface.
+/// A virtual shadow on a real surface has the depth of this surface. The shadow's depth z is
+/// reduced by this fraction, so that the surface does not hide the shadow. Flat real objects on the
+/// surface therefore do not hide it either.
 inline constexpr float kShadowLift = 0.02F;
 
 }  // namespace mfar::params

@@ -22,16 +22,17 @@ inline constexpr float kLumaRed = 0.299F;
 inline constexpr float kLumaGreen = 0.587F;
 inline constexpr float kLumaBlue = 0.114F;
 
-/// Weight of each neighbour in the smoothing of the finest pyramid level. Compared with no
-/// smoothing, 0.18 gains 0.3 dB on printed text and costs 0.05 dB on photographs.
+/// The finest pyramid level is smoothed with a three-tap filter along each axis. This is the weight
+/// of each of the two neighbours. Compared with no smoothing, 0.18 gains 0.3 dB on printed text and
+/// costs 0.05 dB on photographs.
 inline constexpr float kLumaSmoothing = 0.18F;
 
-/// Number of bilinear samples of the still along each axis of a video pixel. They suffice for video
-/// pixels of up to 8 still pixels along each axis.
+/// Each video pixel is the mean of this number of bilinear samples of the still along each axis.
+/// The samples suffice for video pixels of up to 8 still pixels along each axis.
 inline constexpr int kFootprintTaps = 4;
 
-/// A video pixel's ray (x, y, 1) is rotated into still camera coordinates. If its z is then smaller
-/// than this limit, it points away from the still's picture.
+/// A video pixel's ray (x, y, 1) is rotated into still camera coordinates. If the rotated z is
+/// smaller than this, the ray points away from the still's picture.
 inline constexpr float kLeastTurnedDepth = 0.05F;
 /// Position in the still [px] of rays that point away from the still's picture.
 inline constexpr float kFarOutside = -1e6F;
@@ -39,8 +40,8 @@ inline constexpr float kFarOutside = -1e6F;
 /// iteration adds at least one correct digit.
 inline constexpr int kUndistortSteps = 12;
 
-/// Both lenses and the rotation R_still_video between the cameras. They determine where the still
-/// shows an infinitely distant point that is seen at a video pixel.
+/// Both lenses, and the rotation R_still_video between the cameras. From them follows where the
+/// still shows the infinitely distant point that is seen at a given video pixel.
 struct alignas(16) Rig {
     Lens video, still;
     Row3 rotation[3];

@@ -7,16 +7,17 @@
 namespace mfar::params {
 
 /// A sample of the real depth is valid if its inverse depth [1/m] is between kLeastInverseDepth and
-/// kMostInverseDepth and its sigma [1/m] between kLeastDepthSigma and kMostInverseDepth.
-/// kLeastDepthSigma excludes denormal numbers, because some GPUs flush them to zero.
+/// kMostInverseDepth, and its standard deviation [1/m] is between kLeastDepthSigma and
+/// kMostInverseDepth. kLeastDepthSigma excludes denormal numbers, because some GPUs flush them to
+/// zero.
 inline constexpr float kLeastInverseDepth = 1e-6F;
 inline constexpr float kMostInverseDepth = 1e6F;
 inline constexpr float kLeastDepthSigma = 1e-20F;
 /// A virtual pixel is drawn only if kLeastVirtualDepth < z < kMostVirtualDepth [m].
 inline constexpr float kLeastVirtualDepth = 1e-4F;
 inline constexpr float kMostVirtualDepth = 1e6F;
-/// This value is added to the colour weight of each depth sample. So if no sample has a similar
-/// colour, the samples' distances determine the weights.
+/// Added to the colour weight of each depth sample. If no sample has a similar colour, all colour
+/// weights are then equal, and only the samples' distances from the pixel matter.
 inline constexpr float kLikenessFloor = 1e-3F;
 
 struct alignas(16) Visibility {
@@ -27,8 +28,8 @@ struct alignas(16) Visibility {
     float layerScaleX, layerScaleY;  ///< layer pixels per output pixel
     float bias, softness;
     float virtualSigma;
-    /// The colour weight of a depth sample is exp(-likeness * d^2) + kLikenessFloor, where d is the
-    /// distance of its colour from the output pixel's colour (channels in [0, 1]).
+    /// The colour weight of a depth sample is exp(-likeness * d^2) + kLikenessFloor. d is the
+    /// distance between the colours of the sample and of the output pixel (channels in [0, 1]).
     float likeness;
 };
 

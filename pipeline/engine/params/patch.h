@@ -5,8 +5,8 @@
 namespace mfar::params {
 
 inline constexpr float kPatchPixels = 64.0F;
-/// Texture (see FlowCell) that noise causes in a patch [grey levels^2]. A patch with less texture
-/// is flat.
+/// A patch with less texture (see FlowCell) than this is flat: noise alone can cause this texture
+/// [grey levels^2].
 inline constexpr float kPatchNoise = 128.0F;
 /// This value is added to the diagonal of the Hessian. It limits the length of Gauss-Newton steps
 /// in patches without gradient.

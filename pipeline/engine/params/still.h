@@ -6,8 +6,9 @@
 // SIMD. params_to_glsl.cmake translates this header to GLSL.
 namespace mfar::params {
 
-/// Weight of each neighbour in the filter that amplifies a still's finest detail, to compensate for
-/// the loss in linear look-ups. A reduced still is not filtered; see still_raise.frag.
+/// Linear look-ups weaken a still's finest detail. A filter amplifies this detail before;
+/// kLinearLoss is the weight of each neighbour in the filter. A reduced still is not filtered; see
+/// still_raise.frag.
 inline constexpr float kLinearLoss = 0.08F;
 
 struct alignas(16) ReduceStill {
