@@ -372,7 +372,7 @@ constexpr Option kLevel[] = {
     whole("flow2d.plane_fits", kSmall, "2",
           "Number of rounds in which planes are fitted to the flow after its median filter."),
     whole("epipolar.window_radius", {0, 8, "px"}, "2",
-          "The search covers the matches within this radius at the coarser pyramid level."),
+          "At a pixel, the search covers what the coarser pyramid level found within this radius."),
     whole("epipolar.step_penalty", {1, 30, ""}, "12",
           "Smoothness penalty where neighbouring cells differ by one candidate."),
     whole("epipolar.jump_penalty", {1, 60, ""}, "60",

@@ -27,8 +27,8 @@ struct Offset {
     int x, y;
     bool operator==(const Offset&) const = default;
 };
-/// Positions of the taps relative to the pixel [px]. Two successive taps are a pair of horizontal
-/// neighbours. The last two pairs are vertical neighbours.
+/// Positions of the taps relative to the pixel [px]. The taps come in pairs: taps 2i and 2i + 1 are
+/// horizontal neighbours; in the last two pairs, they are vertical neighbours.
 inline constexpr std::array<Offset, kTaps> kTapAt{
     {{-2, -2}, {-1, -2}, {0, -2}, {1, -2}, {-2, -1}, {-1, -1}, {0, -1}, {1, -1},
      {-2, 1},  {-1, 1},  {0, 1},  {1, 1},  {-2, 2},  {-1, 2},  {0, 2},  {1, 2},

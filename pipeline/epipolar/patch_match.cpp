@@ -12,8 +12,8 @@ namespace {
 // Width and height of a block [px]. Structure tensors are summed over blocks, and a patch consists
 // of two by two blocks.
 constexpr int kBlock = kPatch / 2;
-// The picture is divided into at least this number of equal parts. In a small picture, there are
-// fewer, because a part consists of at least two by two blocks.
+// The picture is divided into at least this number of equal parts, if it is large enough. A part
+// consists of at least two by two blocks.
 constexpr int kPlaces = 300;
 constexpr int kPixels = kPatch * kPatch;
 // A match is valid if its correlation is at least kLeastScore. It is ambiguous if a position that

@@ -31,10 +31,11 @@ struct PatchPrior {
 };
 inline constexpr int kAlongSlack = 6;
 
-/// Matches the textured patches of a frame with the still. At half size, a patch is searched around
-/// the place where its s and the prior pose predict it: along the epipolar line as far as the error
-/// of s requires, and across it within three standard deviations of the prior pose. Then the match
-/// is refined at full size. `half` and `full` may be the same pyramid level.
+/// Matches the textured patches of a frame with the still. Each patch is first searched in `half`,
+/// around the place that its s and the prior pose predict. Along the epipolar line, the search goes
+/// as far as the error of s requires; across the line, it covers three standard deviations of the
+/// prior pose. Then the match is refined in `full`. `half` is usually half as large as `full`; both
+/// may be the same pyramid level.
 [[nodiscard]] std::vector<RayMatch> matchPatches(const TurnedPair& full, const TurnedPair& half,
                                                  const PatchPrior& prior, Workers& workers);
 

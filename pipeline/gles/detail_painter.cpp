@@ -189,8 +189,8 @@ void DetailPainter::draw(const gpu::Texture& video, const Matched* matched, cons
         drawSecond(p, video, *matched, *filtersOf(options));
 }
 
-// In tiles where the second still has more weight than the first one, blends the second still's
-// detail over the first still's.
+// Blends the detail of the second still over that of the first still, in tiles where the second
+// still has the larger weight.
 void DetailPainter::drawSecond(const TileParams& params, const gpu::Texture& video,
                                const Matched& matched, const FilterBank& filters) {
     const Matched& second = *matched.second;

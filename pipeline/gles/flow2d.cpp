@@ -119,8 +119,8 @@ void Flow2d::search(const Direction& way, int level, int area, const LumaOnGpu& 
                 way.stages[level].groups);
 }
 
-// `prior`: index of the first cell of a field at the finest pyramid level. The vectors of this
-// field are candidates. -1: there is no such field.
+// `prior`: index in cells() of a field whose vectors are further candidates for the search. The
+// field belongs to the finest pyramid level. -1: there is no such field.
 params::SearchFlow Flow2d::searchParams(const Direction& way, int level, int area, int radius,
                                         int prior) const {
     const Stage& stage = way.stages[level];

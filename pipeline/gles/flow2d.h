@@ -37,10 +37,10 @@ public:
     /// must be false after a new still.
     void run(const LumaOnGpu& luma, const TileBuffer& tiles, bool usePrior);
 
-    /// Computes the forward field by refining `forward`: one flow vector per cell with an error of
-    /// less than a pixel. The first number of each entry of `errors` is the cell's two-way error
-    /// (eq. 2 of the paper in docs/paper.md) [px]. Tiles whose vectors do not fit are searched in
-    /// two dimensions from coarse to fine.
+    /// Computes the forward field by refining `forward`, which has one flow vector per cell. These
+    /// vectors must be right to within a pixel. The first number of each entry of `errors` is the
+    /// cell's two-way error (eq. 2 of the paper in docs/paper.md) [px]. Tiles in which the vectors
+    /// match badly are searched again, in two dimensions from coarse to fine.
     using Cells = std::span<const std::array<float, 4>>;
     void refine(const LumaOnGpu& luma, const TileBuffer& tiles, Cells forward, Cells errors);
 
@@ -58,7 +58,8 @@ public:
     /// vectors. False after run().
     [[nodiscard]] bool errorsGiven() const { return errorsGiven_; }
     [[nodiscard]] const Field& backward() const { return backward_; }
-    /// Index in cells() of the first of the vectors that refine() was given.
+    /// refine() gets one vector per cell. The buffer cells() contains these vectors from this index
+    /// on.
     [[nodiscard]] int seed() const { return seed_; }
 
 private:

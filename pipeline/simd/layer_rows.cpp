@@ -26,8 +26,8 @@ HWY_INLINE void Along(int count, const Body& body) {
 }
 
 /// Loads the entries of a row at the ascending columns `at`. If the layer is not larger than the
-/// output, one vector of the row contains all these entries and is permuted. Otherwise the entries
-/// are gathered.
+/// output, the columns are so close together that one vector of the row contains all entries. This
+/// vector is then permuted. Otherwise the entries are gathered.
 template <class D>
 HWY_INLINE hn::Vec<D> Look(D d, const hn::TFromD<D>* row, const std::int32_t* at,
                            const LayerColumns& columns) {

@@ -37,8 +37,8 @@ public:
     [[nodiscard]] const StereoRig& rig() const { return rig_; }
     /// Rec. 601 luma of the whole still, with the tone curve.
     [[nodiscard]] Rows<const std::uint8_t> luma() const { return luma_.rows(); }
-    /// Luma at the size of rig().still. If it was not reduced, its finest detail is raised to
-    /// compensate for the loss in a linear look-up.
+    /// Luma at the size of rig().still. A still that already had this size is sharpened a little:
+    /// its finest detail is raised, because later linear look-ups blur it.
     [[nodiscard]] StillPairs pairs() const { return {pairs_[0], pairs_.pitch(), pairs_.size()}; }
     /// The picture as RGBA8 with R in the lowest byte, at the size of rig().still. 64 readable
     /// bytes follow each row. The first call after set() computes it.

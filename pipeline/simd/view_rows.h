@@ -37,7 +37,7 @@ struct ViewLookUpInput {
     const std::uint32_t* colours;  ///< traced picture's colours, RGBA8, row-major
     const std::uint32_t* lights;   ///< LightWords, two words each; null if only colours are known
     CatcherPlane plane;
-    float shownDepth;  ///< factor of the shadow catcher's z in the result: 1 - kShadowLift
+    float shownDepth;  ///< 1 - kShadowLift; the shadow catcher's z is multiplied by this
     /// The transform `toTraced` for each of the params::kSurfaceNumbers surface numbers; null if no
     /// object moves.
     const PointTransform* ofNumbers = nullptr;

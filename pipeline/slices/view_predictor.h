@@ -10,8 +10,8 @@ namespace mfar {
 
 struct PredictionLimits {
     double seconds = 0.5;  ///< longest prediction time; 0: no prediction
-    /// Upper limit of the predicted rotation of the camera [degrees]. It also limits the angle by
-    /// which the camera moves as seen from the objects.
+    /// Upper limit of the predicted rotation of the camera [degrees]. The predicted translation is
+    /// limited, too: its two ends, seen from the objects, are at most this angle apart.
     double turnDegrees = 4;
     bool operator==(const PredictionLimits&) const = default;
 };

@@ -131,7 +131,7 @@ TEST(StillPolicy, AfterMotionWithinTheViewOfTheStillANewStillWaitsForTheAgeLimit
 }
 
 // The first frames appear to change, because the sensor's noise is not yet known.
-TEST(StillPolicy, ChangesBeforeAStillsFirstUseDoNotMakeItTooOld) {
+TEST(StillPolicy, AStillIsNotTooOldBecauseTheSceneChangedBeforeItsFirstUse) {
     TriggerConfig config;
     config.maxAgeS = 5;
     Simulation board(config);
