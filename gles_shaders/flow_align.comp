@@ -45,8 +45,9 @@ uvec2 fetchShort(LumaLevel l, int wx, int y, uint shift) {
 // them by less than half a pixel.
 vec4 bentRow(LumaLevel l, ivec2 cell, vec2 u, vec2 dx, vec2 dy, vec2 first) {
     const vec4 along = vec4(-1.5, -0.5, 0.5, 1.5);
-    vec2 middle = first - vec2(2.0, 3.5);
-    vec2 origin = vec2(4 * cell - 2) + first + u + middle.x * dx + middle.y * dy;
+    vec2 origin = vec2(patchStart(cell, sizeOf(l))) + first;
+    vec2 middle = origin - vec2(4 * cell) - vec2(0.0, 1.5);
+    origin += u + middle.x * dx + middle.y * dy;
     origin = clamp(origin, vec2(-7.0), vec2(l.width + 2, l.height + 2));
     vec2 whole = floor(origin);
     ivec2 at = ivec2(whole);

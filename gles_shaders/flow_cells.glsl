@@ -10,8 +10,10 @@ vec2 flowAt(ivec2 c) {
 
 // Returns the change of the flow per pixel along `step`: the smaller of the two one-sided
 // differences, or zero if they have different signs. The differences span two cells, because
-// between adjacent cells noise exceeds the true change.
+// between adjacent cells noise exceeds the true change. A cell at the border has the change of the
+// nearest cell with both differences.
 vec2 slopeAt(ivec2 cell, ivec2 step) {
+    cell = max(min(cell, ivec2(params.columns, params.rows) - 1 - 2 * step), 2 * step);
     vec2 here = flowAt(cell);
     vec2 before = here - flowAt(cell - 2 * step), after = flowAt(cell + 2 * step) - here;
     vec2 least = sign(after) * min(abs(before), abs(after));

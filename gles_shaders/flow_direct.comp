@@ -12,6 +12,7 @@
 #include "luma.glsl"
 #include "rig.glsl"
 #include "still_linear.glsl"
+#include "patch_start.glsl"
 #include "pipeline/engine/params/flow.h"
 #include "pipeline/engine/params/weigh.h"
 
@@ -58,9 +59,10 @@ vec2 lineOf(ivec2 cell) {
 
 // Compares the patch at the flow `u`, which changes by dx and dy per pixel, with the still. Returns
 // covariance, variance in the video, variance in the still, and the squared correlation. All are 0
-// if `u` ends outside the still.
+// if the patch's centre is outside the still.
 vec4 compared(ivec2 cell, vec2 u, vec2 dx, vec2 dy) {
     vec2 size = vec2(1.0) / vec2(params.texelX, params.texelY);
+    ivec2 video = ivec2(params.videoWidth, params.videoHeight);
     // Positions in the still. `at`: the patch's centre. `right` and `below`: the points one cell to
     // the right of the centre and one cell below it.
     vec2 at = vec2(0.0), right = vec2(0.0), below = vec2(0.0);
@@ -68,13 +70,14 @@ vec4 compared(ivec2 cell, vec2 u, vec2 dx, vec2 dy) {
         below = right;
         right = at;
         vec2 by = i == cell.x ? vec2(0.0, 1.0) + dy : vec2(1.0, 0.0) + dx;
-        at = stillPixel(params.rig, 4.0 * vec2(cell) + 1.5 + u + (i == cell.x + 2 ? vec2(0.0) : 4.0 * by));
+        vec2 shift = vec2(patchShift(cell, video));
+        by = (i == cell.x + 2 ? vec2(0.0) : 4.0 * by) + shift + shift.x * dx + shift.y * dy;
+        at = stillPixel(params.rig, 4.0 * vec2(cell) + 1.5 + u + by);
     }
     if (!(all(greaterThanEqual(at, vec2(0.0))) && all(lessThanEqual(at, size - 1.0)))) return vec4(0.0);
     vec2 alongX = 0.25 * (right - at), alongY = 0.25 * (below - at);
     vec2 sum = vec2(0.0);
     vec3 squares = vec3(0.0);
-    ivec2 last = ivec2(params.videoWidth, params.videoHeight) - 1;
     int end = cell.y + kSide * kSide, samples = cell.x + kPatchSamples * kPatchSamples;
     for (int i = cell.y; i < end; ++i) {
         ivec2 p = ivec2((i - cell.y) % kSide, (i - cell.y) / kSide);
@@ -88,9 +91,9 @@ vec4 compared(ivec2 cell, vec2 u, vec2 dx, vec2 dy) {
         }
         // 128 is subtracted, because small numbers have small rounding errors.
         seen = 255.0 * seen / float(kPatchSamples * kPatchSamples) - 128.0;
-        float video = 255.0 * lumaOf(texelFetch(picture, clamp(4 * cell - 2 + p, ivec2(0), last), 0).rgb) - 128.0;
-        sum += vec2(video, seen);
-        squares += vec3(video * seen, video * video, seen * seen);
+        float given = 255.0 * lumaOf(texelFetch(picture, min(patchStart(cell, video) + p, video - 1), 0).rgb) - 128.0;
+        sum += vec2(given, seen);
+        squares += vec3(given * seen, given * given, seen * seen);
     }
     vec3 spread = squares - vec3(sum.x * sum.y, sum * sum) / kPatchPixels;
     float noise = kPatchPixels * (params.noise * params.noise + kByteVariance);

@@ -1,6 +1,7 @@
 // Reads patches of 8x8 pixels of a luma pyramid level, row by row. The patch of a cell has the same
-// centre, so it begins 2 px to the left of the cell and 2 px above it. Needs `uint luma[]` and the
-// functions of luma.glsl.
+// centre, except at the border; see patch_start.glsl. Needs `uint luma[]` and the functions of
+// luma.glsl.
+#include "patch_start.glsl"
 
 #include "pipeline/engine/params/patch.h"
 
@@ -24,11 +25,15 @@ int wordAt(LumaLevel l, int column, int y) {
 uvec3 fetchWords(int at) {
     return uvec3(luma[at], luma[at + 1], luma[at + 2]);
 }
-
-// Extracts a row of a cell's patch: eight pixels, in two words. The row begins two pixels to the
-// left of the cell. The three words `w` begin four pixels to the left of the cell.
-uvec2 cellRow(uvec3 w) {
-    return uvec2((w.x >> 16) | (w.y << 16), (w.y >> 16) | (w.z << 16));
+ivec2 sizeOf(LumaLevel l) {
+    return ivec2(l.width, l.height);
+}
+// Discards the first `shift` bits of three words.
+uvec3 shifted(uvec3 words, uint shift) {
+    // A shift by 32 is undefined, so the shift by 32 - shift is done in two parts, 1 and `up`.
+    uint up = 31u - shift;
+    return uvec3((words.x >> shift) | (words.y << 1 << up), (words.y >> shift) | (words.z << 1 << up),
+                 words.z >> shift);
 }
 
 // State of nextRow(), which reads a patch row by row. The patch's position is between pixels.
@@ -40,17 +45,13 @@ struct Window {
 };
 
 uvec3 fetchPixels(LumaLevel l, Window w) {
-    uvec3 words = fetchWords(w.first + clamp(w.y, 0, l.height - 1) * l.pitch);
-    // A shift by 32 is undefined, so the shift by 32 - w.shift is done in two parts, 1 and `up`.
-    uint up = 31u - w.shift;
-    return uvec3((words.x >> w.shift) | (words.y << 1 << up), (words.y >> w.shift) | (words.z << 1 << up),
-                 words.z >> w.shift);
+    return shifted(fetchWords(w.first + clamp(w.y, 0, l.height - 1) * l.pitch), w.shift);
 }
 
-// Starts reading the patch of a cell, displaced by u pixels. Positions outside the pyramid level
-// are clamped to its border.
-Window windowAt(LumaLevel l, ivec2 cell, vec2 u) {
-    vec2 origin = clamp(vec2(4 * cell - 2) + u, vec2(-7.0), vec2(l.width - 2, l.height - 2));
+// Starts reading a patch, displaced by u pixels. `start` is its first pixel without displacement.
+// Positions outside the pyramid level are clamped to its border.
+Window windowAt(LumaLevel l, ivec2 start, vec2 u) {
+    vec2 origin = clamp(vec2(start) + u, vec2(-7.0), vec2(l.width - 2, l.height - 2));
     vec2 whole = floor(origin);
     ivec2 at = ivec2(whole);
     Window w = Window(wordAt(l, at.x >> 2, 0), at.y, uint(at.x & 3) * 8u, origin - whole, uvec3(0u));
@@ -74,11 +75,14 @@ Row nextRow(inout Window w, LumaLevel l) {
 // by u pixels. Returns their covariance, the variance in a and the variance in b, each as a sum
 // over the pixels.
 vec3 spreadOf(LumaLevel a, LumaLevel b, ivec2 cell, vec2 u) {
-    Window w = windowAt(b, cell, u);
+    ivec2 start = patchStart(cell, sizeOf(a));
+    Window w = windowAt(b, start, u);
+    int first = wordAt(a, start.x >> 2, 0);
+    uint shift = uint(start.x & 3) * 8u;
     vec2 sum = vec2(0.0);
     vec3 squares = vec3(0.0);
     for (int r = 0; r < kRows; ++r) {
-        uvec2 words = cellRow(fetchWords(wordAt(a, cell.x - 1, 4 * cell.y - 2 + r)));
+        uvec3 words = shifted(fetchWords(first + clamp(start.y + r, 0, a.height - 1) * a.pitch), shift);
         Row pa = Row(unpackPixels(words.x), unpackPixels(words.y)), pb = nextRow(w, b);
         sum += vec2(sumOf(pa), sumOf(pb));
         squares += vec3(product(pa, pb), product(pa, pa), product(pb, pb));

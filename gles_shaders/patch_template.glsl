@@ -52,14 +52,17 @@ void setMoment(int i, float value) {
 // Stores the rows, mean and variance of the cell's patch in templateWords[]. Returns mean and
 // variance.
 vec2 loadTemplate(LumaLevel l, ivec2 cell) {
+    ivec2 start = patchStart(cell, sizeOf(l));
+    uint shift = uint(start.x & 3) * 8u, toLeft = (shift + 24u) & 31u;
+    int first = wordAt(l, start.x >> 2, 0), left = shift == 0u ? -1 : 0;
     float sum = 0.0, sumSquares = 0.0;
-    for (int r = -1; r <= kRows; ++r) {
-        uvec3 w = fetchWords(wordAt(l, cell.x - 1, 4 * cell.y - 2 + r));
-        uvec2 row = cellRow(w);
-        int at = 3 * r + 3;
+    for (int y = start.y - 1, end = y + kRows + 2; y < end; ++y) {
+        int r = y - end + kRows + 1, at = 3 * r + 3, from = first + clamp(y, 0, l.height - 1) * l.pitch;
+        uvec3 row = shifted(fetchWords(from), shift);
+        uint before = luma[from + left] >> toLeft;
         templateWords[at] = row.x;
         templateWords[at + 1] = row.y;
-        templateWords[at + 2] = (w.x & 0xff00u) | (w.z & 0xff0000u);
+        templateWords[at + 2] = ((before & 255u) << 8) | ((row.z & 255u) << 16);
         if (r < 0 || r == kRows) continue;
         Row a = Row(unpackPixels(row.x), unpackPixels(row.y));
         sum += sumOf(a);
@@ -121,7 +124,7 @@ Match matchOf(Sums sums) {
 }
 
 float costAt(vec2 known, LumaLevel l, ivec2 cell, vec2 u) {
-    Window w = windowAt(l, cell, u);
+    Window w = windowAt(l, patchStart(cell, sizeOf(l)), u);
     Sums sums = Sums(0.0, 0.0, 0.0, vec2(0.0));
     int end = w.y + kRows;
     while (w.y < end) {

@@ -19,6 +19,20 @@ inline constexpr int kCellsPerTile = 4;
     return {divideUp(picture.width, kCell), divideUp(picture.height, kCell)};
 }
 
+inline constexpr int kPatchSide = 8;
+
+/// Returns the first column (or row) of a cell's patch, in a picture with `pixels` columns (or
+/// rows). A patch that would extend beyond the picture is moved inside: the still shows what
+/// lies beyond, so repeated border pixels of the video would not match it. GLSL: patch_start.glsl.
+[[nodiscard]] constexpr int patchStart(int cell, int pixels) {
+    return std::max(std::min(kCell * cell - (kPatchSide - kCell) / 2, pixels - kPatchSide), 0);
+}
+
+/// Returns how far patchStart() moves a patch from the place around the middle of its cell.
+[[nodiscard]] constexpr int patchShift(int cell, int pixels) {
+    return patchStart(cell, pixels) - (kCell * cell - (kPatchSide - kCell) / 2);
+}
+
 /// Interpolates one channel of `cells` bilinearly at pixel (x, y). There are four channels per
 /// cell. Beyond the centres of the outermost cells, returns the value of the nearest cell.
 [[nodiscard]] inline float sampleCells(const std::vector<float>& cells, Size count, int channel,

@@ -21,7 +21,7 @@ namespace mfar::simd::HWY_NAMESPACE {
 namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 
-constexpr int kSide = 8;
+constexpr int kSide = kPatchSide;
 constexpr float kMiddle = 1.5F;  // centre of a cell, from its first pixel
 constexpr int kAcross = params::kPatchSamples * kSide;
 constexpr float kPerSample = 1.0F / params::kPatchSamples;
@@ -95,8 +95,8 @@ public:
     void loadVideo() {
         for (int y = 0; y < kSide; ++y)
             for (int x = 0; x < kSide; ++x) {
-                const int px = std::clamp(kCell * column_ - 2 + x, 0, size().width - 1);
-                const int py = std::clamp(kCell * row_ - 2 + y, 0, size().height - 1);
+                const int px = std::min(patchStart(column_, size().width) + x, size().width - 1);
+                const int py = std::min(patchStart(row_, size().height) + y, size().height - 1);
                 video_[kSide * y + x] = params::kLumaRed * in_.video.row(0, py)[px] +
                                         params::kLumaGreen * in_.video.row(1, py)[px] +
                                         params::kLumaBlue * in_.video.row(2, py)[px];
@@ -104,8 +104,8 @@ public:
         removeMean(video_);
     }
 
-    /// Compares the patch at the flow `u` with the still. All results are 0 if `u` ends outside the
-    /// still.
+    /// Compares the patch at the flow `u` with the still. All results are 0 if the patch's centre
+    /// is outside the still.
     [[nodiscard]] Likeness compare(Vector u) const {
         const Place place = placeOf(u);
         const LensParams& still = in_.lookUp.still;
@@ -150,9 +150,11 @@ private:
         return {medianOf(x), medianOf(y)};
     }
 
-    /// Change of the flow per pixel, as in flow_align.comp.
+    /// Change of the flow per pixel, see flow_cells.glsl.
     [[nodiscard]] Vector slope(int i, int j) const {
-        const Vector before = at(-i, -j), here = at(0, 0), after = at(i, j);
+        const int c = std::clamp(column_, i, std::max(in_.cells.width - 1 - i, i)) - column_;
+        const int r = std::clamp(row_, j, std::max(in_.cells.height - 1 - j, j)) - row_;
+        const Vector before = at(c - i, r - j), here = at(c, r), after = at(c + i, r + j);
         const auto least = [](float a, float b) {
             if (!(a * b > 0)) return 0.0F;
             const float s = std::copysign(std::min(std::abs(a), std::abs(b)), b) / kSide;
@@ -164,8 +166,12 @@ private:
 
     [[nodiscard]] Place placeOf(Vector u) const {
         HWY_ALIGN std::array<float, kChunk> x, y;
-        const float px = static_cast<float>(kCell * column_) + kMiddle + u.x;
-        const float py = static_cast<float>(kCell * row_) + kMiddle + u.y;
+        const auto right = static_cast<float>(patchShift(column_, size().width));
+        const auto down = static_cast<float>(patchShift(row_, size().height));
+        const float px = static_cast<float>(kCell * column_) + kMiddle + right + u.x +
+                         right * slopeX_.x + down * slopeY_.x;
+        const float py = static_cast<float>(kCell * row_) + kMiddle + down + u.y +
+                         right * slopeX_.y + down * slopeY_.y;
         x.fill(px);
         y.fill(py);
         x[1] += kCell * (1 + slopeX_.x);

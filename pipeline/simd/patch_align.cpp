@@ -58,12 +58,16 @@ HWY_INLINE Vector2 seedAt(const AlignStep& step, int column, int row) {
     return {soundOf(v[0]), soundOf(v[1])};
 }
 
-HWY_INLINE Bend bendAt(const AlignStep& step, int column, int row, Vector2 here) {
-    const auto slope = [here](Vector2 before, Vector2 after) {
+HWY_INLINE Bend bendAt(const AlignStep& step, int column, int row) {
+    const auto slope = [](Vector2 before, Vector2 here, Vector2 after) {
         return Vector2{slopeOf(before.x, here.x, after.x), slopeOf(before.y, here.y, after.y)};
     };
-    return {slope(seedAt(step, column - 2, row), seedAt(step, column + 2, row)),
-            slope(seedAt(step, column, row - 2), seedAt(step, column, row + 2))};
+    // A cell at the border has the change of the nearest cell with both differences.
+    const int c = std::clamp(column, 2, std::max(step.out.columns - 3, 2));
+    const int r = std::clamp(row, 2, std::max(step.out.rows - 3, 2));
+    return {
+        slope(seedAt(step, c - 2, row), seedAt(step, c, row), seedAt(step, c + 2, row)),
+        slope(seedAt(step, column, r - 2), seedAt(step, column, r), seedAt(step, column, r + 2))};
 }
 
 /// Where the parts of a patch's rows lie in the searched picture. A part is a row if kParts is 1,
@@ -97,8 +101,11 @@ HWY_INLINE void placeParts(const PatchPicture& p, int column, int row, Vector2 u
     const hn::CappedTag<float, BentPlaces<kParts>::kCount> d;
     const hn::RebindToSigned<decltype(d)> dInt;
     constexpr int kSpan = kPatch / kParts;
-    const auto toX = hn::Set(d, static_cast<float>(kCellSize * column - 2) + u.x);
-    const auto toY = hn::Set(d, static_cast<float>(kCellSize * row - 2) + u.y);
+    const auto toX = hn::Set(d, static_cast<float>(patchStart(column, p.width)) + u.x);
+    const auto toY = hn::Set(d, static_cast<float>(patchStart(row, p.height)) + u.y);
+    // Distance of the patch from the place around the middle of its cell.
+    const auto shiftX = static_cast<float>(patchShift(column, p.width));
+    const auto shiftY = static_cast<float>(patchShift(row, p.height));
     const auto last = hn::Set(dInt, p.height - 1), zero = hn::Zero(dInt);
     const auto pitch = hn::Set(dInt, static_cast<std::int32_t>(p.pitch));
     const auto share = [&](auto value, auto whole, std::int32_t* to) HWY_ATTR {
@@ -113,8 +120,8 @@ HWY_INLINE void placeParts(const PatchPicture& p, int column, int row, Vector2 u
     for (std::size_t i = 0; i < BentPlaces<kParts>::kCount; i += hn::Lanes(d)) {
         const auto firstX = hn::Load(d, firstColumns<kParts>() + i);
         const auto firstY = hn::Load(d, rowsOfParts<kParts>() + i);
-        const auto middleX = hn::Sub(firstX, hn::Set(d, (kPatch - kSpan) / 2));
-        const auto middleY = hn::Sub(firstY, hn::Set(d, 3.5F));
+        const auto middleX = hn::Add(firstX, hn::Set(d, shiftX - (kPatch - kSpan) / 2));
+        const auto middleY = hn::Add(firstY, hn::Set(d, shiftY - 3.5F));
         const auto moved = [&](auto from, float dx, float dy) HWY_ATTR {
             return hn::MulAdd(middleX, hn::Set(d, dx), hn::MulAdd(middleY, hn::Set(d, dy), from));
         };
@@ -286,7 +293,7 @@ HWY_INLINE void alignBatch(const AlignStep& step, AlignRoom& room) {
     loadPatches(step.from, room.patchSums, batch);
     for (int i = 0; i < batch.count; ++i) {
         const Vector2 u = seedAt(step, batch.column[i], batch.row[i]);
-        room.bend[i] = bendAt(step, batch.column[i], batch.row[i], u);
+        room.bend[i] = bendAt(step, batch.column[i], batch.row[i]);
         batch.trial.x.of[i] = batch.best.x.of[i] = u.x;
         batch.trial.y.of[i] = batch.best.y.of[i] = u.y;
         batch.cost.of[i] = 1e9F;

@@ -9,6 +9,7 @@
 #endif
 
 #include "pipeline/engine/params/patch.h"
+#include "pipeline/flow/cell_field.h"
 #include "pipeline/simd/patch_flow.h"
 
 #include <algorithm>
@@ -161,7 +162,8 @@ struct PatchProducts {
 HWY_INLINE void loadPatch(const PatchPicture& p, int column, int row, int cell, Patch& out,
                           PatchSums& sums) {
     const Row16 d16;
-    const PatchRows rows(p, kCellSize * column - 3, kCellSize * row - 3, kPatch + 2, kPatch + 2);
+    const PatchRows rows(p, patchStart(column, p.width) - 1, patchStart(row, p.height) - 1,
+                         kPatch + 2, kPatch + 2);
     const auto middle = hn::Set(d16, 128), one = hn::Set(d16, 1);
     PatchProducts products;
     ProductSum<Row16> sumA, sumX, sumY;
@@ -294,9 +296,9 @@ HWY_INLINE void addUpRows(const Patch& patch, const PatchRows& rows, std::int16_
 /// Positions outside `p` are clamped to its border.
 HWY_INLINE void comparePatch(const Patch& patch, const PatchPicture& p, int column, int row,
                              Vector2 u, int cell, CompareSums& out) {
-    const float x = bounded(static_cast<float>(kCellSize * column - 2) + u.x, -7.0F,
+    const float x = bounded(static_cast<float>(patchStart(column, p.width)) + u.x, -7.0F,
                             static_cast<float>(p.width - 2));
-    const float y = bounded(static_cast<float>(kCellSize * row - 2) + u.y, -7.0F,
+    const float y = bounded(static_cast<float>(patchStart(row, p.height)) + u.y, -7.0F,
                             static_cast<float>(p.height - 2));
     const float left = std::floor(x), top = std::floor(y);
     const auto shareOf = [](float v) { return static_cast<std::int16_t>(v * 32767); };

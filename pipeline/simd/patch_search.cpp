@@ -115,9 +115,9 @@ struct WholeBest {
 /// are equal, the first displacement wins.
 HWY_INLINE void searchWholeRow(const Batch& batch, int cell, const PatchPicture& to, int firstDx,
                                int endDx, int dy, WholeSums& sums, WholeBest& best) {
-    const int y = std::clamp(kCellSize * batch.row[cell] - 2 + dy, -7, to.height - 2);
+    const int y = std::clamp(patchStart(batch.row[cell], to.height) + dy, -7, to.height - 2);
     for (int dx = firstDx; dx < endDx; ++dx) {
-        const int x = std::clamp(kCellSize * batch.column[cell] - 2 + dx, -7, to.width - 2);
+        const int x = std::clamp(patchStart(batch.column[cell], to.width) + dx, -7, to.width - 2);
         sumWhole(batch.patch[cell], PatchRows(to, x, y, kPatch, kPatch),
                  static_cast<std::size_t>(dx - firstDx), sums);
     }

@@ -1,6 +1,7 @@
 #include "pipeline/simd/patch_sums.h"
 
 #include "pipeline/engine/params/patch.h"
+#include "pipeline/flow/cell_field.h"
 
 #include <algorithm>
 #include <array>
@@ -23,8 +24,9 @@ constexpr int kRows = 8;
 // are added for several cells at once.
 constexpr int kChunk = 16;
 
-/// First pixel of each cell's patch in the still.
+/// First pixel of each cell's patch in the video and in the still.
 struct Origins {
+    HWY_ALIGN std::array<float, kChunk> videoX, videoY;
     HWY_ALIGN std::array<std::int32_t, 2 * kChunk> x, y;
     // Interpolation weights [2^-15] of the next column and row, stored twice in 32 bits.
     HWY_ALIGN std::array<std::int32_t, 2 * kChunk> fx, fy;
@@ -36,13 +38,12 @@ struct Partial {
 };
 
 template <class D>
-void OriginsAlong(D d, const float* flow, float start, float step, float last, std::int32_t* whole,
+void OriginsAlong(D d, const float* flow, const float* video, float last, std::int32_t* whole,
                   std::int32_t* fraction) {
     const hn::RebindToSigned<D> di;
     const auto least = hn::Set(d, -7.0F), most = hn::Set(d, last);
     for (std::size_t i = 0; i < kChunk; i += hn::Lanes(d)) {
-        const auto cell = hn::Mul(hn::Iota(d, static_cast<float>(i)), hn::Set(d, step));
-        const auto at = hn::Add(hn::Add(cell, hn::Set(d, start)), hn::LoadU(d, flow + i));
+        const auto at = hn::Add(hn::Load(d, video + i), hn::LoadU(d, flow + i));
         const auto origin = hn::IfThenElse(hn::Gt(at, least), hn::Min(at, most), least);
         const auto floor = hn::Floor(origin);
         const auto share = hn::Mul(hn::Sub(origin, floor), hn::Set(d, 32768.0F));
@@ -77,7 +78,7 @@ void SumPatches(const std::uint8_t* const* video, const PatchLevel& still, int f
     for (int row = 0; row < kRows; ++row) {
         rowAt(row + 1, lower);
         for (int i = 0; i < 8; ++i) {
-            const int p = (video[row][4 * first + i] - 128) * 64;
+            const int p = (video[row][static_cast<int>(origins.videoX[first]) + i] - 128) * 64;
             const int q = Between(upper[i], lower[i], fy);
             upper[i] = lower[i];
             a += p;
@@ -194,7 +195,7 @@ HWY_INLINE void SumRows(const VideoRow& videoRow, const StillRow& stillRow, int 
 }
 
 /// Computes the sums of kBlocks cells of a chunk, from cell `first` on. The chunk has `count`
-/// cells. `video`: rows of the video at the chunk's first cell.
+/// cells. `video`: rows of the video.
 HWY_INLINE void SumPatches(const std::uint8_t* const* video, const PatchLevel& still, int first,
                            int count, const Origins& origins, Partial& out) {
     const V16 fx = PerBlock(&origins.fx[first]), fy = PerBlock(&origins.fy[first]);
@@ -204,7 +205,7 @@ HWY_INLINE void SumPatches(const std::uint8_t* const* video, const PatchLevel& s
     bool inside = true;
     for (int i = 0; i < kBlocks; ++i) {
         cell[i] = std::min(first + i, count - 1);  // results after the last cell are not used
-        column[i] = 4 * static_cast<std::ptrdiff_t>(cell[i]);
+        column[i] = static_cast<std::ptrdiff_t>(origins.videoX[cell[i]]);
         const int y = origins.y[cell[i]];
         inside = inside && y >= 0 && y + kRows < still.height;
         at[i] = still.origin + y * still.pitch + origins.x[cell[i]];
@@ -260,16 +261,18 @@ void ComparePatches(const PatchLevel& video, const PatchLevel& still, int cellRo
     std::array<const std::uint8_t*, kRows> rows{};
     Origins origins{};
     Partial partial{};
+    const int top = patchStart(cellRow, video.height);
+    origins.videoY.fill(static_cast<float>(top));
+    for (int row = 0; row < kRows; ++row)
+        rows[row] = video.origin + std::min(top + row, video.height - 1) * video.pitch;
     for (int cell = first; cell < last; cell += kChunk) {
         const int count = std::min(kChunk, last - cell);
-        const auto x = static_cast<float>(4 * cell - 2), y = static_cast<float>(4 * cellRow - 2);
-        OriginsAlong(d, flowX + cell, x, 4, static_cast<float>(still.width - 2), origins.x.data(),
-                     origins.fx.data());
-        OriginsAlong(d, flowY + cell, y, 0, static_cast<float>(still.height - 2), origins.y.data(),
-                     origins.fy.data());
-        for (int row = 0; row < kRows; ++row)
-            rows[row] = video.origin + 4 * cell - 2 +
-                        std::clamp(4 * cellRow - 2 + row, 0, video.height - 1) * video.pitch;
+        for (int i = 0; i < kChunk; ++i)
+            origins.videoX[i] = static_cast<float>(patchStart(cell + i, video.width));
+        OriginsAlong(d, flowX + cell, origins.videoX.data(), static_cast<float>(still.width - 2),
+                     origins.x.data(), origins.fx.data());
+        OriginsAlong(d, flowY + cell, origins.videoY.data(), static_cast<float>(still.height - 2),
+                     origins.y.data(), origins.fy.data());
         for (int i = 0; i < count; i += kBlocks)
             SumPatches(rows.data(), still, i, count, origins, partial);
         Statistics(d, partial, count, cell, out);

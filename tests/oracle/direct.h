@@ -4,6 +4,7 @@
 #include "pipeline/engine/params/flow.h"
 #include "pipeline/engine/params/weigh.h"
 #include "tests/oracle/luma.h"
+#include "tests/oracle/patch.h"
 
 #include <Eigen/Dense>
 
@@ -62,6 +63,9 @@ inline Eigen::Vector2d smoothLine(const DirectCase& in, int x, int y) {
 /// Change of the flow per pixel along one axis: the smaller one-sided difference, or 0 if the signs
 /// differ.
 inline Eigen::Vector2d lineSlope(const DirectCase& in, int x, int y, int i, int j) {
+    // A cell at the border has the change of the nearest cell with both differences.
+    x = std::max(std::min(x, in.cells.width - 1 - i), i);
+    y = std::max(std::min(y, in.cells.height - 1 - j), j);
     const Eigen::Vector2d before = in.line(x, y) - in.line(x - i, y - j),
                           after = in.line(x + i, y + j) - in.line(x, y);
     Eigen::Vector2d out = Eigen::Vector2d::Zero();
@@ -81,18 +85,22 @@ inline Eigen::Vector4d directLikeness(const DirectCase& in, int x, int y,
     const Eigen::Vector2d middle(4 * x + 1.5, 4 * y + 1.5);
     const Eigen::Vector2d slopeX = lineSlope(in, x, y, 2, 0), slopeY = lineSlope(in, x, y, 0, 2);
     Eigen::Matrix<double, 64, 1> video, still;
-    const Eigen::Vector2d centre = stillPixel(in.rig, middle + flow);
+    const Eigen::Vector2d shift(patchStart(x, in.video.size.width) + 3.5 - middle.x(),
+                                patchStart(y, in.video.size.height) + 3.5 - middle.y());
+    const Eigen::Vector2d centre =
+        stillPixel(in.rig, middle + shift + flow + shift.x() * slopeX + shift.y() * slopeY);
     if (!(centre.minCoeff() >= 0 && centre.x() <= in.rig.still.size.width - 1 &&
           centre.y() <= in.rig.still.size.height - 1))
         return Eigen::Vector4d::Zero();
     for (int k = 0; k < 64; ++k) {
-        const int px = k % 8, py = k / 8;
-        video[k] = in.video.at(std::clamp(4 * x - 2 + px, 0, in.video.size.width - 1),
-                               std::clamp(4 * y - 2 + py, 0, in.video.size.height - 1));
+        const int px = patchStart(x, in.video.size.width) + k % 8;
+        const int py = patchStart(y, in.video.size.height) + k / 8;
+        video[k] = in.video.at(std::min(px, in.video.size.width - 1),
+                               std::min(py, in.video.size.height - 1));
         still[k] = 0;
         for (const double dy : {-0.25, 0.25})
             for (const double dx : {-0.25, 0.25}) {
-                const Eigen::Vector2d off(px - 3.5 + dx, py - 3.5 + dy);
+                const Eigen::Vector2d off(px + dx - middle.x(), py + dy - middle.y());
                 const Eigen::Vector2d at =
                     stillPixel(in.rig, middle + flow + off + off.x() * slopeX + off.y() * slopeY);
                 still[k] += in.still.bilinear(std::clamp(at.x(), 0.0, in.still.size.width - 1.0),

@@ -16,9 +16,14 @@ struct PatchMatch {
 
 using Patch = Eigen::Matrix<double, 64, 1>;
 
+/// First column (or row) of the patch of a cell, in a picture with `pixels` columns (or rows).
+inline int patchStart(int cell, int pixels) {
+    return std::max(std::min(4 * cell - 2, pixels - 8), 0);
+}
+
 /// Compares the 8x8 patch of `a` around cell (cx, cy) with 8x8 pixels `vb` of another picture.
 inline PatchMatch matchPatch(const Grey& a, int cx, int cy, Patch vb) {
-    const int x0 = 4 * cx - 2, y0 = 4 * cy - 2;
+    const int x0 = patchStart(cx, a.size.width), y0 = patchStart(cy, a.size.height);
     Patch va;
     Eigen::Matrix<double, 64, 2> g;
     for (int i = 0; i < 64; ++i) {
@@ -46,8 +51,8 @@ inline PatchMatch matchPatch(const Grey& a, int cx, int cy, Patch vb) {
 
 /// Compares the patch of `a` around cell (cx, cy) with the patch of `b` that is displaced by `u`.
 inline PatchMatch comparePatch(const Grey& a, const Grey& b, int cx, int cy, Eigen::Vector2d u) {
-    const double bx = std::clamp(4 * cx - 2 + u.x(), -7.0, b.size.width - 2.0);
-    const double by = std::clamp(4 * cy - 2 + u.y(), -7.0, b.size.height - 2.0);
+    const double bx = std::clamp(patchStart(cx, b.size.width) + u.x(), -7.0, b.size.width - 2.0);
+    const double by = std::clamp(patchStart(cy, b.size.height) + u.y(), -7.0, b.size.height - 2.0);
     Patch vb;
     for (int i = 0; i < 64; ++i) {
         const int column = i % 8, row = i / 8;
@@ -63,11 +68,14 @@ inline PatchMatch compareBentPatch(const Grey& a, const Grey& b, int cx, int cy,
                                    const Eigen::Vector2d& u, const Eigen::Vector2d& dx,
                                    const Eigen::Vector2d& dy, int span = 4) {
     const double middle = (span - 1) / 2.0;
+    const int x0 = patchStart(cx, b.size.width), y0 = patchStart(cy, b.size.height);
+    // Position of the patch relative to the middle of the cell.
+    const double left0 = x0 - (4 * cx + 1.5), top0 = y0 - (4 * cy + 1.5);
     Patch vb;
     for (int i = 0; i < 64; ++i) {
         const int first = i % 8 / span * span, column = i % span, row = i / 8;
-        const Eigen::Vector2d block = Eigen::Vector2d(4 * cx - 2 + first, 4 * cy - 2 + row) + u +
-                                      (first + middle - 3.5) * dx + (row - 3.5) * dy;
+        const Eigen::Vector2d block = Eigen::Vector2d(x0 + first, y0 + row) + u +
+                                      (left0 + first + middle) * dx + (top0 + row) * dy;
         const double x = std::clamp(block.x(), -7.0, b.size.width + 2.0);
         const double y = std::clamp(block.y(), -7.0, b.size.height + 2.0);
         const int left = static_cast<int>(std::floor(x)) + column;

@@ -110,6 +110,24 @@ TEST(PatchFlow, OneGaussNewtonStepMatchesTheOracle) {
     EXPECT_GT(taken, kCells.width * kCells.height / 2);
 }
 
+// The second picture shows what lies beyond the border of the first one.
+TEST(PatchFlow, PatchesAtTheBorderDoNotExtendBeyondThePicture) {
+    const FlowPicture first = wavesMoved(kSize, {0, 0});
+    for (const auto& [dx, dy] : {std::pair{3, 3}, {-3, -3}}) {
+        const FlowPicture second = wavesMoved(kSize, {1.0 * dx, 1.0 * dy});
+        std::vector<float> vectors;
+        for (int i = 0; i < kCells.width * kCells.height; ++i)
+            vectors.insert(vectors.end(), {1.0F * dx, 1.0F * dy, 0, 0});
+        FlowField out = searched(Level(first), Level(second), vectors, 0);
+        const FlowPlanes field = out.planes();
+        const int left = dx > 0 ? 0 : 2, right = dx > 0 ? kCells.width - 3 : kCells.width;
+        const int top = dy > 0 ? 0 : 2, bottom = dy > 0 ? kCells.height - 3 : kCells.height;
+        for (int y = top; y < bottom; ++y)
+            for (int x = left; x < right; ++x)
+                EXPECT_LT(field.cost[y * field.pitch + x], 0.01) << x << ", " << y;
+    }
+}
+
 TEST(PatchFlow, AtTheCoarsestLevelTheSearchFindsWholePixels) {
     const FlowPicture first = wavesMoved(kSize, {0, 0}), second = wavesMoved(kSize, {-7, 5});
     const Level a(first), b(second);
@@ -163,7 +181,7 @@ TEST(PatchFlow, ACellTakesTheBestVectorOfItsNeighbours) {
 }
 
 /// Checks the costs of bent patches: the flow changes by dx and dy per pixel. `span`: see
-/// compareBentPatch(). Cells at the border are left out.
+/// compareBentPatch().
 void expectBentCosts(const Vector2d& dx, const Vector2d& dy, int span) {
     const FlowPicture first = wavesMoved(kSize, {0, 0}), second = noiseOf(kSize, 3);
     const Level a(first), b(second);
@@ -179,8 +197,8 @@ void expectBentCosts(const Vector2d& dx, const Vector2d& dy, int span) {
     const AlignStep step{a.picture(), b.picture(), out.planes(), seeds.data(), 0};
     for (int row = 0; row < kCells.height; ++row)
         alignCells(step, row, 0, kCells.width);
-    for (int y = 2; y < kCells.height - 2; ++y)
-        for (int x = 3; x < kCells.width - 3; ++x) {
+    for (int y = 0; y < kCells.height; ++y)
+        for (int x = 0; x < kCells.width; ++x) {
             const float* v = &seeds[4UL * (1UL * y * kCells.width + x)];
             const auto m = twin::compareBentPatch(greyA, greyB, x, y, {v[0], v[1]}, dx, dy, span);
             EXPECT_NEAR(step.out.cost[y * step.out.pitch + x], m.cost, kTolerance)
