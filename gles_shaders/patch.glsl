@@ -50,8 +50,8 @@ uvec3 fetchPixels(LumaLevel l, Window w) {
 
 // Starts reading a patch, displaced by u pixels. `start` is its first pixel without displacement.
 // Positions outside the pyramid level are clamped to its border.
-Window windowAt(LumaLevel l, ivec2 start, vec2 u) {
-    vec2 origin = clamp(vec2(start) + u, vec2(-7.0), vec2(l.width - 2, l.height - 2));
+Window windowAt(LumaLevel l, vec2 start, vec2 u) {
+    vec2 origin = clamp(start + u, vec2(-7.0), vec2(l.width - 2, l.height - 2));
     vec2 whole = floor(origin);
     ivec2 at = ivec2(whole);
     Window w = Window(wordAt(l, at.x >> 2, 0), at.y, uint(at.x & 3) * 8u, origin - whole, uvec3(0u));
@@ -76,7 +76,7 @@ Row nextRow(inout Window w, LumaLevel l) {
 // over the pixels.
 vec3 spreadOf(LumaLevel a, LumaLevel b, ivec2 cell, vec2 u) {
     ivec2 start = patchStart(cell, sizeOf(a));
-    Window w = windowAt(b, start, u);
+    Window w = windowAt(b, vec2(start), u);
     int first = wordAt(a, start.x >> 2, 0);
     uint shift = uint(start.x & 3) * 8u;
     vec2 sum = vec2(0.0);

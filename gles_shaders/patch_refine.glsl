@@ -16,7 +16,7 @@ void refine(vec2 known, LumaLevel l, ivec2 cell, int steps, inout vec2 best, ino
     for (int k = 0; k <= steps; ++k) {
         setMoment(9, u.x);
         setMoment(10, u.y);
-        Window w = windowAt(l, patchStart(cell, sizeOf(l)), u);
+        Window w = windowAt(l, vec2(momentAt(14 + none), momentAt(15 + none)), u);
         Sums sums = Sums(0.0, 0.0, 0.0, vec2(0.0));
         int end = w.y + kRows;
         while (w.y < end) {

@@ -6,7 +6,8 @@
 // with the pixels to the left and right of these. Nine floats follow: mean, variance (sum of
 // squared deviations), sum of the gradient (x, y), sum of the gradient times the deviation of the
 // pixel from the mean (x, y), inverse Hessian (xx, xy, yy). The next five floats belong to
-// patch_refine.glsl. The words after them are not used.
+// patch_refine.glsl. Two more are the patch's first pixel (x, y) without displacement: registers
+// for it would be missing in comparisons. The words after them are not used.
 // No GPU has enough registers for the template and a comparison. Indexing by variables makes the
 // compiler keep the array in memory; Mali's compiler does so only for more than 64 words. Here and
 // in the files that include this file, the compiler does not know the length of loops over the
@@ -71,6 +72,8 @@ vec2 loadTemplate(LumaLevel l, ivec2 cell) {
     float mean = sum / kPatchPixels, variance = max(sumSquares - sum * mean, 0.0);
     setMoment(0, mean);
     setMoment(1, variance);
+    setMoment(14, float(start.x));
+    setMoment(15, float(start.y));
     return vec2(mean, variance);
 }
 
@@ -124,7 +127,7 @@ Match matchOf(Sums sums) {
 }
 
 float costAt(vec2 known, LumaLevel l, ivec2 cell, vec2 u) {
-    Window w = windowAt(l, patchStart(cell, sizeOf(l)), u);
+    Window w = windowAt(l, vec2(momentAt(14), momentAt(15)), u);
     Sums sums = Sums(0.0, 0.0, 0.0, vec2(0.0));
     int end = w.y + kRows;
     while (w.y < end) {

@@ -44,7 +44,7 @@ float lookUp(bool ofTraced, int firstRow, vec3 at, float id, Paint paint, out ve
     vec2 low = floor(at.xy), f = at.xy - low;
     ivec2 size = ofTraced ? tracedSize() : layerSize();
     bool isLit = (ofTraced ? params.tracedIsLit : params.rerenderedIsLit) != 0 && id != float(kCatcher);
-    vec4 sum = vec4(0.0);
+    // Without light, the sum of the colours is in `light.diffuse`, which saves registers.
     Light light = Light(vec4(0.0), vec4(0.0));
     float weights = 0.0;
     for (int i = 0; i < params.texels; ++i) {
@@ -62,11 +62,12 @@ float lookUp(bool ofTraced, int firstRow, vec3 at, float id, Paint paint, out ve
             light.diffuse += w * own.diffuse;
             light.specular += w * own.specular;
         } else {
-            sum += w * (ofTraced ? texelFetch(colours, t, 0) : texelFetch(rerenderedColours, t, 0));
+            light.diffuse += w * (ofTraced ? texelFetch(colours, t, 0) : texelFetch(rerenderedColours, t, 0));
         }
     }
     float scale = 1.0 / max(weights, 1e-6);
-    found = isLit ? litColour(paint, Light(scale * light.diffuse, scale * light.specular)) : scale * sum;
+    light = Light(scale * light.diffuse, scale * light.specular);
+    found = isLit ? litColour(paint, light) : light.diffuse;
     return weights > kLeastLookUpWeight ? weights : 0.0;
 }
 
