@@ -157,9 +157,8 @@ ExitCode App::finish(std::future<std::string>& end) {
         }
         (void)writeResults(fmt::format("error: {}", error.what()), exitCode(error));
         if (!stopSignal_) throw;
-        // The error is logged here and not thrown. For a thrown error, main() would pause before
-        // the process ends, to delay systemd's restart. After a signal, the process must end
-        // without that pause.
+        // The error is logged and not thrown, because main() pauses after a thrown error to delay
+        // systemd's restart. After a signal, the process must end without that pause.
         log_.error(error.what());
         return exitCode(error);
     }

@@ -202,8 +202,7 @@ bool GuidanceLearner::add(const TrustedPairs& truth, const MatchedPictures& olde
                     added.video.dot(missing), 1});
         }
     }
-    // If the sums of squares are finite, the sums of products are finite, too, because they are not
-    // larger.
+    // The sums of products are not larger than the sums of squares, so they are finite as well.
     const double sum =
         learn.still2 + learn.video2 + learn.missing2 + held.still2 + held.video2 + held.missing2;
     if (stop.stop_requested() || !std::isfinite(sum)) return false;

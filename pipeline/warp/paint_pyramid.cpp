@@ -79,6 +79,26 @@ void addSquares(std::uint32_t roots, float weight, std::array<float, 3>& sum) {
     }
 }
 
+struct Taps {
+    int first, count;
+    std::array<float, 3> weights;
+};
+
+/// Returns the texels along a side of `side` texels whose weighted mean is texel `i` of a side of
+/// `halfSide` texels.
+Taps tapsOf(int i, int side, int halfSide) {
+    const float step = static_cast<float>(side) / static_cast<float>(halfSide);
+    const float begin = static_cast<float>(i) * step, end = begin + step;
+    Taps t{static_cast<int>(begin), 0, {}};
+    for (int k = t.first; k < side && t.count < 3; ++k) {
+        const float share =
+            std::min(end, static_cast<float>(k) + 1) - std::max(begin, static_cast<float>(k));
+        if (!(share > 1e-4F)) break;
+        t.weights[static_cast<std::size_t>(t.count++)] = share / step;
+    }
+    return t;
+}
+
 /// Computes the next smaller pyramid level. A texel is the mean of 2x2 texels. Along a side of odd
 /// length, it is a weighted mean of up to three texels.
 PaintPicture halved(const PaintPicture& picture) {
@@ -86,27 +106,11 @@ PaintPicture halved(const PaintPicture& picture) {
     const Size half{std::max(size.width / 2, 1), std::max(size.height / 2, 1)};
     PaintPicture out{half, {}};
     out.texels.reserve(static_cast<std::size_t>(half.width) * half.height);
-    struct Taps {
-        int first, count;
-        std::array<float, 3> weights;
-    };
-    const auto taps = [](int i, int side, int halfSide) {
-        const float step = static_cast<float>(side) / static_cast<float>(halfSide);
-        const float begin = static_cast<float>(i) * step, end = begin + step;
-        Taps t{static_cast<int>(begin), 0, {}};
-        for (int k = t.first; k < side && t.count < 3; ++k) {
-            const float share =
-                std::min(end, static_cast<float>(k) + 1) - std::max(begin, static_cast<float>(k));
-            if (!(share > 1e-4F)) break;
-            t.weights[static_cast<std::size_t>(t.count++)] = share / step;
-        }
-        return t;
-    };
     std::vector<Taps> columns;
     for (int x = 0; x < half.width; ++x)
-        columns.push_back(taps(x, size.width, half.width));
+        columns.push_back(tapsOf(x, size.width, half.width));
     for (int y = 0; y < half.height; ++y) {
-        const Taps rows = taps(y, size.height, half.height);
+        const Taps rows = tapsOf(y, size.height, half.height);
         for (int x = 0; x < half.width; ++x) {
             const Taps& c = columns[static_cast<std::size_t>(x)];
             std::array<float, 3> diffuse{}, facing{};

@@ -103,7 +103,7 @@ struct MirrorSurfaces {
         const auto& towards = traced.mirrors->towardsSun;
         const Eigen::Vector3f sun(towards[0], towards[1], towards[2]), wo = seenFrom(eye, i);
         const float o = normals[i].dot(wo), to = normals[i].dot(sun);
-        const Eigen::Vector3f sky = skyFor(eye, i);
+        Eigen::Vector3f sky = skyFor(eye, i);
         if (!(to > 0)) return sky;
         const Ggx ggx(alphaOf(roughness[i]));
         const Eigen::Vector3f local = frameAround(normals[i]).transpose() * (wo + sun).normalized();

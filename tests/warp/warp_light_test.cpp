@@ -42,9 +42,14 @@ Scene painted(const test::CastScene& cast) {
     return out;
 }
 
+Eigen::Vector2d placeOf(std::size_t pixel) {
+    const std::size_t row = pixel / kView.width;
+    return {static_cast<double>(pixel % kView.width), static_cast<double>(row)};
+}
+
 /// Any light that changes smoothly over the picture.
 LightWords lightAt(std::size_t pixel) {
-    const auto sum = static_cast<double>(pixel % kView.width + pixel / kView.width);
+    const double sum = placeOf(pixel).sum();
     const auto wave = [&](double per) {
         return static_cast<float>(0.4 + 0.3 * std::sin(per * sum));
     };
@@ -58,8 +63,7 @@ RenderedPicture litPicture(const test::CastScene& cast, const CameraModel& camer
     out.gloss.resize(out.id.size());
     for (std::size_t i = 0; i < out.id.size(); ++i) {
         if (out.id[i] == 0 || out.id[i] == kCatcherId) continue;
-        const Eigen::Vector2d pixel(static_cast<double>(i % kView.width),
-                                    static_cast<double>(i / kView.width));
+        const Eigen::Vector2d pixel = placeOf(i);
         const Eigen::Vector3d point =
             out.T_world_camera *
             Eigen::Vector3d(out.depth[i] * camera.unproject(pixel).homogeneous());
