@@ -100,12 +100,11 @@ HWY_INLINE void placeParts(const PatchPicture& p, int column, int row, Vector2 u
                            BentPlaces<kParts>& out) {
     const hn::CappedTag<float, BentPlaces<kParts>::kCount> d;
     const hn::RebindToSigned<decltype(d)> dInt;
-    constexpr int kSpan = kPatch / kParts;
+    constexpr int kSpan = kPatch / kParts, kBeside = (kPatch - kSpan) / 2;
     const auto toX = hn::Set(d, static_cast<float>(patchStart(column, p.width)) + u.x);
     const auto toY = hn::Set(d, static_cast<float>(patchStart(row, p.height)) + u.y);
     // Distance of the patch from the place around the middle of its cell.
-    const auto shiftX = static_cast<float>(patchShift(column, p.width));
-    const auto shiftY = static_cast<float>(patchShift(row, p.height));
+    const int shiftX = patchShift(column, p.width), shiftY = patchShift(row, p.height);
     const auto last = hn::Set(dInt, p.height - 1), zero = hn::Zero(dInt);
     const auto pitch = hn::Set(dInt, static_cast<std::int32_t>(p.pitch));
     const auto share = [&](auto value, auto whole, std::int32_t* to) HWY_ATTR {
@@ -120,8 +119,8 @@ HWY_INLINE void placeParts(const PatchPicture& p, int column, int row, Vector2 u
     for (std::size_t i = 0; i < BentPlaces<kParts>::kCount; i += hn::Lanes(d)) {
         const auto firstX = hn::Load(d, firstColumns<kParts>() + i);
         const auto firstY = hn::Load(d, rowsOfParts<kParts>() + i);
-        const auto middleX = hn::Add(firstX, hn::Set(d, shiftX - (kPatch - kSpan) / 2));
-        const auto middleY = hn::Add(firstY, hn::Set(d, shiftY - 3.5F));
+        const auto middleX = hn::Add(firstX, hn::Set(d, static_cast<float>(shiftX - kBeside)));
+        const auto middleY = hn::Add(firstY, hn::Set(d, static_cast<float>(shiftY) - 3.5F));
         const auto moved = [&](auto from, float dx, float dy) HWY_ATTR {
             return hn::MulAdd(middleX, hn::Set(d, dx), hn::MulAdd(middleY, hn::Set(d, dy), from));
         };
@@ -129,12 +128,11 @@ HWY_INLINE void placeParts(const PatchPicture& p, int column, int row, Vector2 u
             within(moved(hn::Add(firstX, toX), bend.dx.x, bend.dy.x), p.width + 6 - kSpan);
         const auto y = within(moved(hn::Add(firstY, toY), bend.dx.y, bend.dy.y), p.height + 2);
         const auto left = hn::Floor(x), top = hn::Floor(y);
+        const auto columns = hn::ConvertTo(dInt, left), rows = hn::ConvertTo(dInt, top);
         share(x, left, out.shareX + i);
         share(y, top, out.shareY + i);
-        const auto columns = hn::ConvertTo(dInt, left), rows = hn::ConvertTo(dInt, top);
         const auto offset = [&](auto lines) HWY_ATTR {
-            const auto held = hn::Min(hn::Max(lines, zero), last);
-            return hn::Add(hn::Mul(held, pitch), columns);
+            return hn::Add(hn::Mul(hn::Min(hn::Max(lines, zero), last), pitch), columns);
         };
         hn::StoreU(offset(rows), dInt, out.upper + i);
         hn::StoreU(offset(hn::Add(rows, hn::Set(dInt, 1))), dInt, out.lower + i);
