@@ -15,7 +15,7 @@ namespace mfar {
 // each pixel's surface mirrors light (GlossWords), and the distant light that it mirrors
 // (MirrorLight). From both, the mirrored light is computed for the view that is shown.
 
-/// How a pixel's surface mirrors light. `normal` is the surface normal in world coordinates on the
+/// The surface of a pixel as a mirror. `normal` is the surface normal in world coordinates on the
 /// octahedral map (Cigolle et al. 2014), with 16 bits per axis. `look` has one byte each for the
 /// roughness, the reflectance along the normal, and the share of light that the surface would
 /// mirror if that reflectance were 1. If both words are zero, the surface is unknown.

@@ -55,7 +55,7 @@ float fresnel(float facing, float cosine) {
     return facing + (1.0 - facing) * square * square * rest;
 }
 
-// How a pixel's surface mirrors light. `facing`: reflectance for light along the normal. `full`:
+// A pixel's surface as a mirror. `facing`: reflectance for light along the normal. `full`:
 // SpecularAlbedo::full(). `first`, `second`: the two texels of its row in `looks`.
 struct Mirror {
     vec3 normal;

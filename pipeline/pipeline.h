@@ -138,7 +138,7 @@ public:
     [[nodiscard]] std::vector<float> readConfidence() const;
     [[nodiscard]] std::vector<TileClass> readTileClasses() const;
     [[nodiscard]] std::vector<bool> readSearchedTiles() const;
-    /// How much of each output pixel is covered by virtual objects, [0, 1]. Without objects, the
+    /// Share of each output pixel that virtual objects cover, [0, 1]. Without objects, the
     /// result is empty.
     [[nodiscard]] std::vector<float> readShownObjects() const;
     /// Output picture as RGBA8, first row first.

@@ -26,13 +26,13 @@ inline constexpr float kOffLine = 3;
 struct Pipeline::State {
     State(const StereoRig& rig, const PipelineOptions& options);
 
-    /// What the depth measurement needs from a frame's flow step. `searched2d` has one entry per
-    /// tile: true if the tile was searched in both dimensions.
+    /// Results of a frame's flow step that the depth measurement needs. `searched2d` has one entry
+    /// per tile: true if the tile was searched in both dimensions.
     struct DepthMatches {
         EpipolarFlow::Cells vectors;
         std::vector<bool> searched2d;
     };
-    /// What to do about the depth of one frame. If `measures` is false: nothing. If `measures` is
+    /// Plan for the depth of one frame. If `measures` is false: nothing. If `measures` is
     /// true but `isDue` is false: the last depth is moved to this frame. If both are true: depth is
     /// measured in `where` [video px]. `matches` is empty if the flow was not searched along
     /// epipolar lines.

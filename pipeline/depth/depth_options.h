@@ -4,7 +4,7 @@
 
 namespace mfar {
 
-/// How to choose the keyframe, an earlier frame with which the new frame is matched to measure
+/// Rule that chooses the keyframe, an earlier frame with which the new frame is matched to measure
 /// depth. Fixed: the newest frame that is at least `distance` frames old. Angle: the newest frame
 /// with a parallax of at least `angle`. Score: the frame with the smallest expected error, see
 /// Keyframes::choose().

@@ -19,7 +19,7 @@ struct FlowCell {
     float texture = 0;
 };
 
-/// What the epipolar search knows about a cell's flow. `error` is the two-way error [px], see eq. 2
+/// Result of the epipolar search about a cell's flow. `error` is the two-way error [px], see eq. 2
 /// of the paper (docs/paper.md).
 struct ErrorCell {
     float error = 0;

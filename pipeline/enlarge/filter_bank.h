@@ -17,7 +17,7 @@ class FilterBankError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// How much of the video's finest detail is replaced by the still's; see params::kGuideReach. If
+/// Shares in which the still's finest detail replaces the video's; see params::kGuideReach. If
 /// both factors are zero, there is no guidance. If both sensors have the same exposure, the factors
 /// are similar.
 struct Guidance {
@@ -32,7 +32,7 @@ struct Guidance {
     bool operator==(const Guidance&) const = default;
 };
 
-/// How much variance of the video's finest detail a correctly matched still usually leaves
+/// Variance of the video's finest detail that a correctly matched still usually leaves
 /// unexplained: noise + share * (variance of the finest detail). See params::kFineRoom. If noise is
 /// 0, this is not known yet.
 struct FineMatch {

@@ -29,7 +29,7 @@ public:
     /// pixel [grey levels].
     [[nodiscard]] Phases target(int x, int y) const;
     [[nodiscard]] double trustedShare() const { return trustedShare_; }
-    /// How much sharper the still is than the video. It is the variance of the still among the
+    /// Ratio of the still's sharpness to the video's. It is the variance of the still among the
     /// sub-pixels of a pixel, divided by the same variance of the video enlarged by Keys' cubic,
     /// over trusted pixels with structure. If it is at most one, the still is no sharper.
     [[nodiscard]] double sharpness() const { return sharpness_; }

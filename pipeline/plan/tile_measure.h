@@ -20,7 +20,7 @@ struct TileMeasure {
     /// ChangeBounds::mean and the noise in the tile.
     std::uint16_t changedCells = 0;
     float noise = 0;  ///< standard deviation of the video's noise [grey levels]
-    /// How much structure the luma has that a match can use. The luma is averaged over 2x2 pixels,
+    /// Structure of the luma that a match can use. The luma is averaged over 2x2 pixels,
     /// and a plane fitted to 8x8 pixels is subtracted, because a plane cannot be matched. The
     /// result is the sum of squares of the rest, averaged over 9 positions in the tile.
     float structure = 0;
