@@ -22,8 +22,8 @@ namespace mfar::simd::HWY_NAMESPACE {
 namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 
-constexpr int kPatch = 8;
-constexpr int kCellSize = 4;  // side of a cell [px]; its patch begins 2 px to the left and above
+constexpr int kPatch = kPatchSide;
+constexpr int kCellSize = kCell;
 constexpr float kPixels = params::kPatchPixels;
 // Interpolated pixels of the searched picture are stored in steps of 1/32 grey level.
 constexpr int kValueBits = 5;
