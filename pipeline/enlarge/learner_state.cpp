@@ -13,13 +13,13 @@ using namespace enlarge;
 
 constexpr char kMagic[] = "mfarlern";
 constexpr std::size_t kMagicSize = 8;
-constexpr std::array<std::uint64_t, 4> kHeader{6, kUnique, kTaps, kPhases};
+constexpr std::array<std::uint64_t, 4> kHeader{7, kUnique, kTaps, kPhases};
 // Older versions of the format, which can still be read. Version 1 has no guidance. Version 2 has
 // one factor of guidance (ten numbers). Version 3 has both factors, but no FineMatch. Version 4 has
 // no tone curve. In versions 4 and 5, FineMatch was measured within blocks of 2x2 pixels; it is
-// skipped and learned again.
+// skipped and learned again. Versions 5 and 6 do not say whether the tone curve is in use; it is.
 constexpr std::uint64_t kWithoutGuidance = 1, kOneFactor = 2, kTwoFactors = 3, kWithoutTone = 4,
-                        kFineInBlocks = 5;
+                        kFineInBlocks = 5, kToneInUse = 6;
 constexpr int kOneFactorNumbers = 10;
 constexpr std::size_t kChecksumSize = 4;
 constexpr std::size_t kMostKeySize = 4096;
@@ -112,6 +112,13 @@ public:
         out.pixels = real();
         return out;
     }
+    std::array<double, ToneLearner::kNumbers> tone() {
+        std::array<double, ToneLearner::kNumbers> out{};
+        for (double& value : std::span(out).first(ToneSums::kNumbers))
+            value = real();
+        out.back() = version_ > kToneInUse ? real() : 1;
+        return out;
+    }
     void finish() const {
         if (at_ != bytes_.size()) refuse("is longer than this program expects");
     }
@@ -183,7 +190,7 @@ EnlargerLearner EnlargerLearner::restored(std::span<const std::uint8_t> bytes,
         if (in.version() > kFineInBlocks && !out.fineMatch_.restore(fineMatch))
             in.refuse("has values of fine_noise or fine_share that are out of range");
     }
-    if (in.version() >= kFineInBlocks && !out.tone_.restore(in.reals<ToneLearner::kNumbers>()))
+    if (in.version() >= kFineInBlocks && !out.tone_.restore(in.tone()))
         in.refuse("has values of the tone curve that are out of range");
     in.finish();
     if (!out.putInPlace(weights, learned)) in.refuse("has filter weights that are too large");

@@ -7,10 +7,14 @@
 namespace mfar::enlarge {
 namespace {
 
-constexpr double kLeastOfRange = 100;   // ranges with fewer pixels are left out
-constexpr double kKeptPerStill = 0.25;  // factor of the sums over older stills with every new still
-// A tone curve is replaced if its mean error exceeds this [grey levels].
+constexpr double kLeastOfRange = 100;  // ranges with fewer pixels are left out
+// The sums over older stills are multiplied by this factor when a still agrees with them. A still
+// that contradicts them replaces them.
+constexpr double kKeptPerStill = 0.6;
+// A tone curve contradicts a still if its mean error exceeds both kWrongTone [grey levels] and
+// kWrongShare times the error without a tone curve.
 constexpr double kWrongTone = 2;
+constexpr double kWrongShare = 0.25;
 constexpr double kMostOfRange = 1e12;
 
 /// Returns the level at which a still showed `level` before its tone curve was applied.
@@ -77,6 +81,17 @@ ToneSums::Curve ToneSums::curve() const {
     return out;
 }
 
+StillTone ToneSums::tone() const {
+    const Curve levels = curve();
+    StillTone out;
+    float least = 0;
+    for (std::size_t i = 0; i < levels.size(); ++i) {
+        least = std::max(least, levels[i]);
+        out.levels[i] = static_cast<std::uint8_t>(std::lround(std::min(least, 255.0F)));
+    }
+    return out;
+}
+
 double ToneSums::distanceFrom(const StillTone& tone) const {
     double sum = 0, count = 0;
     for (const Range& range : ranges_) {
@@ -115,26 +130,30 @@ bool ToneSums::restore(const std::array<double, kNumbers>& numbers) {
     return true;
 }
 
-void ToneLearner::add(const ToneSums& seen, const StillTone& tone) {
-    sums_.fade(kKeptPerStill);
-    sums_.add(seen, tone);
-    decide();
+void ToneLearner::add(const ToneSums& seen, const StillTone& applied) {
+    ToneSums newest;
+    newest.add(seen, applied);
+    const double allowed = std::max(kWrongTone, kWrongShare * newest.distanceFrom({}));
+    const bool agrees = newest.distanceFrom(sums_.tone()) <= allowed;
+    sums_.fade(agrees ? kKeptPerStill : 0);
+    sums_.add(newest, {});
+    if (newest.distanceFrom(tone_) > kWrongTone) tone_ = agrees ? sums_.tone() : StillTone{};
+}
+
+std::array<double, ToneLearner::kNumbers> ToneLearner::stored() const {
+    std::array<double, kNumbers> out{};
+    std::ranges::copy(sums_.stored(), out.begin());
+    out.back() = tone_.isIdentity() ? 0 : 1;
+    return out;
 }
 
 bool ToneLearner::restore(const std::array<double, kNumbers>& numbers) {
-    if (!sums_.restore(numbers)) return false;
-    decide();
+    std::array<double, ToneSums::kNumbers> sums{};
+    std::ranges::copy_n(numbers.begin(), sums.size(), sums.begin());
+    const double inUse = numbers.back();
+    if (!(inUse == 0 || inUse == 1) || !sums_.restore(sums)) return false;
+    tone_ = inUse == 1 ? sums_.tone() : StillTone{};
     return true;
-}
-
-void ToneLearner::decide() {
-    if (sums_.distanceFrom(tone_) <= kWrongTone) return;
-    const ToneSums::Curve curve = sums_.curve();
-    float least = 0;
-    for (std::size_t i = 0; i < curve.size(); ++i) {
-        least = std::max(least, curve[i]);  // a brighter pixel of the still stays brighter
-        tone_.levels[i] = static_cast<std::uint8_t>(std::lround(std::min(least, 255.0F)));
-    }
 }
 
 }  // namespace mfar::enlarge

@@ -22,6 +22,9 @@ public:
     /// Returns the video's level for each level of the still. Ranges with few pixels are not used
     /// for the interpolation.
     [[nodiscard]] Curve curve() const;
+    /// Returns curve(), made non-decreasing and rounded to whole grey levels. A brighter pixel of
+    /// the still stays brighter.
+    [[nodiscard]] StillTone tone() const;
     /// Returns the mean absolute error of `tone` over all summed pairs: the difference between the
     /// video's grey level and tone(still's grey level) [grey levels].
     [[nodiscard]] double distanceFrom(const StillTone& tone) const;
@@ -39,25 +42,25 @@ private:
     std::array<Range, kRanges> ranges_;
 };
 
-/// Learns FilterBank::tone() from matched stills. Older stills are soon forgotten, because the
-/// exposure of the sensors may change.
+/// Learns FilterBank::tone() from matched stills. A curve is used once two successive stills agree
+/// on it, and until a still contradicts it. If the exposure changes from still to still, no curve
+/// is right for the next still, and none is used.
 class ToneLearner {
 public:
     /// Learns from the pairs `seen`. Each pair consists of a still's grey level and the video's
-    /// grey level at the same place. `tone` is the tone curve that was already applied to the
+    /// grey level at the same place. `applied` is the tone curve that was already applied to the
     /// still.
-    void add(const ToneSums& seen, const StillTone& tone);
+    void add(const ToneSums& seen, const StillTone& applied);
     [[nodiscard]] const StillTone& tone() const { return tone_; }
 
     /// stored() returns the state of the learner, to be kept for a later run of mfard. restore()
-    /// sets it. It returns false if a number is out of range.
-    static constexpr std::size_t kNumbers = ToneSums::kNumbers;
-    [[nodiscard]] std::array<double, kNumbers> stored() const { return sums_.stored(); }
+    /// sets it. It returns false if a number is out of range. The last number is 1 if a curve is in
+    /// use, otherwise 0.
+    static constexpr std::size_t kNumbers = ToneSums::kNumbers + 1;
+    [[nodiscard]] std::array<double, kNumbers> stored() const;
     [[nodiscard]] bool restore(const std::array<double, kNumbers>& numbers);
 
 private:
-    void decide();
-
     ToneSums sums_;
     StillTone tone_;
 };

@@ -18,9 +18,14 @@ double shownBy(const SensorPair& pair, double level) {
     return 255 * pair.gain * std::pow(level / 255, pair.gamma);
 }
 
-ToneLearner afterOneStill(const SensorPair& pair) {
+void addStill(ToneLearner& learner, const SensorPair& pair) {
+    learner.add(TrustedPairs(matchedPictures(sharpDiscs(1), pair)).toneSums(), {});
+}
+
+ToneLearner afterTwoStills(const SensorPair& pair) {
     ToneLearner out;
-    out.add(TrustedPairs(matchedPictures(sharpDiscs(1), pair)).toneSums(), {});
+    for (int i = 0; i < 2; ++i)
+        addStill(out, pair);
     return out;
 }
 
@@ -43,27 +48,25 @@ MatchedPictures toned(const SensorPair& pair, const StillTone& tone) {
 TEST(ToneLearner, EqualExposureGivesTheIdentityCurve) {
     EXPECT_TRUE(ToneLearner().tone().isIdentity());
     EXPECT_TRUE(FilterBank::prior().tone().isIdentity());
-    EXPECT_TRUE(afterOneStill({.videoNoise = 2}).tone().isIdentity());
+    EXPECT_TRUE(afterTwoStills({.videoNoise = 2}).tone().isIdentity());
 }
 
 TEST(ToneLearner, FindsTheCurveFromTheStillToTheVideo) {
     for (const SensorPair& pair : {kDarker, SensorPair{.gain = 1.0, .gamma = 0.8}})
-        expectUndoes(afterOneStill(pair).tone(), pair);
+        expectUndoes(afterTwoStills(pair).tone(), pair);
 }
 
-TEST(ToneLearner, TheLearnedCurveNeverFalls) {
+TEST(ToneSums, TheCurveNeverFalls) {
     ToneSums sums;
     for (const auto& [still, video] : {std::pair{40, 90}, {100, 60}, {200, 150}})
         sums.add(still, video, 1000);
-    ToneLearner learner;
-    learner.add(sums, {});
-    const auto& levels = learner.tone().levels;
-    EXPECT_TRUE(std::ranges::is_sorted(levels));
-    EXPECT_FALSE(learner.tone().isIdentity());
+    const StillTone tone = sums.tone();
+    EXPECT_TRUE(std::ranges::is_sorted(tone.levels));
+    EXPECT_FALSE(tone.isIdentity());
 }
 
 TEST(ToneLearner, StillsCorrectedWithTheLearnedCurveDoNotChangeIt) {
-    ToneLearner learner = afterOneStill(kDarker);
+    ToneLearner learner = afterTwoStills(kDarker);
     const StillTone first = learner.tone();
     for (int i = 0; i < 4; ++i)
         learner.add(TrustedPairs(toned(kDarker, learner.tone())).toneSums(), learner.tone());
@@ -71,19 +74,58 @@ TEST(ToneLearner, StillsCorrectedWithTheLearnedCurveDoNotChangeIt) {
 }
 
 TEST(ToneLearner, FollowsANewExposure) {
-    ToneLearner learner = afterOneStill(kDarker);
+    ToneLearner learner = afterTwoStills(kDarker);
     for (int i = 0; i < 5; ++i)
         learner.add(TrustedPairs(toned({.gain = 0.9}, learner.tone())).toneSums(), learner.tone());
     expectUndoes(learner.tone(), {.gain = 0.9});
 }
 
+TEST(ToneLearner, ACurveIsUsedOnlyOnceASecondStillAgrees) {
+    ToneLearner learner;
+    addStill(learner, kDarker);
+    EXPECT_TRUE(learner.tone().isIdentity());
+    addStill(learner, kDarker);
+    expectUndoes(learner.tone(), kDarker);
+}
+
+TEST(ToneLearner, AStillThatContradictsTheCurveEndsItsUse) {
+    ToneLearner learner = afterTwoStills(kDarker);
+    learner.add(TrustedPairs(toned({.gain = 0.9}, learner.tone())).toneSums(), learner.tone());
+    EXPECT_TRUE(learner.tone().isIdentity());
+}
+
+TEST(ToneLearner, ExposuresThatDifferFromStillToStillGiveNoCurve) {
+    ToneLearner learner;
+    for (int i = 0; i < 6; ++i) {
+        addStill(learner, i % 2 == 0 ? kDarker : SensorPair{.gain = 0.9});
+        EXPECT_TRUE(learner.tone().isIdentity()) << i;
+    }
+}
+
+TEST(ToneLearner, ACurveThatIsNotUsedIsNotUsedAfterARestartEither) {
+    ToneLearner learner, restored;
+    addStill(learner, kDarker);
+    ASSERT_TRUE(restored.restore(learner.stored()));
+    EXPECT_TRUE(restored.tone().isIdentity());
+    addStill(restored, kDarker);
+    expectUndoes(restored.tone(), kDarker);
+}
+
 TEST(ToneLearner, StoredNumbersOutOfRangeAreRefused) {
-    ToneLearner learner = afterOneStill(kDarker);
+    ToneLearner learner = afterTwoStills(kDarker);
     const auto good = learner.stored();
     const StillTone tone = learner.tone();
     constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-    for (const auto& [at, value] :
-         {std::pair{0, -1.0}, {0, 1e13}, {1, 1e9}, {2, 1e9}, {0, kNan}, {1, kNan}, {2, kNan}}) {
+    for (const auto& [at, value] : {std::pair{0, -1.0},
+                                    {0, 1e13},
+                                    {1, 1e9},
+                                    {2, 1e9},
+                                    {0, kNan},
+                                    {1, kNan},
+                                    {2, kNan},
+                                    {48, kNan},
+                                    {48, 0.5},
+                                    {48, 2.0}}) {
         auto bad = good;
         bad[static_cast<std::size_t>(at)] = value;
         EXPECT_FALSE(learner.restore(bad)) << at << " " << value;
@@ -96,8 +138,9 @@ TEST(ToneLearner, StoredNumbersOutOfRangeAreRefused) {
 
 TEST(EnlargerLearner, TheToneCurveIsLearnedWithTheFilters) {
     EnlargerLearner learner;
-    EXPECT_EQ(learner.add(matchedPictures(sharpDiscs(1), kDarker)),
-              EnlargerLearner::Outcome::Replaced);
+    for (const int scene : {1, 5})
+        EXPECT_EQ(learner.add(matchedPictures(sharpDiscs(scene), kDarker)),
+                  EnlargerLearner::Outcome::Replaced);
     expectUndoes(learner.filters()->tone(), kDarker);
 }
 
@@ -110,7 +153,8 @@ TEST(EnlargerLearner, GuidanceIsLearnedOnlyFromStillsWithThePresentToneCurve) {
     EXPECT_EQ(learner.addOlder(noisy, older), EnlargerLearner::Outcome::Refused);
     EXPECT_EQ(learner.addOlder(noisy, noisy), EnlargerLearner::Outcome::Replaced);
     EXPECT_TRUE(learner.filters()->guidance().any());
-    learner.add(matchedPictures(sharpDiscs(1), kDarker));
+    for (const int scene : {1, 5})
+        learner.add(matchedPictures(sharpDiscs(scene), kDarker));
     ASSERT_FALSE(learner.filters()->tone().isIdentity());
     EXPECT_FALSE(learner.filters()->guidance().any())
         << "with another tone curve, guidance must be learned anew";
@@ -119,7 +163,8 @@ TEST(EnlargerLearner, GuidanceIsLearnedOnlyFromStillsWithThePresentToneCurve) {
 TEST(EnlargerLearner, AnOlderStillWithoutToneCurveGetsTheCurveOfNewStills) {
     constexpr SensorPair kNoisyAndDarker{.videoNoise = 4, .gain = 0.7, .gamma = 1.3};
     EnlargerLearner learner;
-    learner.add(matchedPictures(sharpDiscs(1), kNoisyAndDarker));
+    for (const int scene : {1, 2})
+        learner.add(matchedPictures(sharpDiscs(scene), kNoisyAndDarker));
     const StillTone tone = learner.filters()->tone();
     ASSERT_FALSE(tone.isIdentity());
     MatchedPictures older = matchedPictures(sharpDiscs(5), kNoisyAndDarker);
