@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <utility>
 
 namespace mfar {
 namespace {
@@ -71,6 +72,10 @@ EnlargerLearner::Outcome EnlargerLearner::add(const MatchedPictures& pictures,
     }
     const StillSums still = sumsOf(pictures, pairs, stop);
     if (stop.stop_requested()) return Outcome::Stopped;
+    if (isOutlier(still)) {
+        ++counts_.refused;
+        return Outcome::Refused;
+    }
     fineMatch_.add(pictures, stop);
     if (stop.stop_requested()) return Outcome::Stopped;
     learnTone(pairs, pictures.tone);
@@ -180,6 +185,19 @@ EnlargerLearner::StillSums EnlargerLearner::sumsOf(const MatchedPictures& pictur
         }
     }
     return out;
+}
+
+bool EnlargerLearner::isOutlier(const StillSums& still) {
+    double cubic = 0, inPlace = 0;
+    for (const SumsOfClasses* part : {&still.learn, &still.choose, &still.check})
+        for (int i = 0; i < kUnique; ++i) {
+            const ClassSums sums = (*part)[i].turnedToo();
+            cubic += sums.squares;
+            inPlace += sums.errorOf(current_[static_cast<std::size_t>(i)]);
+        }
+    const bool contradicts = counts_.stills > 0 && inPlace > cubic;
+    const bool didBefore = std::exchange(contradicted_, contradicts);
+    return contradicts && !didBefore;
 }
 
 ClassWeights EnlargerLearner::solved(int unique) const {

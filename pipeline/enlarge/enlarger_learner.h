@@ -37,7 +37,8 @@ public:
         Kept,      ///< learned from the still, but the new filters are not better
         Repeated,  ///< nothing learned: the still shows nothing new
         Stopped,   ///< nothing learned: `stop` was requested
-        Refused,   ///< nothing learned: few trusted pixels, or a still no sharper than the video
+        Refused,   ///< nothing learned: few trusted pixels, a still no sharper than the video, or
+                   ///< a still that contradicts the learned filters
     };
     /// Learns from a still. If `stop` is requested, the call returns soon and nothing is learned.
     Outcome add(const MatchedPictures& pictures, const std::stop_token& stop = {});
@@ -80,6 +81,11 @@ private:
     [[nodiscard]] StillSums sumsOf(const MatchedPictures& pictures,
                                    const enlarge::TrustedPairs& pairs,
                                    const std::stop_token& stop) const;
+    /// True if the learned filters are worse than Keys' cubic on this still, but were not on the
+    /// one before. Such a still is probably out of focus, and learning from it would discard all
+    /// filters. If the next still contradicts the filters as well, the lens or the sensor has
+    /// changed.
+    [[nodiscard]] bool isOutlier(const StillSums& still);
     bool choose(const enlarge::SumsOfClasses& check);
     [[nodiscard]] enlarge::ClassWeights solved(int unique) const;
     void learnTone(const enlarge::TrustedPairs& pairs, const StillTone& applied);
@@ -90,6 +96,7 @@ private:
 
     std::vector<enlarge::ClassWeights> prior_, current_;
     std::vector<bool> learned_;
+    bool contradicted_ = false;  // see isOutlier()
     enlarge::SumsOfClasses sums_, held_;
     enlarge::GuidanceLearner guidance_;
     enlarge::FineMatchLearner fineMatch_;

@@ -101,6 +101,18 @@ TEST(EnlargerLearner, StillsOutOfFocusAreRefused) {
     EXPECT_TRUE(sameFilters(*learner.filters(), FilterBank::prior()));
 }
 
+TEST(EnlargerLearner, ASingleSoftStillIsRefusedButNotASecondOne) {
+    constexpr SensorPair kSharp{.videoBlur = 1}, kSoft{.videoBlur = 1, .stillBlur = 12};
+    EnlargerLearner learner = learned(kSharp, 3);
+    const auto before = learner.filters();
+    EXPECT_EQ(learner.add(matchedPictures(sharpDiscs(11), kSoft)), Outcome::Refused);
+    EXPECT_EQ(learner.filters(), before);
+    EXPECT_EQ(learner.add(matchedPictures(sharpDiscs(12), kSharp)), Outcome::Replaced);
+    EXPECT_EQ(learner.add(matchedPictures(sharpDiscs(13), kSoft)), Outcome::Refused);
+    EXPECT_EQ(learner.add(matchedPictures(sharpDiscs(14), kSoft)), Outcome::Replaced)
+        << "the lens has changed";
+}
+
 TEST(EnlargerLearner, BadStillsNeverGiveFiltersWorseThanTheCubic) {
     for (const SensorPair& good : {SensorPair{}, SensorPair{.videoBlur = 1, .videoNoise = 2}}) {
         EnlargerLearner learner;
