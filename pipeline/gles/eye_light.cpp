@@ -50,11 +50,19 @@ void EyeLight::setTracedPicture(const TracedPicture& traced, const TracedTexture
         diffuse_ = lightTexture(traced.camera.size);
         specular_ = lightTexture(traced.camera.size);
         target_ = gpu::Framebuffer(std::array<const gpu::Texture*, 2>{&diffuse_, &specular_});
+        clear();
     }
     if (mirrorsMove() && mirrors_ != traced.mirrors) {
         mirrors_ = traced.mirrors;
         uploadTables();
     }
+}
+
+void EyeLight::clear() const {
+    constexpr std::array<GLfloat, 4> kDark{};
+    target_.bind();
+    for (GLint i = 0; i < 2; ++i)
+        glClearBufferfv(GL_COLOR, i, kDark.data());
 }
 
 bool EyeLight::mirrorsMove() const {
