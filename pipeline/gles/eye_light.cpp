@@ -117,7 +117,7 @@ EyeLight::Params EyeLight::paramsFor(const Eigen::Vector3d& eye) const {
 }
 
 void EyeLight::run(const Eigen::Vector3d& eye, const gpu::Texture& rays) {
-    if (!isLit() || eye_ == eye) return;
+    if (!isLit() || (eye_ && (*eye_ == eye || !mirrorsMove()))) return;
     eye_ = eye;
     const gpu::Scissor scissor(traced_->bounds);
     pass_.run(paramsFor(eye),

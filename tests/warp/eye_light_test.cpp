@@ -126,6 +126,30 @@ TEST_F(EyeLightGl, WithoutGlossOrWithAnotherCameraTheLightStays) {
     }
 }
 
+// The test overwrites the result. A pass that runs again would restore it.
+TEST_F(EyeLightGl, RunsOncePerPictureIfTheLightCannotChange) {
+    test::MirrorSurfaces s(test::smoothLight());
+    for (std::size_t i = 0; i < s.points.size(); ++i)
+        s.setLight(i, {1, 2, 3});
+    for (const bool moves : {true, false}) {
+        if (!moves) s.traced.gloss.clear();
+        OfGles gles(s.traced);
+        const auto redAt = [&](const Eigen::Vector3d& eye) {
+            gles.light.run(eye, gles.rays);
+            return gles.light.specular().readRgba32F().front();
+        };
+        EXPECT_NE(redAt({1, 2, 3}), 0);
+        const gpu::Framebuffer overwritten(gles.light.specular());
+        overwritten.bind();
+        constexpr std::array<GLfloat, 4> kDark{};
+        glClearBufferfv(GL_COLOR, 0, kDark.data());
+        EXPECT_EQ(redAt({1, 2, 3}), 0) << "the eye is the same";
+        EXPECT_EQ(redAt({3, 2, 1}) != 0, moves);
+        gles.light.setTracedPicture(gles.traced, gles.textures);
+        EXPECT_NE(redAt({3, 2, 1}), 0) << "the picture is new";
+    }
+}
+
 // Look-ups next to the bounds multiply the light outside by 0. If it were NaN, the sum would be
 // NaN.
 TEST_F(EyeLightGl, LightOutsideTheBoundsOfAllSurfacesIsZero) {
