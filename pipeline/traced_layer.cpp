@@ -2,7 +2,6 @@
 
 #include "pipeline/scene/scene_parts.h"
 #include "pipeline/slices/traced_renderer.h"
-#include "pipeline/slices/view_change.h"
 #include "pipeline/warp/warp.h"
 
 #include <utility>
@@ -17,9 +16,9 @@ struct TracedLayer::State {
 
     void take(const RenderedPicture& picture) {
         if (picture.scene != scene) {
-            const bool sameModels = scene && sameObjects(*scene, *picture.scene);
+            // Even if only the light is new, re-rendered pixels must be discarded.
             scene = picture.scene;
-            if (!sameModels) warp.setScene(*scene);  // light alone does not change silhouettes
+            warp.setScene(*scene);
         }
         warp.setTracedPicture(tracedPicture(picture));
         shown = &picture;

@@ -1,11 +1,31 @@
 #include "base/gl/texture.h"
 
+#include "base/gl/validation.h"
+
 #include <array>
 #include <cassert>
+#include <limits>
 #include <string>
 #include <utility>
 
 namespace mfar::gpu {
+
+namespace {
+
+/// Makes all texels of the bound texture NaN if they are half floats.
+void fillWithNan(Size size, TexelFormat format) {
+    GLenum layout = GL_RGBA;
+    if (format == TexelFormat::R16F) layout = GL_RED;
+    if (format == TexelFormat::Rg16F) layout = GL_RG;
+    if (layout == GL_RGBA && format != TexelFormat::Rgba16F) return;
+    const std::vector<float> texels(std::size_t{4} * size.width * size.height,
+                                    std::numeric_limits<float>::quiet_NaN());
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, size.width, size.height, layout, GL_FLOAT,
+                    texels.data());
+}
+
+}  // namespace
 
 Texture::Texture(Size size, TexelFormat format, Filter filter, int levels)
     : size_(size), format_(format) {
@@ -31,6 +51,7 @@ Texture::Texture(Size size, TexelFormat format, Filter filter, int levels)
         glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_SWIZZLE_G, GL_RED);
         glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_SWIZZLE_B, GL_RED);
     }
+    if (Validation::active() != nullptr) fillWithNan(size, format);
     checkErrors("Texture");
 }
 

@@ -50,11 +50,19 @@ void EyeLight::setTracedPicture(const TracedPicture& traced, const TracedTexture
         diffuse_ = lightTexture(traced.camera.size);
         specular_ = lightTexture(traced.camera.size);
         target_ = gpu::Framebuffer(std::array<const gpu::Texture*, 2>{&diffuse_, &specular_});
+        clear();
     }
     if (mirrorsMove() && mirrors_ != traced.mirrors) {
         mirrors_ = traced.mirrors;
         uploadTables();
     }
+}
+
+void EyeLight::clear() const {
+    constexpr std::array<GLfloat, 4> kDark{};
+    target_.bind();
+    for (GLint i = 0; i < 2; ++i)
+        glClearBufferfv(GL_COLOR, i, kDark.data());
 }
 
 bool EyeLight::mirrorsMove() const {
@@ -109,7 +117,7 @@ EyeLight::Params EyeLight::paramsFor(const Eigen::Vector3d& eye) const {
 }
 
 void EyeLight::run(const Eigen::Vector3d& eye, const gpu::Texture& rays) {
-    if (!isLit() || eye_ == eye) return;
+    if (!isLit() || (eye_ && (*eye_ == eye || !mirrorsMove()))) return;
     eye_ = eye;
     const gpu::Scissor scissor(traced_->bounds);
     pass_.run(paramsFor(eye),

@@ -26,13 +26,15 @@ public:
     void run(const Eigen::Vector3d& eye, const gpu::Texture& rays);
 
     /// RGBA16F textures, see struct Light in warp_light.glsl. Their size is that of the traced
-    /// picture, or one texel before the first run().
+    /// picture, or one texel before the first run(). Outside TracedPicture::bounds, all values are
+    /// finite.
     [[nodiscard]] const gpu::Texture& diffuse() const { return diffuse_; }
     [[nodiscard]] const gpu::Texture& specular() const { return specular_; }
 
 private:
     using Params = params::EyeLight;
     void uploadTables();
+    void clear() const;
     [[nodiscard]] bool mirrorsMove() const;
     [[nodiscard]] Params paramsFor(const Eigen::Vector3d& eye) const;
 

@@ -2,9 +2,11 @@
 
 #include "base/srgb.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace mfar::gles {
@@ -32,11 +34,15 @@ Texel texelOf(std::uint32_t word) {
 }
 
 gpu::Texture textureOf(const std::vector<PaintPicture>& pyramid, std::uint32_t PaintWords::* part) {
-    gpu::Texture out(pyramid.front().size, gpu::TexelFormat::Srgb8Alpha8, gpu::Filter::Linear,
-                     static_cast<int>(pyramid.size()));
+    const std::vector<PaintWords>& all = pyramid.front().texels;
+    const bool isUniform = std::ranges::all_of(
+        all, [&](const PaintWords& words) { return words.*part == all.front().*part; });
+    const auto levels = std::span(pyramid).last(isUniform ? 1 : pyramid.size());
+    gpu::Texture out(levels.front().size, gpu::TexelFormat::Srgb8Alpha8, gpu::Filter::Linear,
+                     static_cast<int>(levels.size()));
     std::vector<Texel> texels;
     int level = 0;
-    for (const PaintPicture& picture : pyramid) {
+    for (const PaintPicture& picture : levels) {
         texels.clear();
         for (const PaintWords& words : picture.texels)
             texels.push_back(texelOf(words.*part));

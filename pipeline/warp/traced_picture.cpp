@@ -219,6 +219,8 @@ TracedPicture withSurfaces(const RenderedPicture& picture) {
                     {},
                     {}};
     forgetGlossOfMoving(picture, r.gloss);
+    const auto isUnknown = [](const GlossWords& words) { return words == GlossWords{}; };
+    if (std::ranges::all_of(r.gloss, isUnknown)) r.gloss.clear();
     r.depth.resize(count);
     r.surface.resize(count);
     for (std::size_t i = 0; i < count; ++i) {

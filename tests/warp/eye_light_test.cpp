@@ -1,3 +1,4 @@
+#include "base/gl/validation.h"
 #include "pipeline/gles/eye_light.h"
 #include "pipeline/simd/moving_mirrors.h"
 #include "tests/engine/gl_test.h"
@@ -5,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -121,6 +123,52 @@ TEST_F(EyeLightGl, WithoutGlossOrWithAnotherCameraTheLightStays) {
         const std::vector<float> specular = gles.light.specular().readRgba32F();
         for (std::size_t i = 0; i < s.points.size(); ++i)
             expectNear(specular, i, unpackedWords(traced.light[i]).specular);
+    }
+}
+
+// The test overwrites the result. A pass that runs again would restore it.
+TEST_F(EyeLightGl, RunsOncePerPictureIfTheLightCannotChange) {
+    test::MirrorSurfaces s(test::smoothLight());
+    for (std::size_t i = 0; i < s.points.size(); ++i)
+        s.setLight(i, {1, 2, 3});
+    for (const bool moves : {true, false}) {
+        if (!moves) s.traced.gloss.clear();
+        OfGles gles(s.traced);
+        const auto redAt = [&](const Eigen::Vector3d& eye) {
+            gles.light.run(eye, gles.rays);
+            return gles.light.specular().readRgba32F().front();
+        };
+        EXPECT_NE(redAt({1, 2, 3}), 0);
+        const gpu::Framebuffer overwritten(gles.light.specular());
+        overwritten.bind();
+        constexpr std::array<GLfloat, 4> kDark{};
+        glClearBufferfv(GL_COLOR, 0, kDark.data());
+        EXPECT_EQ(redAt({1, 2, 3}), 0) << "the eye is the same";
+        EXPECT_EQ(redAt({3, 2, 1}) != 0, moves);
+        gles.light.setTracedPicture(gles.traced, gles.textures);
+        EXPECT_NE(redAt({3, 2, 1}), 0) << "the picture is new";
+    }
+}
+
+// Look-ups next to the bounds multiply the light outside by 0. If it were NaN, the sum would be
+// NaN.
+TEST_F(EyeLightGl, LightOutsideTheBoundsOfAllSurfacesIsZero) {
+    test::MirrorSurfaces s(test::smoothLight());
+    s.traced.bounds = {8, 16, 16, 32};
+    for (std::size_t i = 0; i < s.points.size(); ++i)
+        s.setLight(i, {1, 2, 3});
+    std::optional<gpu::Validation> nanInNewTextures(std::in_place);
+    OfGles gles(s.traced);
+    nanInNewTextures.reset();
+    gles.light.run({1, 2, 3}, gles.rays);
+    for (const gpu::Texture* light : {&gles.light.diffuse(), &gles.light.specular()}) {
+        const std::vector<float> texels = light->readRgba32F();
+        for (int y = 0; y < kMirrorPicture.height; ++y)
+            for (int x = 0; x < kMirrorPicture.width; ++x) {
+                const bool outside = common(s.traced.bounds, {x, y, x + 1, y + 1}).empty();
+                const float red = texels[4UL * (y * kMirrorPicture.width + x)];
+                EXPECT_EQ(red == 0, outside) << red << " in pixel " << x << ", " << y;
+            }
     }
 }
 

@@ -1,10 +1,12 @@
 #include "pipeline/composite/virtual_layer.h"
+#include "pipeline/scene/rigid_path.h"
 #include "pipeline/warp/traced_picture.h"
 #include "tests/warp/cast_scene.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <memory>
 
 namespace mfar {
 namespace {
@@ -46,6 +48,27 @@ TEST(TracedPicture, PixelsOfALayeredPictureKeepTheirColourAndLight) {
     EXPECT_EQ(r.colour, p.colour);
     EXPECT_EQ(r.light, p.light);
     EXPECT_TRUE(r.layered);
+}
+
+TEST(TracedPicture, GlossOfMovingObjectsIsUnknownAndEmptyIfAllObjectsMove) {
+    RenderedPicture p = smallPicture();
+    for (std::size_t i = 0; i < 20; ++i) {
+        if (i / 5 < 2 && p.id[i] == 1) p.id[i] = 2;
+        p.gloss.push_back(p.id[i] == kCatcherId ? GlossWords{}
+                                                : packedGloss({0, 0, 1}, 0.5F, 0.04F, 1));
+    }
+    for (int moving = 0; moving < 3; ++moving) {
+        auto scene = std::make_shared<Scene>();
+        scene->objects.resize(2);
+        for (int i = 0; i < moving; ++i)
+            scene->objects[static_cast<std::size_t>(i)].path = std::make_shared<const RigidPath>();
+        p.scene = scene;
+        p.poses.resize(2);
+        const TracedPicture r = tracedPicture(p);
+        ASSERT_EQ(r.gloss.empty(), moving == 2);
+        for (std::size_t i = 0; i < r.gloss.size(); ++i)
+            EXPECT_EQ(r.gloss[i] == GlossWords{}, p.id[i] <= moving || p.id[i] == kCatcherId) << i;
+    }
 }
 
 TEST(TracedPicture, ShadowsAreShownAboveTheSurfaceButMoveWithTheSurface) {

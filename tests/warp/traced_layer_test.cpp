@@ -1,0 +1,101 @@
+#include "pipeline/traced_layer.h"
+#include "tests/engine/gl_test.h"
+#include "tests/render/still_life.h"
+#include "tests/warp/warp_engine.h"
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <thread>
+#include <vector>
+
+namespace mfar {
+namespace {
+
+using TracedLayerGl = GlTest;
+
+constexpr Size kTraced{96, 72};
+constexpr int kBright = 60;  // [grey levels of 255]
+
+std::shared_ptr<const Scene> litBy(const Scene& scene, const Eigen::Vector3f& light) {
+    auto environment = std::make_shared<Environment>();
+    environment->size = {8, 4};
+    environment->radiance.assign(32, light);
+    auto out = std::make_shared<Scene>(scene);
+    out->lighting = {environment, {}};
+    return out;
+}
+
+/// A picture from one view is shown from all views. Pixels that it does not show are rendered
+/// individually, and are empty until then.
+TracedLayerOptions rerendering() {
+    TracedLayerOptions out;
+    out.size = kTraced;
+    out.renderer.slices.samples = 16;
+    out.renderer.policy.limits = {1e4, 1e4};
+    out.renderer.budgetMs = 1000;
+    out.warp.filling = HoleFilling::Rerender;
+    out.warp.sharpenShare = 0;
+    return out;
+}
+
+struct Frames {
+    /// Shows the next frame with the camera at this azimuth [degrees].
+    void show(double azimuth) {
+        time = time + std::chrono::milliseconds(33);
+        const RigidTransform pose = render_scenes::viewFrom(kTraced, azimuth).T_world_camera;
+        layer.update(pose, time);
+        rgba = test::bytesOf(layer.render(pose).colour);
+    }
+    /// Shows frames until `reached` returns true. The azimuth changes by twice `sway` from frame to
+    /// frame. Returns false if a minute is not enough.
+    [[nodiscard]] bool until(double azimuth, double sway, const std::function<bool()>& reached) {
+        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+        for (; !reached(); sway = -sway) {
+            if (std::chrono::steady_clock::now() > end) return false;
+            show(azimuth + sway);
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+        return true;
+    }
+    /// Number of pixels in which this channel is bright.
+    [[nodiscard]] int brightPixels(std::size_t channel) const {
+        int out = 0;
+        for (std::size_t i = channel; i < rgba.size(); i += 4)
+            out += rgba[i] > kBright ? 1 : 0;
+        return out;
+    }
+
+    std::unique_ptr<Engine> engine = test::warpEngine();
+    TracedLayer layer{render_scenes::viewFrom(kTraced, 0).camera, *engine, rerendering()};
+    Timestamp time = Timestamp::fromSeconds(1);
+    std::vector<std::uint8_t> rgba;
+};
+
+TEST_F(TracedLayerGl, NoPixelKeepsTheOldLightIfOnlyTheLightChanges) {
+    constexpr double kFront = 0, kAside = 40, kSway = 0.5;
+    constexpr std::size_t kRed = 0, kGreen = 1;
+    Frames frames;
+    const std::shared_ptr<const Scene> scene = render_scenes::stillLife();
+    frames.layer.setScene(litBy(*scene, {3, 0, 0}));
+    ASSERT_TRUE(frames.until(
+        kFront, 0, [&] { return frames.layer.rests() && frames.brightPixels(kRed) > 0; }));
+    frames.show(kAside);
+    const int open = frames.brightPixels(kRed);
+    const auto showsRendered = [&] { return frames.brightPixels(kRed) > open + 30; };
+    // If the camera rested here, a picture would be traced from here.
+    ASSERT_TRUE(frames.until(kAside, kSway, showsRendered));
+    ASSERT_TRUE(frames.until(kFront, 0, [&] { return frames.layer.rests(); }));
+    frames.show(kAside);
+    EXPECT_TRUE(showsRendered());
+
+    frames.layer.setScene(litBy(*scene, {0, 3, 0}));
+    ASSERT_TRUE(frames.until(kFront, 0, [&] { return frames.brightPixels(kGreen) > 0; }));
+    EXPECT_EQ(frames.brightPixels(kRed), 0);
+    frames.show(kAside);
+    EXPECT_GT(frames.brightPixels(kGreen), open / 2);
+    EXPECT_EQ(frames.brightPixels(kRed), 0);
+}
+
+}  // namespace
+}  // namespace mfar
