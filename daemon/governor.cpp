@@ -24,7 +24,8 @@ constexpr std::uint64_t kSettle = 8;
 // doubles with each further failure of the level, up to kLongestWait.
 constexpr std::uint64_t kFirstWait = 20, kLongestWait = 960;
 // If a level misses the deadline only after at least kHeld counted frames, the scene has changed.
-// The level is then not used for the next kFirstWait frames, as after its first failure.
+// The level is then not used for the next kFirstWait frames, as after its first failure. A level
+// that has kept the deadline for kHeld counted frames may be left for a trial of the next one.
 constexpr std::uint64_t kHeld = 100;
 constexpr int kAtRest = 3;
 constexpr std::uint64_t kStillEvery = 40;
@@ -86,7 +87,19 @@ void Governor::goDown() {
 
 void Governor::goUp() {
     const std::size_t best = bestWithin(kRoom * deadline_);
-    if (best > level_) goTo(best);
+    if (best > level_)
+        goTo(best);
+    else if (mayTry(level_ + 1))
+        goTo(level_ + 1);
+}
+
+// A part of the measured time may be the same at all levels, e.g. the wait for the display. The
+// factor of a fast level, applied to a better one, then makes the better one look too slow, and
+// without a trial no measurement would ever correct this.
+bool Governor::mayTry(std::size_t level) const {
+    if (level >= levels_.size() || frame_ < trials_[level].notBefore) return false;
+    if (frame_ - changedAt_ < kHeld || !lateAt_.empty()) return false;
+    return expected(level_) + levels_[level].ms - levels_[level_].ms <= kRoom * deadline_;
 }
 
 void Governor::goTo(std::size_t level) {

@@ -23,6 +23,10 @@ namespace mfar {
 /// deadline, it changes to the best of them. A level that missed the deadline is not used again for
 /// some frames. The number of these frames doubles each time.
 ///
+/// The factor is too large for better levels if a part of the time is the same at all levels. So
+/// after 100 frames at a level, none of the last 40 of them late, the governor tries the next
+/// better level if that level would meet the 85 % with only the table's difference added.
+///
 /// Three types of frames are not counted: frames in which nothing changed, frames with a new still,
 /// and frames without a still at a level that uses one. When the picture comes to rest, it is drawn
 /// once more at the best level. That frame may be late, because nothing moves in it.
@@ -72,6 +76,7 @@ private:
     void goTo(std::size_t level);
     void goDown();
     void goUp();
+    [[nodiscard]] bool mayTry(std::size_t level) const;
     [[nodiscard]] std::size_t bestWithin(double ms) const;
     [[nodiscard]] double ratio() const;
     [[nodiscard]] double expected(std::size_t level) const;

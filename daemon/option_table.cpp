@@ -143,7 +143,8 @@ constexpr Option kLine[] = {
            "camera's time stamps report it. mfard learns the exact value."),
     number("jitter_ms", {0.001, 1000, "ms"}, "1.0",
            "Largest error of the camera's time stamps: 1 if the sensor takes them, more if they "
-           "are taken on a picture's arrival, as with USB cameras."),
+           "are taken on a picture's arrival, as with USB cameras, or move with an automatic "
+           "exposure."),
     number("arrival_ms", {1, 60000, "ms"}, "500.0",
            "A still that has not arrived this long after its exposure counts as lost."),
 };

@@ -44,7 +44,11 @@ std::optional<Pose> PoseFinder::ofVideo(const Frame& video) {
     if (!tracker_) return std::nullopt;
     std::optional<Pose> pose = tracker_->track(video.view(), video.time());
     if (pose && pose->tags > 0) history_.add(*pose);
-    if (pose && mayFindTags() && !std::exchange(foundTags_, true)) found_.put(tracker_->map());
+    if (pose && mayFindTags() && !foundTags_) {
+        TagMap map = tracker_->map();
+        foundTags_ = !map.empty();
+        if (foundTags_) found_.put(std::move(map));
+    }
     stats_.framePose(pose, tracker_->stats());
     return pose;
 }

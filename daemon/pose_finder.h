@@ -50,8 +50,9 @@ public:
     /// Returns true if the pose was measured or recorded, false if it was only predicted.
     [[nodiscard]] bool isMeasured(const Pose& pose) const { return recorded_ || pose.tags > 0; }
     [[nodiscard]] const TagMap& tags() const { return tags_; }
-    /// If there was no tag map at the start, returns the map that was made from the first picture
-    /// with tags. Its only tag defines the world frame. Returns the map only once. Thread-safe.
+    /// If there was no tag map at the start, returns the map that was made from the first pictures
+    /// with tags, see Tracker::map(). Its only tag defines the world frame. Returns the map only
+    /// once. Thread-safe.
     [[nodiscard]] std::optional<TagMap> takeFoundTags() { return found_.tryTake(); }
     [[nodiscard]] bool mayFindTags() const { return tracker_ && tags_.empty(); }
     [[nodiscard]] const std::string& description() const { return description_; }

@@ -116,8 +116,12 @@ void StillMatcher::learn(std::int64_t sinceEdge) {
     samples_.clear();
 }
 
+// A still that comes before its pulse is given up may be wrong by more than the wide window, e.g.
+// by an exposure time that the camera chose itself.
 void StillMatcher::misfit(const Nearest& still) {
-    const std::int64_t wide = reach(still.index, options_.wideWindow.count());
+    const bool isWaiting = pulses_[still.index].state == State::Waiting;
+    const nanoseconds window = isWaiting ? kLongest : options_.wideWindow;
+    const std::int64_t wide = reach(still.index, window.count());
     if (!learned_ || std::abs(still.sinceEdge - centre()) > wide) return;
     misfits_.push_back(still.sinceEdge);
     if (misfits_.size() < kStepEvidence) return;

@@ -47,8 +47,8 @@ struct StillCounters {
 /// A still is expected a constant delay after its pulse. The first delay is `guess`; then it is the
 /// median over the first `learnFrom` matched pulses. A still matches the nearest pulse if its time
 /// is within the window. The window is never larger than half the distance to a neighbouring pulse.
-/// If five consecutive stills miss the window by about the same time, the camera's clock has
-/// stepped. Then the median of the five becomes the delay.
+/// If five consecutive stills miss the window by about the same time, the camera's clock or its
+/// automatic exposure has stepped. Then the median of the five becomes the delay.
 class StillMatcher {
 public:
     enum class Pulse : std::uint8_t { Asked, Repetition };

@@ -5,6 +5,7 @@
 #include "pipeline/simd/field_rows.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -29,6 +30,8 @@ constexpr float kLeastShare = 0.09F;
 // variances.
 constexpr float kGate = 9;
 constexpr std::uint8_t kMostOutliers = 2;
+// Width and height of the blocks of forgetContradicted() [px].
+constexpr int kBlock = 16;
 
 }  // namespace
 
@@ -182,10 +185,15 @@ void DepthFilter::fuse(const InverseDepthField& measured, const PixelRect& where
     });
 }
 
+bool DepthFilter::agrees(std::size_t i, float inverseDepth, float variance) const {
+    const float apart = inverseDepth - field_.inverseDepth[i];
+    return apart * apart <= kGate * (field_.variance[i] + variance);
+}
+
 void DepthFilter::fusePixel(std::size_t i, float inverseDepth, float variance) {
     const bool known = field_.isKnown(i);
     const float sum = field_.variance[i] + variance, apart = inverseDepth - field_.inverseDepth[i];
-    if (known && apart * apart <= kGate * sum) {
+    if (known && agrees(i, inverseDepth, variance)) {
         const float gain = field_.variance[i] / sum;
         field_.inverseDepth[i] += gain * apart;
         field_.variance[i] = std::max((1 - gain) * field_.variance[i], kLeastShare * variance);
@@ -205,6 +213,35 @@ void DepthFilter::fusePixel(std::size_t i, float inverseDepth, float variance) {
 void DepthFilter::forget(const PixelRect& where) {
     for (int y = where.y0; y < where.y1; ++y)
         field_.forgetRow(y, where.x0, where.x1);
+}
+
+void DepthFilter::forgetContradicted(const InverseDepthField& measured, const PixelRect& where) {
+    const int rows = (where.y1 - where.y0 + kBlock - 1) / kBlock;
+    workers_->forRange(rows, 1, [&](int first, int last) {
+        for (int row = first; row < last; ++row) {
+            const int y = where.y0 + kBlock * row;
+            for (int x = where.x0; x < where.x1; x += kBlock)
+                forgetContradictedBlock(measured, common(where, {x, y, x + kBlock, y + kBlock}));
+        }
+    });
+}
+
+void DepthFilter::forgetContradictedBlock(const InverseDepthField& measured,
+                                          const PixelRect& block) {
+    std::array<std::size_t, static_cast<std::size_t>(kBlock) * kBlock> contradicted{};
+    std::size_t count = 0, compared = 0;
+    for (int y = block.y0; y < block.y1; ++y) {
+        const auto row = static_cast<std::size_t>(y) * field_.size.width;
+        for (std::size_t i = row + block.x0; i < row + block.x1; ++i) {
+            const float inverseDepth = measured.inverseDepth[i], variance = measured.variance[i];
+            if (!field_.isKnown(i) || !InverseDepthField::isSound(inverseDepth, variance)) continue;
+            ++compared;
+            if (!agrees(i, inverseDepth, variance)) contradicted[count++] = i;
+        }
+    }
+    if (2 * count <= compared) return;
+    for (std::size_t k = 0; k < count; ++k)
+        field_.forget(contradicted[k]);
 }
 
 }  // namespace mfar

@@ -39,6 +39,9 @@ public:
     /// a valid inverse depth and variance are ignored.
     void fuse(const InverseDepthField& measured, const PixelRect& where);
     void forget(const PixelRect& where);
+    /// Forgets known depths with which a measurement of `where` disagrees, in blocks in which most
+    /// measurements disagree. Single false measurements thus forget nothing.
+    void forgetContradicted(const InverseDepthField& measured, const PixelRect& where);
 
     [[nodiscard]] const InverseDepthField& field() const { return field_; }
     [[nodiscard]] const PixelRect& known() const { return known_; }
@@ -62,6 +65,8 @@ private:
     void closeCracks();
     void closeCrack(std::size_t i, std::size_t before, std::size_t after);
     void fusePixel(std::size_t i, float inverseDepth, float variance);
+    [[nodiscard]] bool agrees(std::size_t i, float inverseDepth, float variance) const;
+    void forgetContradictedBlock(const InverseDepthField& measured, const PixelRect& block);
 
     EpipolarLens lens_;
     float focal_, pixelX_, pixelY_;

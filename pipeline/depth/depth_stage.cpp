@@ -57,10 +57,12 @@ void DepthStage::run(const Rows<const std::uint8_t>& luma, const Pose& pose,
     const Summary before = summaryOf(where, pose);
     source_ = before.share < 1 ? DepthSource::Carried : DepthSource::None;
     const double brightness = brightnessOf(luma);
-    if (!where.empty() && seesMore(pose, before.inverseDepth, where)) {
+    const bool sees = seesMore(pose, before.inverseDepth, where);
+    if (!where.empty() && (sees || isRenewed_)) {
         if (still && still->search.pixelsPerUnit() > 0 && still->lengthError < kMostLengthError) {
             measurement_.run(still->search, still->R_still_video, still->unit, still->cells, where,
                              measured_);
+            if (!sees) filter_.forgetContradicted(measured_, where);
             filter_.fuse(measured_, where);
             source_ = DepthSource::Still;
         }
@@ -69,6 +71,7 @@ void DepthStage::run(const Rows<const std::uint8_t>& luma, const Pose& pose,
         if (source_ != DepthSource::None && source_ != DepthSource::Carried) {
             measuredPose_ = pose.T_world_video;
             measuredWhere_ = where;
+            isRenewed_ = false;
         }
     }
     keyframes_.add(luma, pose, brightness, before.inverseDepth);

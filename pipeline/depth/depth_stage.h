@@ -33,8 +33,10 @@ public:
 
     void forget();
     /// Must be called when the still changes. Without this call, depth would be measured with the
-    /// new still only after the next motion of the camera.
-    void renew() { measuredPose_.reset(); }
+    /// new still only after the next motion of the camera. If the camera has not moved, the next
+    /// measurement is the only one with the new still, so it replaces the known depth wherever it
+    /// contradicts most of a block of pixels.
+    void renew() { isRenewed_ = true; }
     /// Moves the known depth to the pose of this frame and measures depth inside `where`, which may
     /// be empty. `still` is empty if the frame was not matched along epipolar lines.
     void run(const Rows<const std::uint8_t>& luma, const Pose& pose,
@@ -74,6 +76,7 @@ private:
     DepthSource source_ = DepthSource::None;
     long searchedKey_ = -1;
     std::optional<RigidTransform> measuredPose_;
+    bool isRenewed_ = false;
     PixelRect measuredWhere_;
     std::optional<Timestamp> last_;
     std::vector<Need> needs_;

@@ -15,6 +15,9 @@ namespace {
 // If the regions around the expected tags cover a larger share of the picture than this, the whole
 // picture is searched instead, which is then as fast.
 constexpr double kWorthwhile = 0.6;
+// Number of frames whose pose the filter must accept before a tag that became the world is kept for
+// ever. A false detection does not stay that long.
+constexpr int kProven = 5;
 
 PixelRect wholeOf(Size size) {
     return {0, 0, size.width, size.height};
@@ -109,6 +112,18 @@ void Tracker::adoptWorld(const std::vector<TagDetection>& tags) {
         [](const TagDetection& a, const TagDetection& b) { return areaOf(a) < areaOf(b); });
     if (largest == tags.end()) return;
     map_ = TagMap({{largest->tag, options_.tagSize, standOnTag().inverse()}});
+    worldFrames_ = 0;
+}
+
+void Tracker::proveWorld(const std::optional<Pose>& filtered) {
+    if (!filtered)
+        map_ = {};
+    else if (filtered->tags > 0)
+        ++worldFrames_;
+}
+
+bool Tracker::isProven() const {
+    return !options_.map.empty() || worldFrames_ >= kProven;
 }
 
 std::vector<TagObservation> Tracker::placed(const std::vector<TagDetection>& tags) const {
@@ -124,12 +139,9 @@ std::optional<Pose> Tracker::track(const ImageView& picture, Timestamp time) {
     const auto begin = std::chrono::steady_clock::now();
     detections_ = searchVideo(picture, time);
     const std::scoped_lock lock(mutex_);
-    const bool adopts = map_.empty();
-    if (adopts) adoptWorld(detections_);
+    if (map_.empty()) adoptWorld(detections_);
     const auto out = estimator_.update(placed(detections_), rig_.video, time);
-    // If the tag that just became the world gave no valid pose, it may be a false detection. The
-    // world is then left undefined again.
-    if (adopts && !estimator_.raw()) map_ = {};
+    if (!isProven()) proveWorld(out);
     const std::chrono::duration<double, std::milli> span = std::chrono::steady_clock::now() - begin;
     count(span.count());
     return out;
@@ -176,7 +188,7 @@ TrackStats Tracker::stats() const {
 
 TagMap Tracker::map() const {
     const std::scoped_lock lock(mutex_);
-    return map_;
+    return isProven() ? map_ : TagMap();
 }
 
 }  // namespace mfar

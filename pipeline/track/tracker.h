@@ -17,7 +17,9 @@ struct TrackerOptions {
     /// The coordinates of the map are the world, and only tags of the map's families are searched.
     /// If the map is empty, tags of `families` are searched instead. In the first picture that
     /// shows tags, the largest one becomes the world: the origin is its centre, x points right and
-    /// y up in its print, and z out of the print.
+    /// y up in its print, and z out of the print. If the filter stops to predict before it accepted
+    /// this tag's pose in five frames, the tag was a false detection, and another tag becomes the
+    /// world.
     TagMap map;
     std::vector<TagFamily> families{TagFamily::Tag36h11};
     double tagSize = 0.1;  ///< size of the tag that becomes the world [m]
@@ -71,7 +73,7 @@ public:
     [[nodiscard]] const std::vector<TagDetection>& detections() const { return detections_; }
     [[nodiscard]] TrackStats stats() const;
     /// Returns the map of the options. If that is empty, returns a map with the tag that became the
-    /// world, or an empty map if none has become the world yet.
+    /// world, or an empty map if no tag has been the world for five frames yet.
     [[nodiscard]] TagMap map() const;
 
 private:
@@ -93,6 +95,8 @@ private:
                                                     Timestamp time) const;
     [[nodiscard]] std::vector<TagObservation> placed(const std::vector<TagDetection>& tags) const;
     void adoptWorld(const std::vector<TagDetection>& tags);
+    void proveWorld(const std::optional<Pose>& filtered);
+    [[nodiscard]] bool isProven() const;
     void count(double ms);
 
     StereoRig rig_;
@@ -103,6 +107,7 @@ private:
 
     mutable std::mutex mutex_;  ///< guards the members below
     TagMap map_;
+    int worldFrames_ = 0;  ///< frames with an accepted pose since a tag became the world
     PoseEstimator estimator_;
     TrackStats stats_;
 };

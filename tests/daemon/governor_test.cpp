@@ -126,6 +126,34 @@ TEST(Governor, DoesNotAlternateBetweenTwoLevels) {
     }
 }
 
+TEST(Governor, ReturnsFromAStallAlthoughAPartOfTheTimeIsTheSameAtAllLevels) {
+    for (const double constant : {30.0, 35.0}) {
+        const auto cost = [&](std::size_t level) { return fourLevels()[level].ms + constant; };
+        Machine machine(150, cost);
+        machine.run(300);
+        EXPECT_EQ(machine.level(), "b") << constant;
+        machine.setCost([&](std::size_t level) { return 6 * cost(level); });
+        machine.run(20);
+        EXPECT_EQ(machine.level(), "off") << constant;
+        EXPECT_FALSE(machine.governor().mayTakeStill());
+        machine.setCost(cost);
+        machine.run(300);
+        EXPECT_EQ(machine.level(), "b") << constant;
+        EXPECT_TRUE(machine.governor().mayTakeStill());
+        EXPECT_LE(machine.run(2000), 0.01) << constant;
+    }
+}
+
+TEST(Governor, TrialsOfALevelThatIsTooSlowMakeFewFramesLate) {
+    Machine machine(133, scaled(3));
+    EXPECT_LE(machine.run(5000), 0.01);
+    EXPECT_EQ(machine.level(), "off");
+    const std::uint64_t before = machine.governor().changes();
+    machine.run(5000);
+    EXPECT_GT(machine.governor().changes(), before);
+    EXPECT_LE(machine.governor().changes(), before + 12) << "a trial in 960 frames";
+}
+
 TEST(Governor, OneLateFrameInFiftyDoesNotChangeTheLevel) {
     Governor governor(fourLevels(), 100);
     for (int i = 0; i < 400; ++i)

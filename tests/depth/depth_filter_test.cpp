@@ -62,6 +62,29 @@ TEST(DepthFilter, OneOutlierIsIgnoredAndALastingChangeIsFollowed) {
     EXPECT_NEAR(filter.field().inverseDepth[middle()], 3, 1e-5);
 }
 
+TEST(DepthFilter, OnlyAContradictionOfMostOfABlockForgetsDepthAtOnce) {
+    DepthFilter filter = filterOf();
+    filter.predict({}, 0);
+    filter.fuse(evenField(1, 0.02F), kWhole);
+    InverseDepthField measured = evenField(1.01F, 0.02F);
+    const auto at = [](int x, int y) { return static_cast<std::size_t>(y) * 120 + x; };
+    for (int y = 32; y < 48; ++y)
+        for (int x = 32; x < 48; ++x) {
+            if (x < 41) measured.inverseDepth[at(x, y)] = 3;
+            if (x < 39) measured.inverseDepth[at(x + 32, y)] = 3;
+        }
+    filter.forgetContradicted(measured, kWhole);
+    std::size_t forgotten = 0;
+    for (int y = 0; y < 90; ++y)
+        for (int x = 0; x < 120; ++x)
+            forgotten += filter.field().isKnown(at(x, y)) ? 0 : 1;
+    EXPECT_EQ(forgotten, 16U * 9);
+    EXPECT_FALSE(filter.field().isKnown(at(40, 32)));
+    filter.fuse(measured, kWhole);
+    EXPECT_NEAR(filter.field().inverseDepth[at(40, 32)], 3, 1e-5);
+    EXPECT_NEAR(filter.field().inverseDepth[at(66, 32)], 1, 1e-5);
+}
+
 TEST(DepthFilter, ANearerSurfaceOccludesAFartherSurface) {
     DepthFilter filter = filterOf();
     filter.predict({}, 0);

@@ -34,9 +34,19 @@ public:
 
     void go(const RigidTransform& T_world_video) {
         pose_ = T_world_video;
-        Pose pose{Timestamp::fromSeconds(1 + kFrame * frames_++), T_world_video};
-        stage_.run(panelScene().render(barrelCamera(), T_world_video.inverse()), pose, {}, where_);
+        stage_.run(scene_.render(barrelCamera(), T_world_video.inverse()), nextPose(), {}, where_);
     }
+    /// Runs a frame at the same pose. A still from a camera beside it shows the scene, too.
+    void rest() {
+        const RigidTransform T_still_video = motion({0, 0, 0}, {0.06, 0.02, 0});
+        EpipolarSearch search = test::searchWith(barrelCamera(), 2);
+        search.setStill(scene_.render(barrelCamera(), T_still_video * pose_.inverse()));
+        const LumaImage video = scene_.render(barrelCamera(), pose_.inverse());
+        ASSERT_TRUE(search.run(video, T_still_video));
+        const Eigen::Matrix3f R = Eigen::Matrix3f::Identity();
+        stage_.run(video, nextPose(), DepthStage::StillSearch{search, R, 1, 0.01, {}}, where_);
+    }
+    void change(const Scene& scene) { scene_ = scene; }
     void goSideways(int frames, double step) {
         for (int i = 0; i < frames; ++i)
             go(at(x_ += step));
@@ -55,8 +65,7 @@ public:
         for (int y = scored.y0; y < scored.y1; ++y) {
             for (int x = scored.x0; x < scored.x1; ++x, ++pixels) {
                 const auto i = static_cast<std::size_t>(y) * kAll.x1 + x;
-                const double z =
-                    panelScene().depth(pose_.inverse(), barrelCamera().unproject({x, y}));
+                const double z = scene_.depth(pose_.inverse(), barrelCamera().unproject({x, y}));
                 if (stage_.field().isKnown(i))
                     all.push_back(
                         std::abs(1 / std::max(stage_.field().inverseDepth[i], 1e-6F) - z) / z);
@@ -74,7 +83,12 @@ public:
     static constexpr PixelRect kAll{0, 0, 240, 180};
 
 private:
+    [[nodiscard]] Pose nextPose() {
+        return {Timestamp::fromSeconds(1 + kFrame * frames_++), pose_};
+    }
+
     DepthStage stage_;
+    Scene scene_ = panelScene();
     PixelRect where_;
     RigidTransform pose_;
     double x_ = 0;
@@ -144,6 +158,24 @@ TEST(DepthStage, DepthIsMeasuredOnlyInRequestedTiles) {
                         !field.isKnown(static_cast<std::size_t>(y) * field.size.width + x));
         }
     }
+}
+
+TEST(DepthStage, AtRestOneStillCorrectsTheDepthOfAThingThatIsGone) {
+    Walk walk;
+    walk.goSideways(8, 0.012);
+    walk.stage().renew();
+    walk.rest();
+    expectGood(walk.errors());
+    Scene wall = panelScene();
+    wall.surfaces.pop_back();
+    walk.change(wall);
+    EXPECT_GT(walk.errors().bad, 0.15) << "the panel is in the known depth";
+    walk.rest();
+    EXPECT_GT(walk.errors().bad, 0.15) << "without a new still, nothing is measured at rest";
+    walk.stage().renew();
+    walk.rest();
+    expectGood(walk.errors());
+    EXPECT_EQ(walk.stage().source(), DepthSource::Still);
 }
 
 TEST(DepthStage, DepthIsForgottenOnRequest) {

@@ -115,7 +115,8 @@ TEST(Tracker, WithoutATagMapTheLargestTagIsTheOriginOfTheWorld) {
     std::vector<PlacedTag> tags = world();
     EXPECT_FALSE(tracker.track(picture(0, {}).view(), frameTime(0)));
     EXPECT_TRUE(tracker.map().empty());
-    for (int i = 1; i < 4; ++i) {
+    for (int i = 1; i < 6; ++i) {
+        EXPECT_TRUE(tracker.map().empty()) << i;
         const auto pose = tracker.track(picture(i).view(), frameTime(i));
         ASSERT_TRUE(pose);
         EXPECT_EQ(pose->tags, 1);
@@ -127,6 +128,33 @@ TEST(Tracker, WithoutATagMapTheLargestTagIsTheOriginOfTheWorld) {
     const TagMap map = tracker.map();
     ASSERT_EQ(map.tags().size(), 1U);
     EXPECT_EQ(map.find(tags[0].tag)->size, 0.07);
+}
+
+TEST(Tracker, WithoutATagMapAFalseDetectionDoesNotStayTheWorld) {
+    TrackerOptions options;
+    options.tagSize = 0.07;
+    options.pose.filter.bridgeFrames = 2;
+    Tracker tracker(kRig, options);
+    std::vector<PlacedTag> wrong{world()[0]}, right{world()[0]};
+    wrong[0].tag.id = 20;
+    ASSERT_TRUE(tracker.track(picture(0, wrong).view(), frameTime(0)));
+    for (int i = 1; i < 4; ++i)
+        (void)tracker.track(picture(i, right).view(), frameTime(i));
+    for (int i = 4; i < 9; ++i) {
+        EXPECT_TRUE(tracker.map().empty()) << i;
+        const auto pose = tracker.track(picture(i, right).view(), frameTime(i));
+        ASSERT_TRUE(pose) << i;
+        EXPECT_EQ(pose->tags, 1) << i;
+    }
+    ASSERT_EQ(tracker.map().tags().size(), 1U);
+    EXPECT_NE(tracker.map().find(right[0].tag), nullptr);
+
+    // A world that has been seen for five frames stays, even if its tag is lost for long.
+    for (int i = 9; i < 13; ++i)
+        (void)tracker.track(picture(i, wrong).view(), frameTime(i));
+    EXPECT_FALSE(tracker.track(picture(13, wrong).view(), frameTime(13)));
+    EXPECT_TRUE(tracker.track(picture(14, right).view(), frameTime(14)));
+    EXPECT_NE(tracker.map().find(right[0].tag), nullptr);
 }
 
 TEST(Tracker, PoseOfAStillComesFromTheStillItself) {

@@ -162,7 +162,7 @@ TEST(StillMatcher, LateStillIsMatchedAndItsPulseIsNotRepeated) {
 }
 
 TEST(StillMatcher, LatencyIsLearnedAgainAfterAClockStep) {
-    for (const milliseconds step : {-40ms, 7ms, 80ms}) {
+    for (const milliseconds step : {-450ms, -40ms, 7ms, 80ms, 101ms, 490ms}) {
         StillMatcher matcher({});
         Timestamp pulse = kStart;
         const auto shoot = [&](nanoseconds offset) {
@@ -182,6 +182,18 @@ TEST(StillMatcher, LatencyIsLearnedAgainAfterAClockStep) {
         EXPECT_EQ(matcher.counters().lost, 5U);
         EXPECT_EQ(matcher.constant(), 2ms + step + 2us);
     }
+}
+
+TEST(StillMatcher, AStepOfSeveralTriggerPeriodsIsNotLearned) {
+    StillMatcher matcher({});
+    for (int i = 0; i < 60; ++i) {
+        const Timestamp pulse = kStart + i * 1s;
+        matcher.pulseFired(pulse);
+        const nanoseconds step = i < 25 ? 0ms : -2700ms;
+        EXPECT_EQ(matcher.stillArrived(pulse + 2ms + step).has_value(), i < 25) << i;
+        (void)matcher.poll(pulse + 900ms);
+    }
+    EXPECT_EQ(matcher.counters().relearned, 0U) << "the times would be those of other pulses";
 }
 
 TEST(StillMatcher, UnmatchedStillsWithDifferentOffsetsAreNotAClockStep) {
