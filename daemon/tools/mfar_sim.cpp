@@ -1,4 +1,5 @@
 #include "base/progress.h"
+#include "daemon/output_checks.h"
 #include "daemon/tools/sim_arguments.h"
 
 #include <fmt/format.h>
@@ -55,12 +56,13 @@ int simulate(SimArguments a) {
 
 int main(int argc, char** argv) {
     mfar::SimParser parser;
-    CLI11_PARSE(parser.app, argc, argv);
-    mfar::SimArguments& arguments = parser.arguments;
     try {
-        if (arguments.list) return mfar::list();
-        if (arguments.sim.out.empty()) throw std::runtime_error("the option --out DIR is needed");
-        return mfar::simulate(arguments);
+        parser.app.parse(argc, argv);
+        const mfar::SimArguments& arguments = parser.arguments;
+        const int status = arguments.list ? mfar::list() : mfar::simulate(arguments);
+        return mfar::afterOutput(status, "mfar-sim", 1);
+    } catch (const CLI::ParseError& error) {
+        return mfar::afterOutput(parser.app.exit(error), "mfar-sim", 1);
     } catch (const std::exception& e) {
         fmt::print(stderr, "mfar-sim: {}\n", e.what());
         return 1;

@@ -1,5 +1,7 @@
 #include "daemon/tools/sim_arguments.h"
 
+#include "daemon/number_range.h"
+
 #include <array>
 
 namespace mfar {
@@ -42,23 +44,27 @@ SimParser::SimParser() {
                    "the scene \"calibration\", \"handheld\" in all other scenes")
         ->check(CLI::IsMember(simPathNames()));
     app.add_option("--seconds", a.seconds, "length of the recording [s]")
-        ->check(CLI::Range(0.01, 3600.0))
+        ->check(numberFrom(0.01, 3600))
         ->capture_default_str();
     app.add_option("--rate", a.rateHz, "video frames per second")
-        ->check(CLI::Range(1.0, 1000.0))
+        ->check(numberFrom(1, 1000))
         ->capture_default_str();
     app.add_option("--stills", a.sim.stillsHz, "stills per second; 0: no stills")
-        ->check(CLI::Range(0.0, 10.0))
+        ->check(numberFrom(0, 10))
         ->capture_default_str();
     app.add_option("--seed", a.board.seed,
                    "seed of the random numbers: the same seed gives the same bytes")
+        ->check(withoutSign())
         ->capture_default_str();
     app.add_option("--noise", a.board.noise, "factor of the noise of both sensors; 0: no noise")
-        ->check(CLI::Range(0.0, 100.0))
+        ->check(numberFrom(0, 100))
         ->capture_default_str();
     app.add_option("--out", a.sim.out, "folder to write the recording into, new or empty");
     app.add_flag("--no-truth", a.noTruth, "do not write truth/, the ground truth");
     app.add_flag("--list", a.list, "print the names of all scenes and paths, then exit");
+    app.callback([&a] {
+        if (!a.list && a.sim.out.empty()) throw CLI::RequiredError("--out");
+    });
 }
 
 }  // namespace mfar

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <sstream>
 #include <string>
+#include <utility>
 
 namespace mfar::test {
 namespace {
@@ -34,6 +35,29 @@ void expectCamera(const CameraModel& found, const CameraModel& truth) {
     EXPECT_NEAR(found.fy, truth.fy, 1e-3 * truth.fy);
     EXPECT_NEAR(found.cx, truth.cx, 0.5);
     EXPECT_NEAR(found.cy, truth.cy, 0.5);
+}
+
+TEST(MfarSim, InvalidArgumentsEndWithAMessageAndWriteNothing) {
+    const TempFolder folder;
+    const fs::path recording = folder / "recording";
+    const std::string out = " --out " + recording.string();
+    const std::pair<std::string, const char*> cases[] = {
+        {"--seconds nan" + out, "--seconds"}, {"--rate nan" + out, "--rate"},
+        {"--stills nan" + out, "--stills"},   {"--noise nan" + out, "--noise"},
+        {"--seed -1" + out, "--seed"},        {"--seconds 0.1", "--out is required"},
+    };
+    for (const auto& [arguments, message] : cases) {
+        const Outcome ran = execute(folder, fmt::format("{} {}", MFAR_SIM, arguments));
+        EXPECT_GE(ran.status, 100) << arguments;
+        EXPECT_NE(ran.text.find(message), std::string::npos) << ran.text;
+        EXPECT_FALSE(fs::exists(recording)) << arguments;
+    }
+    EXPECT_EQ(execute(folder, std::string(MFAR_SIM) + " --list").status, 0);
+    for (const char* option : {"--list", "--help"}) {
+        const Outcome ran = execute(folder, fmt::format("({} {} >/dev/full)", MFAR_SIM, option));
+        EXPECT_EQ(ran.status, 1) << option;
+        EXPECT_NE(ran.text.find("cannot be written"), std::string::npos) << ran.text;
+    }
 }
 
 TEST(MfarCalibrate, RecoversTheRigFromARecording) {

@@ -85,6 +85,7 @@ TEST(Options, UsageErrorsListTheValidChoices) {
     EXPECT_THAT(usageFault({"--frames", "-3"}), HasSubstr("--frames"));
     EXPECT_THAT(usageFault({"--seconds", "nan"}), HasSubstr("--seconds"));
     EXPECT_THAT(usageFault({"--seed", "x"}), HasSubstr("--seed"));
+    EXPECT_THAT(usageFault({"--seed", "-1"}), HasSubstr("--seed"));
     EXPECT_THAT(usageFault({"--colour"}), HasSubstr("--colour"));
     EXPECT_THAT(usageFault({"--source", "synthetic", "--recording", "x"}),
                 HasSubstr("--recording"));

@@ -87,14 +87,15 @@ std::string controlManPage() {
 }
 
 std::string simManPage() {
-    return page(
-        SimParser().app,
-        {"writes a recording of the synthetic board",
-         "daemon/tools/sim_arguments.cpp",
-         "Draws what both sensors of a simulated board see and writes it as a recording in "
-         "EuRoC layout, with poses, tags, calibration and, in truth/, the exact pictures, "
-         "depth and flow.",
-         {{"0", "success"}, {"1", "the recording cannot be written"}, {"100 and more", kParser}}});
+    return page(SimParser().app,
+                {"writes a recording of the synthetic board",
+                 "daemon/tools/sim_arguments.cpp",
+                 "Draws what both sensors of a simulated board see and writes it as a recording in "
+                 "EuRoC layout, with poses, tags, calibration and, in truth/, the exact pictures, "
+                 "depth and flow.",
+                 {{"0", "success"},
+                  {"1", "the recording or standard output cannot be written"},
+                  {"100 and more", kParser}}});
 }
 
 std::string calibrateManPage() {

@@ -1,5 +1,7 @@
 #include "daemon/tools/calibrate/arguments.h"
 
+#include "daemon/number_range.h"
+
 namespace mfar::calibration {
 
 CalibrateParser::CalibrateParser() {
@@ -23,7 +25,7 @@ CalibrateParser::CalibrateParser() {
     app.add_option("--max-offset", a.solve.maxOffset,
                    "largest expected difference between the clocks of the two sensors, in either "
                    "direction [s]; 0: the clocks are equal")
-        ->check(CLI::Range(0.0, 2.0))
+        ->check(numberFrom(0, 2))
         ->capture_default_str();
     app.add_flag("--k3", a.solve.k3,
                  "estimate the third radial distortion coefficient as well, for wide lenses");

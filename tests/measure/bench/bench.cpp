@@ -68,6 +68,7 @@ public:
         });
     }
     [[nodiscard]] Pipeline& pipeline() { return pipeline_; }
+    [[nodiscard]] EngineKind engine() const { return engine_; }
     [[nodiscard]] const FrameStats& stats() const { return stats_; }
 
 private:
@@ -128,7 +129,7 @@ void measureStages(Ours& ours, std::size_t frames, CaseResult& result) {
     ours.pipeline().setMeasure(false);
     for (const auto& [stage, ms] : stages)
         result.stages.push_back({stage, summarise(ms)});
-    if (!gpuMs.empty())
+    if (ours.engine() == EngineKind::Gles && !gpuMs.empty())
         result.stages.push_back({"all stages, by the GPU's clock", summarise(gpuMs)});
 }
 

@@ -1,6 +1,8 @@
 #include "tests/measure/bench/governor_command.h"
 
 #include "daemon/governor_config.h"
+#include "daemon/number_range.h"
+#include "daemon/output_checks.h"
 #include "hal/gl_context.h"
 #include "tests/measure/eval/report.h"
 
@@ -21,11 +23,12 @@ GovernorCommand::GovernorCommand(CLI::App& app)
         ->add_option("--deadlines", request_.deadlinesMs,
                      "deadlines of a frame [ms] (default 33,66,133)")
         ->delimiter(',')
-        ->check(CLI::Range(0.1, 10000.0));
+        ->check(numberFrom(0.1, 10000));
     command_->add_option("--frames", request_.frames, "number of frames of each scene")
         ->check(CLI::Range(2, 100000))
         ->capture_default_str();
-    command_->add_option("--svg", svg_, "file to write a plot of the times of all frames into");
+    command_->add_option("--svg", svg_, "file to write a plot of the times of all frames into")
+        ->check(fileToWrite());
     command_->add_option(
         "--table", table_,
         "file with the quality levels, as written by mfar-bench pareto --table FILE");

@@ -48,12 +48,20 @@ double p95(const GovernedRun& run, std::size_t from) {
     return percentile(std::move(ms), 0.95);
 }
 
+/// Text about the frames after the settling time; empty if no scene has any.
+std::string settledText(const GovernedRun& run) {
+    const bool any = std::ranges::any_of(
+        run.scenes, [](const GovernedScene& scene) { return scene.ms.size() > kSettling; });
+    if (!any) return {};
+    return fmt::format("; without the first {} frames of each scene, it is {:.1f} ms", kSettling,
+                       p95(run, kSettling));
+}
+
 std::string governorTable(std::span<const GovernedRun> runs) {
     std::string out;
     for (const GovernedRun& run : runs) {
-        out += fmt::format("deadline {0:.0f} ms: p95 of all frame times is {1:.1f} ms; without the "
-                           "first {3} frames of each scene, it is {2:.1f} ms\n",
-                           run.deadlineMs, p95(run, 0), p95(run, kSettling), kSettling);
+        out += fmt::format("deadline {:.0f} ms: p95 of all frame times is {:.1f} ms{}\n",
+                           run.deadlineMs, p95(run, 0), settledText(run));
         out += fmt::format("  {:<10}{:>9}{:>9}{:>7}{:>9}  quality levels (frames)\n", "scene",
                            "med. ms", "p95 ms", "late", "settled");
         for (const GovernedScene& scene : run.scenes)

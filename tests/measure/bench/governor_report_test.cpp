@@ -37,6 +37,7 @@ TEST(GovernorReport, TableNamesScenesAndLevels) {
     const std::string table = governorTable(std::span(&run, 1));
     EXPECT_NE(table.find("deadline 66 ms"), std::string::npos);
     EXPECT_NE(table.find("detail (3) off (1)"), std::string::npos) << table;
+    EXPECT_EQ(table.find("without the first"), std::string::npos) << "no frame is left: " << table;
 }
 
 }  // namespace

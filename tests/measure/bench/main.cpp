@@ -1,3 +1,4 @@
+#include "daemon/output_checks.h"
 #include "hal/gl_context.h"
 #include "tests/measure/bench/bench.h"
 #include "tests/measure/bench/bench_report.h"
@@ -49,8 +50,15 @@ struct Workloads {
     Workload moving, posed;
 };
 
+bool isMoving(const Workload& work) {
+    return std::ranges::any_of(work.frames, [&](const cv::Mat& frame) {
+        return cv::norm(frame, work.frames.front(), cv::NORM_INF) > 0;
+    });
+}
+
 Workloads workloadsFor(const Options& o) {
     const int frames = o.frames > 0 ? o.frames : (o.quick ? 4 : 40);
+    if (frames < 2) throw eval::EvalError("--frames must be at least 2, so that the camera moves");
     if (o.recording.empty()) {
         const Size video = o.quick ? Size{160, 120} : Size{640, 480};
         const Size still = o.quick ? Size{576, 432} : Size{2304, 1728};
@@ -58,6 +66,9 @@ Workloads workloadsFor(const Options& o) {
                 handheldWorkload(video, still, frames, kLessons)};
     }
     Workloads out{recordedWorkload(o.recording, frames), {}};
+    if (!isMoving(out.moving))
+        throw eval::EvalError(o.recording + ": all frames are equal; the benchmark needs a moving "
+                                            "camera");
     const auto known = [](const std::vector<std::optional<Pose>>& poses) {
         return std::ranges::all_of(poses, [](const auto& pose) { return pose.has_value(); });
     };
@@ -102,8 +113,8 @@ void addOptions(CLI::App& app, Options& o) {
                  "use the shipped filters, as mfar does before the first still");
     app.add_flag("--scaling", o.scaling,
                  "also measure frame times with one and two threads at three output sizes");
-    app.add_option("--json", o.json, "file to write all results into");
-    app.add_option("--svg", o.svg, "file to write a plot of the times into");
+    app.add_option("--json", o.json, "file to write all results into")->check(fileToWrite());
+    app.add_option("--svg", o.svg, "file to write a plot of the times into")->check(fileToWrite());
     app.add_flag("--quick", o.quick,
                  "measure few small frames, only to check that the program runs");
     app.add_option("--curves", o.curves,
@@ -172,7 +183,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
     try {
-        return run(argc, argv);
+        return afterOutput(run(argc, argv), "mfar-bench", 1);
     } catch (const std::exception& error) {
         return eval::endedBy(error, "mfar-bench");
     }

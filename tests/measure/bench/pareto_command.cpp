@@ -1,5 +1,6 @@
 #include "tests/measure/bench/pareto_command.h"
 
+#include "daemon/output_checks.h"
 #include "daemon/quality_table.h"
 #include "hal/gl_context.h"
 #include "tests/measure/bench/pareto.h"
@@ -73,12 +74,15 @@ ParetoCommand::ParetoCommand(CLI::App& app)
                      "divided by the number of cores; use it if other programs run at the same "
                      "time)")
         ->transform(CLI::CheckedTransformer(clocks));
-    command_->add_option("--csv", csv_, "file to write all points into");
-    command_->add_option("--svg", svg_, "file to write a plot with the Pareto fronts into");
-    command_->add_option(
-        "--table", table_,
-        "file to write the governor's quality levels into; they are the Pareto front of "
-        "super-resolution");
+    command_->add_option("--csv", csv_, "file to write all points into")->check(fileToWrite());
+    command_->add_option("--svg", svg_, "file to write a plot with the Pareto fronts into")
+        ->check(fileToWrite());
+    command_
+        ->add_option(
+            "--table", table_,
+            "file to write the governor's quality levels into; they are the Pareto front of "
+            "super-resolution")
+        ->check(fileToWrite());
     command_->add_flag("--quick", quick_,
                        "measure few small frames, only to check that the program runs");
 }

@@ -61,6 +61,10 @@ TEST(MfarBench, QuickRunWritesEveryPartOfItsJson) {
     for (const char* stage : {"plan", "pyramid", "epipolar", "flow", "weigh", "detail"})
         EXPECT_TRUE(hasStage(1, stage)) << stage;
     EXPECT_FALSE(hasStage(0, "epipolar"));
+    const std::string engine = result.at("renderer");
+    if (engine.find("engine simd") != std::string::npos) {
+        EXPECT_FALSE(hasStage(0, "all stages, by the GPU's clock"));
+    }
 }
 
 std::vector<std::string> fields(const std::string& line) {
@@ -199,11 +203,14 @@ TEST(MfarBench, GovernorIsMeasuredWithTheRequestedDeadline) {
 TEST(MfarBench, InvalidArgumentsEndWithStatus2) {
     const std::string program = MFAR_BENCH;
     EXPECT_EQ(WEXITSTATUS(std::system((program + " --recording /absent 2>/dev/null").c_str())), 2);
+    EXPECT_EQ(WEXITSTATUS(std::system((program + " --quick --frames 1 2>/dev/null").c_str())), 2);
+    EXPECT_EQ(WEXITSTATUS(std::system((program + " --json /absent/x 2>/dev/null").c_str())), 2);
+    EXPECT_EQ(WEXITSTATUS(std::system((program + " --help >/dev/full 2>/dev/null").c_str())), 1);
     EXPECT_EQ(WEXITSTATUS(std::system((program + " --mode magic 2>/dev/null").c_str())), 2);
     EXPECT_EQ(WEXITSTATUS(std::system((program + " --data /tmp 2>/dev/null").c_str())), 2);
     EXPECT_EQ(WEXITSTATUS(std::system((program + " skip --cases none 2>/dev/null").c_str())), 2);
     EXPECT_EQ(WEXITSTATUS(std::system((program + " pareto --stages x 2>/dev/null").c_str())), 2);
-    for (const char* wrong : {"--deadlines 0", "--frames 1", "--table /absent"})
+    for (const char* wrong : {"--deadlines 0", "--deadlines nan", "--frames 1", "--table /absent"})
         EXPECT_EQ(WEXITSTATUS(std::system(
                       fmt::format("{} governor {} 2>/dev/null", program, wrong).c_str())),
                   2)

@@ -1,5 +1,6 @@
 #include "tests/measure/bench/skip_command.h"
 
+#include "daemon/output_checks.h"
 #include "hal/gl_context.h"
 #include "tests/measure/eval/report.h"
 
@@ -30,8 +31,8 @@ SkipCommand::SkipCommand(CLI::App& app)
                      "clock of the measurement: wall, or processor (processor time divided by the "
                      "number of cores; use it if other programs run at the same time)")
         ->transform(CLI::CheckedTransformer(clocks));
-    command_->add_option("--csv", csv_, "file to write all results into");
-    command_->add_option("--svg", svg_, "file to write a plot into");
+    command_->add_option("--csv", csv_, "file to write all results into")->check(fileToWrite());
+    command_->add_option("--svg", svg_, "file to write a plot into")->check(fileToWrite());
 }
 
 void SkipCommand::run(Progress& progress) {

@@ -1,5 +1,6 @@
 #include "tests/measure/eval/figure7_command.h"
 
+#include "daemon/output_checks.h"
 #include "tests/measure/eval/name_options.h"
 #include "tests/measure/eval/picture_metrics_option.h"
 
@@ -41,9 +42,9 @@ CLI::App* addFigure7Command(CLI::App& app, Figure7Request& request, std::string&
            "before the measurement")
         ->check(CLI::Range(0, 1000));
     addMetricParameters(*sub, request.metrics);
-    sub->add_option("--svg", request.svg, "file to write the figure into");
+    sub->add_option("--svg", request.svg, "file to write the figure into")->check(fileToWrite());
     sub->add_option("--save", request.save, "folder to write the pictures into");
-    sub->add_option("--csv", csv, "file to write the table into");
+    sub->add_option("--csv", csv, "file to write the table into")->check(fileToWrite());
     return sub;
 }
 

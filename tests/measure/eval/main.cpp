@@ -1,3 +1,5 @@
+#include "daemon/number_range.h"
+#include "daemon/output_checks.h"
 #include "daemon/tools/command_failure.h"
 #include "tests/measure/eval/bars.h"
 #include "tests/measure/eval/depth.h"
@@ -111,13 +113,6 @@ struct Options {
     std::filesystem::path svg;
 };
 
-/// Validator of an angle [degrees]. CLI::Range is not used because it accepts NaN.
-std::string isAngle(const std::string& text) {
-    double degrees = -1;
-    const bool number = CLI::detail::lexical_cast(text, degrees);
-    return number && degrees >= 0 && degrees <= 180 ? "" : text + " is not an angle from 0 to 180";
-}
-
 void addDisturbances(CLI::App& sub, Options& o) {
     sub.add_option("--degrade", o.degrade,
                    "degrade the still, for example gain=0.7,gamma=1.3,blur=0.7,noise=4; applied in "
@@ -126,16 +121,24 @@ void addDisturbances(CLI::App& sub, Options& o) {
     sub.add_option("--pose-noise-deg", o.poseNoise.degrees,
                    "rotate the pose of every frame by this angle about a random axis; all runs use "
                    "the same axes")
-        ->check(isAngle);
+        ->check(numberFrom(0, 180));
     sub.add_option("--pose-noise-seed", o.poseNoise.seed,
-                   "seed of the random axes of --pose-noise-deg");
+                   "seed of the random axes of --pose-noise-deg")
+        ->check(withoutSign())
+        ->needs("--pose-noise-deg");
+}
+
+void checkPoseNoise(const Options& o, PoseSource poses) {
+    if (o.poseNoise.degrees > 0 && poses == PoseSource::None)
+        throw EvalError("--pose-noise-deg needs poses, but --poses is none");
 }
 
 void addStills(CLI::App& sub, SuperResRequest& request) {
     sub.add_option("--stills", request.stills,
                    "number of stills that mfar gets for each frame; 2: also the second-nearest "
                    "still in time")
-        ->check(CLI::Range(1, 2));
+        ->check(CLI::Range(1, 2))
+        ->excludes("--no-still");
     sub.add_option(
            "--learn", request.learn,
            "before the measurement, learn filters from this many matched stills of the recording")
@@ -173,7 +176,7 @@ CLI::App* addSuperRes(CLI::App& app, Options& o) {
            "--alpha", o.superres.alpha,
            "two-way error of the flow at which the confidence of the method `paper` is zero [video "
            "px]")
-        ->check(CLI::PositiveNumber)
+        ->check(numberFrom(1e-6, 1e6))
         ->capture_default_str();
     sub->add_flag("--no-still", o.superres.noStill,
                   "give no still to the methods, and leave out methods that need one")
@@ -184,7 +187,7 @@ CLI::App* addSuperRes(CLI::App& app, Options& o) {
         ->check(CLI::Range(1, 1000000));
     sub->add_option("--save", o.superres.save,
                     "folder to write the pictures of every method and of the truth into");
-    sub->add_option("--csv", o.csv, "file to write the table into");
+    sub->add_option("--csv", o.csv, "file to write the table into")->check(fileToWrite());
     return sub;
 }
 
@@ -201,13 +204,14 @@ CLI::App* addSamples(CLI::App& app, const char* name, const char* what, const ch
     addDisturbances(*sub, o);
     sub->add_option("--frames", request.frames, "measure at most this many frames of each folder")
         ->check(CLI::Range(1, 1000000));
-    sub->add_option("--csv", o.csv, "file to write the table into");
+    sub->add_option("--csv", o.csv, "file to write the table into")->check(fileToWrite());
     return sub;
 }
 
 const SampleRequest& completed(SampleRequest& request, const std::vector<std::string>& methods,
                                const Options& o) {
     checkMethods(request.methods, methods);
+    checkPoseNoise(o, request.poses);
     request.degradation = parseDegradation(o.degrade);
     request.poseNoise = o.poseNoise;
     return request;
@@ -215,11 +219,15 @@ const SampleRequest& completed(SampleRequest& request, const std::vector<std::st
 
 Report runSuperRes(Options& o) {
     checkMethods(o.superres.methods, superResMethodNames());
+    checkPoseNoise(o, o.superres.poses);
     o.superres.degradation = parseDegradation(o.degrade);
     o.superres.videoDegradation = parseDegradation(o.degradeVideo, "--degrade-video");
     o.superres.poseNoise = o.poseNoise;
     if (!o.superres.learnFrom.empty() && o.superres.learn == 0) o.superres.learn = kEachOnce;
     if (o.superres.noStill) std::erase_if(o.superres.methods, needsStill);
+    if (o.superres.methods.empty() && o.superres.dnnModels.empty())
+        throw EvalError("no method remains: with --no-still, methods that need a still are left "
+                        "out");
     return evaluateSuperRes(o.superres);
 }
 
@@ -254,7 +262,8 @@ std::vector<EvalCommand> addCommands(CLI::App& app, Options& o) {
     out.back().hasOwnPlot = true;
     for (const EvalCommand& each : out)
         if (!each.hasOwnPlot)
-            each.command->add_option("--svg", o.svg, "file to write a plot of the means into");
+            each.command->add_option("--svg", o.svg, "file to write a plot of the means into")
+                ->check(fileToWrite());
     return out;
 }
 
@@ -273,6 +282,8 @@ int run(int argc, char** argv) {
     }
     const auto used = std::ranges::find_if(
         commands, [](const EvalCommand& command) { return command.command->parsed(); });
+    if (!o.csv.empty() && std::filesystem::path(o.csv) == o.svg)
+        throw EvalError("--csv and --svg name the same file");
     Progress progress;
     const Report report = used->evaluate(ProgressPart(progress));
     progress.clear();
@@ -289,7 +300,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
     try {
-        return run(argc, argv);
+        return afterOutput(run(argc, argv), "mfar-eval", 1);
     } catch (const std::exception& error) {
         return endedBy(error, "mfar-eval");
     }

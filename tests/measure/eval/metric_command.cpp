@@ -1,5 +1,6 @@
 #include "tests/measure/eval/metric_command.h"
 
+#include "daemon/output_checks.h"
 #include "tests/measure/eval/metrics/luma.h"
 #include "tests/measure/eval/picture.h"
 #include "tests/measure/eval/picture_metrics_option.h"
@@ -36,7 +37,7 @@ CLI::App* addMetricCommand(CLI::App& app, MetricRequest& request, std::string& c
     sub->add_flag("--colour", request.colour,
                   "compute hdrvdp from colours on an sRGB display (LCD with fluorescent light) "
                   "instead of luma; --gamma has no effect then");
-    sub->add_option("--csv", csv, "file to write the table into");
+    sub->add_option("--csv", csv, "file to write the table into")->check(fileToWrite());
     return sub;
 }
 

@@ -1,5 +1,7 @@
 #include "tests/measure/eval/occlusion_command.h"
 
+#include "daemon/number_range.h"
+#include "daemon/output_checks.h"
 #include "tests/measure/eval/name_options.h"
 #include "tests/measure/eval/pose_source_option.h"
 
@@ -17,13 +19,6 @@ constexpr const char* kOcclusionHelp =
     "times of the two stages that find depth and that draw the object. A frame in which\n"
     "nothing changed needs neither stage.\n"
     "The first 8 frames are not scored; the still is requested in the first of them.";
-
-/// Validator of a factor of the noise. CLI::Range is not used because it accepts NaN.
-std::string isNoise(const std::string& text) {
-    double factor = -1;
-    const bool number = CLI::detail::lexical_cast(text, factor);
-    return number && factor >= 0 && factor <= 100 ? "" : text + " is not a factor from 0 to 100";
-}
 
 }  // namespace
 
@@ -45,9 +40,9 @@ CLI::App* addOcclusionCommand(CLI::App& app, OcclusionRequest& request, std::str
         ->capture_default_str();
     sub->add_option("--noise", request.noise,
                     "noise of both sensors as a multiple of their usual noise")
-        ->check(isNoise)
+        ->check(numberFrom(0, 100))
         ->capture_default_str();
-    sub->add_option("--csv", csv, "file to write the table into");
+    sub->add_option("--csv", csv, "file to write the table into")->check(fileToWrite());
     return sub;
 }
 

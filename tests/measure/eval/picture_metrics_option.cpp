@@ -1,27 +1,12 @@
 #include "tests/measure/eval/picture_metrics_option.h"
 
+#include "daemon/number_range.h"
+
 #include <fmt/format.h>
 
 #include <string>
 
 namespace mfar::eval {
-namespace {
-
-/// Validator of a number in [least, most]. CLI::Range is not used because it accepts NaN.
-CLI::Validator within(double least, double most) {
-    return CLI::Validator(
-        [least, most](const std::string& text) {
-            double value = 0;
-            const bool number = CLI::detail::lexical_cast(text, value);
-            return number && value >= least && value <= most
-                       ? std::string()
-                       : fmt::format("{} is not in [{:g}, {:g}]", text, least, most);
-        },
-        fmt::format("FLOAT in [{:g} - {:g}]", least, most));
-}
-
-}  // namespace
-
 const char* const kPictureMetricsHelp =
     "msssim: multi-scale SSIM of five scales. lpc_si: sharpness by local phase coherence\n"
     "(Hassen et al. 2013), as in release 1.0. Few very sharp pixels determine it; lpc_si_tiles\n"
@@ -34,21 +19,21 @@ const char* const kPictureMetricsHelp =
 void addMetricParameters(CLI::App& sub, PictureMetrics& metrics) {
     HdrVdpDisplay& display = metrics.display;
     sub.add_option("--ppd", display.pixelsPerDegree, "pixels per degree of the visual field")
-        ->check(within(1, 1000))
+        ->check(numberFrom(1, 1000))
         ->capture_default_str();
     sub.add_option("--peak", display.peak, "luminance of the display's white [cd/m2]")
-        ->check(within(0.1, 10000))
+        ->check(numberFrom(0.1, 10000))
         ->capture_default_str();
     sub.add_option("--black", display.black, "luminance of the display's black [cd/m2]")
-        ->check(within(1e-4, 1000))
+        ->check(numberFrom(1e-4, 1000))
         ->capture_default_str();
     sub.add_option("--gamma", display.gamma, "gamma of the display")
-        ->check(within(0.5, 4))
+        ->check(numberFrom(0.5, 4))
         ->capture_default_str();
     sub.add_option("--lpc-ratio", metrics.lpcRatio,
                    "bandwidth ratio of LPC-SI's filters; 0.75: the authors' release 1.0, 0.33: "
                    "another version in circulation")
-        ->check(within(0.1, 0.95))
+        ->check(numberFrom(0.1, 0.95))
         ->capture_default_str();
 }
 

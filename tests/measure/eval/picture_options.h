@@ -1,19 +1,18 @@
 #pragma once
 
 #include "base/geometry.h"
+#include "daemon/number_range.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include <string>
+#include <utility>
 
 namespace mfar::eval {
 
-/// Validator of a budget of processor time [ms]. CLI::Range is not used because it accepts NaN.
-inline std::string isBudget(const std::string& text) {
-    double ms = -1;
-    const bool number = CLI::detail::lexical_cast(text, ms);
-    return number && ms >= 0.1 && ms <= 1000 ? "" : text + " is not in [0.1, 1000]";
+/// Validator of a budget of processor time [ms].
+[[nodiscard]] inline CLI::Validator isBudget() {
+    return numberFrom(0.1, 1000);
 }
 
 inline void addSize(CLI::App& sub, Size& size, const char* what) {

@@ -1,5 +1,7 @@
 #include "tests/measure/eval/pose_command.h"
 
+#include "daemon/output_checks.h"
+
 #include <fmt/format.h>
 
 namespace mfar::eval {
@@ -46,7 +48,7 @@ CLI::App* addPoseCommand(CLI::App& app, PoseRequest& request, std::string& csv) 
     sub->add_option("--still-gamma", tracker.stillGamma,
                     "gamma of the still sensor, used when corners are refined")
         ->capture_default_str();
-    sub->add_option("--csv", csv, "file to write the table into");
+    sub->add_option("--csv", csv, "file to write the table into")->check(fileToWrite());
     return sub;
 }
 

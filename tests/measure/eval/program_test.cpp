@@ -213,6 +213,15 @@ TEST(MfarEval, InvalidRequestsEndWithAMessageAndStatus2) {
         {"flow " + dir + "/tiny --degrade noise=-1", "noise=-1"},
         {"flow " + dir + "/tiny --pose-noise-deg 181", "--pose-noise-deg"},
         {"superres " + dir + "/tiny --pose-noise-deg nan", "--pose-noise-deg"},
+        {"superres " + dir + "/tiny --alpha nan", "--alpha"},
+        {"superres " + dir + "/tiny --pose-noise-seed -1", "--pose-noise-seed"},
+        {"superres " + dir + "/tiny --poses none --pose-noise-deg 1", "--pose-noise-deg needs"},
+        {"flow " + dir + "/tiny --pose-noise-seed 1", "--pose-noise-deg"},
+        {"superres " + dir + "/tiny --no-still --stills 2", "--stills"},
+        {"superres " + dir + "/truth --no-still --methods paper,blend", "no method remains"},
+        {"flow " + dir + "/pair --csv " + dir + "/absent/x.csv", "its folder does not exist"},
+        {"flow " + dir + "/pair --csv " + dir, "is a folder"},
+        {"flow " + dir + "/pair --csv " + dir + "/x --svg " + dir + "/x", "the same file"},
         {"superres " + dir + "/tiny --poses guessed", "--poses"},
         {"superres " + dir + "/truth --poses tags", "tags.toml: is missing"},
         {"flow " + dir + "/pair --poses tags", "--poses tags needs a recording"},
@@ -232,6 +241,18 @@ TEST(MfarEval, InvalidRequestsEndWithAMessageAndStatus2) {
         const Outcome outcome = execute(folder, std::string(MFAR_EVAL) + ' ' + arguments);
         EXPECT_EQ(outcome.status, 2) << arguments;
         EXPECT_NE(outcome.text.find(message), std::string::npos) << outcome.text;
+    }
+}
+
+TEST(MfarEval, UnwritableStandardOutputIsReported) {
+    const TempFolder folder;
+    writePair(folder / "pair");
+    for (const std::string& arguments :
+         {std::string("--help"), "flow " + (folder / "pair").string() + " --methods shift"}) {
+        const std::string command = fmt::format("({} {} >/dev/full)", MFAR_EVAL, arguments);
+        const Outcome outcome = execute(folder, command);
+        EXPECT_EQ(outcome.status, 1) << arguments;
+        EXPECT_NE(outcome.text.find("mfar-eval: "), std::string::npos) << outcome.text;
     }
 }
 

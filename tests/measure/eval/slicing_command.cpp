@@ -1,5 +1,6 @@
 #include "tests/measure/eval/slicing_command.h"
 
+#include "daemon/output_checks.h"
 #include "tests/measure/eval/picture_options.h"
 
 #include <cmath>
@@ -41,7 +42,7 @@ CLI::App* addSlicingCommand(CLI::App& app, SlicingRequest& request) {
         ->check(CLI::Range(1, 65536))
         ->capture_default_str();
     sub->add_option("--budget", request.budgetMs, "budget of processor time per frame [ms]")
-        ->check(isBudget)
+        ->check(isBudget())
         ->capture_default_str();
     sub->add_option("--frames", request.frames, "number of frames to render with this budget")
         ->check(CLI::Range(1, 300))
@@ -50,7 +51,8 @@ CLI::App* addSlicingCommand(CLI::App& app, SlicingRequest& request) {
                     "number of threads for the truth and for the frames of the rows `budget`")
         ->check(CLI::Range(1, 64))
         ->capture_default_str();
-    sub->add_option("--svg", request.svg, "file to write a plot of error against time into");
+    sub->add_option("--svg", request.svg, "file to write a plot of error against time into")
+        ->check(fileToWrite());
     return sub;
 }
 

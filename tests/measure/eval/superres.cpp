@@ -25,9 +25,11 @@
 namespace mfar::eval {
 namespace {
 
-/// PSNR over the three 8-bit channels [dB].
+/// PSNR over the three 8-bit channels [dB]. Infinite for equal pictures; cv::PSNR gives 361 dB.
 double colourPsnr(const cv::Mat& picture, const cv::Mat& truth) {
-    return cv::PSNR(picture, withoutBorder(truth), 255);
+    const double values = 3 * static_cast<double>(picture.total());
+    const double squares = cv::norm(picture, withoutBorder(truth), cv::NORM_L2SQR);
+    return 10 * std::log10(255.0 * 255 * values / squares);
 }
 
 /// NaN means that nothing could be measured; the result is then empty.
@@ -172,7 +174,7 @@ Report evaluateSuperRes(const SuperResRequest& request) {
         if (request.learn != 0 && !learnsElsewhere)
             factory.setFilters(learnedFilters(request, {request.recordings[i]}));
         const Recording recording = loadRecording(request.recordings[i]);
-        const auto samples = superResSamplesOf(recording, request.frames);
+        const auto samples = superResSamplesOf(recording, request.frames, !request.noStill);
         SuperResRun run(request, recording, labels[i], factory);
         for (std::size_t k = 0; k < samples.size(); ++k) {
             progress.show(k, samples.size(), frameOf(k, samples.size()));

@@ -56,6 +56,20 @@ TEST(MfarEval, SuperResWithoutAStillComparesEnlargers) {
     EXPECT_EQ(rows[2][2], "bicubic");
 }
 
+TEST(MfarEval, SuperResWithoutAStillMeasuresRecordingsWithoutStills) {
+    const TempFolder folder;
+    writeRecording(folder / "tiny", true);
+    fs::remove_all(folder / "tiny/cam1/data");
+    const std::string table = test::readFile(folder / "tiny/cam1/data.csv");
+    test::writeFile(folder / "tiny/cam1/data.csv", table.substr(0, table.find('\n') + 1));
+    const std::string command =
+        fmt::format("{} superres {}/tiny --methods bicubic", MFAR_EVAL, folder.path().string());
+    EXPECT_EQ(execute(folder, command).status, 2);
+    const Outcome outcome = execute(folder, command + " --no-still");
+    EXPECT_EQ(outcome.status, 0) << outcome.text;
+    EXPECT_NE(outcome.text.find("bicubic"), std::string::npos) << outcome.text;
+}
+
 TEST(MfarEval, SuperResDistinguishesClassesOfPixels) {
     const TempFolder folder;
     writeRecording(folder / "tiny", true);

@@ -11,7 +11,8 @@
 
 namespace mfar::eval {
 
-std::vector<SuperResSample> superResSamplesOf(const Recording& recording, int limit) {
+std::vector<SuperResSample> superResSamplesOf(const Recording& recording, int limit,
+                                              bool needsStill) {
     std::vector<SuperResSample> out;
     bool anyTruth = false;
     for (const RecordedImage& video : recording.video) {
@@ -20,7 +21,7 @@ std::vector<SuperResSample> superResSamplesOf(const Recording& recording, int li
         if (!truth) continue;
         anyTruth = true;
         const auto still = referenceStill(recording, video.time);
-        if (!still) {
+        if (!still && needsStill) {
             fmt::print(
                 stderr,
                 "mfar-eval: {}: frame {} is skipped: every still was taken from the same pose as "
@@ -28,7 +29,7 @@ std::vector<SuperResSample> superResSamplesOf(const Recording& recording, int li
                 recording.root.string(), video.time.ns);
             continue;
         }
-        out.push_back({video, recording.stills[*still], {}, *truth});
+        out.push_back({video, still ? recording.stills[*still] : video, {}, *truth});
         if (const auto second = secondStill(recording, video.time))
             out.back().second = recording.stills[*second];
     }

@@ -18,9 +18,11 @@ struct SuperResSample {
     std::filesystem::path truth;
 };
 
-/// Finds the frames with truth/highres, at most `limit` (0: all). Prints a line to stderr for each
-/// skipped frame. Throws EvalError if no frame remains.
-[[nodiscard]] std::vector<SuperResSample> superResSamplesOf(const Recording& recording, int limit);
+/// Finds the frames with truth/highres, at most `limit` (0: all). Without `needsStill`, a frame
+/// without a suitable still is its own still, which must not be used. Prints a line to stderr for
+/// each skipped frame. Throws EvalError if no frame remains.
+[[nodiscard]] std::vector<SuperResSample> superResSamplesOf(const Recording& recording, int limit,
+                                                            bool needsStill = true);
 
 /// Loads the true picture, CV_8UC3 of the output's size. Throws ImageFileError, and EvalError if
 /// the size differs or is too small for the border.

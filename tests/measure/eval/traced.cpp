@@ -9,6 +9,7 @@
 #include "pipeline/traced_layer.h"
 #include "tests/measure/eval/metrics/flicker.h"
 #include "tests/measure/eval/metrics/hdrvdp.h"
+#include "tests/measure/eval/model_key.h"
 #include "tests/measure/eval/stopwatch.h"
 #include "tests/measure/eval/traced_truth.h"
 #include "tests/measure/eval/warp_scenes.h"
@@ -233,15 +234,25 @@ void savePicture(const std::filesystem::path& folder, const std::string& name, S
     savePng(folder / (name + ".png"), rgbaOf({&picture}, size).view());
 }
 
+/// The name of a truth contains the model's key, because another file, or another version of the
+/// file, may have the same name. Programs' own scenes have no key.
+std::string truthName(const std::string& name, const Scene& scene, synthetic::Path path) {
+    const std::vector<std::string> own = warpSceneNames();
+    if (std::ranges::find(own, name) != own.end() || scene.objects.empty())
+        return fmt::format("{}-{}", name, synthetic::name(path));
+    return fmt::format("{}-{:016x}-{}", std::filesystem::path(name).stem().string(),
+                       modelKey(*scene.objects.front().model), synthetic::name(path));
+}
+
 class TracedRun {
 public:
-    TracedRun(const TracedRequest& request, const std::string& scene, synthetic::Path path,
-              Report& report, const ProgressPart& progress)
+    /// `shortName`: name of the scene in the report.
+    TracedRun(const TracedRequest& request, const std::string& scene, const std::string& shortName,
+              synthetic::Path path, Report& report, const ProgressPart& progress)
         : request_(request), course_(scene, path, request.size), report_(report),
-          progress_(progress),
-          label_(fmt::format("{}/{}", std::filesystem::path(scene).stem().string(),
-                             synthetic::name(path))),
-          truth_(course_.scene(), request.truthSamples, request.truth, label_) {}
+          progress_(progress), label_(fmt::format("{}/{}", shortName, synthetic::name(path))),
+          truth_(course_.scene(), request.truthSamples, request.truth,
+                 truthName(scene, *course_.scene(), path)) {}
 
     void run() {
         std::vector<std::vector<Picture>> shown;
@@ -322,11 +333,7 @@ private:
         report_.add(label_, std::to_string(frame), method, valuesOf(values));
     }
 
-    [[nodiscard]] std::string fileStem() const {
-        std::string out = label_;
-        std::ranges::replace(out, '/', '-');
-        return out;
-    }
+    [[nodiscard]] std::string fileStem() const { return fileStemOf(label_); }
 
     void writeVideo(const std::vector<std::vector<Picture>>& shown) const {
         std::filesystem::create_directories(request_.video);
@@ -370,11 +377,18 @@ Report evaluateTraced(const TracedRequest& request) {
     if (request.hdrVdp && std::min(request.size.width, request.size.height) < kLeastSide)
         throw EvalError(
             fmt::format("--hdrvdp needs --width and --height of at least {} px", kLeastSide));
+    const int firstScored = (kFirstFrames + request.every - 1) / request.every * request.every;
+    if (firstScored >= request.frames)
+        throw EvalError(
+            fmt::format("no frame is scored: with --every {}, the first scored frame is "
+                        "{}; --frames must be at least {}",
+                        request.every, firstScored, firstScored + 1));
     Report report(tracedColumns(request.hdrVdp));
+    const std::vector<std::string> labels = sceneLabels(request.scenes);
     const std::size_t scenes = request.scenes.size(), paths = request.paths.size();
     for (std::size_t s = 0; s < scenes; ++s)
         for (std::size_t p = 0; p < paths; ++p)
-            TracedRun(request, request.scenes[s], request.paths[p], report,
+            TracedRun(request, request.scenes[s], labels[s], request.paths[p], report,
                       request.progress.part(s * paths + p, scenes * paths,
                                             fmt::format("{}/{}", request.scenes[s],
                                                         synthetic::name(request.paths[p]))))

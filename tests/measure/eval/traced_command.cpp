@@ -44,7 +44,7 @@ CLI::App* addTracedCommand(CLI::App& app, TracedRequest& request) {
         ->check(CLI::IsMember(tracedMethodNames()));
     addSize(*sub, request.size, "layer");
     sub->add_option("--budget", request.budgetMs, "path tracer's processor time per frame [ms]")
-        ->check(isBudget)
+        ->check(isBudget())
         ->capture_default_str();
     sub->add_option("--frames", request.frames, "frames of each path, at 30 frames per second")
         ->check(CLI::Range(1, 100000))

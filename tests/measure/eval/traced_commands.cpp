@@ -1,5 +1,6 @@
 #include "tests/measure/eval/traced_commands.h"
 
+#include "daemon/output_checks.h"
 #include "tests/measure/eval/slicing_command.h"
 #include "tests/measure/eval/traced_command.h"
 #include "tests/measure/eval/warp_command.h"
@@ -31,7 +32,8 @@ std::vector<EvalCommand> addTracedCommands(CLI::App& app, std::string& csv) {
              return runTracedCommand(*traced);
          }}};
     for (const EvalCommand& each : out)
-        each.command->add_option("--csv", csv, "file to write the table into");
+        each.command->add_option("--csv", csv, "file to write the table into")
+            ->check(fileToWrite());
     return out;
 }
 

@@ -1,11 +1,14 @@
+#include "tests/models/gltf_maker.h"
 #include "tests/unit/run_program.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <iterator>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace mfar::eval {
@@ -60,14 +63,65 @@ TEST(MfarEvalTraced, ComparesFramesOfEachMethodAndKeepsTheTruth) {
     EXPECT_GT(std::filesystem::file_size(folder / "video/still-life-orbit.y4m"), 22 * kFrameBytes);
 }
 
-TEST(MfarEvalTraced, InvalidRequestsEndWithStatus2) {
+/// Writes a file with a triangle of this red.
+void writeModel(const std::filesystem::path& file, double red) {
+    test::GltfMaker maker = test::oneTriangle();
+    maker.root["materials"] = {{{"pbrMetallicRoughness", {{"baseColorFactor", {red, 0, 0, 1}}}}}};
+    maker.root["meshes"][0]["primitives"][0]["material"] = 0;
+    const std::vector<std::uint8_t> bytes = maker.glb();
+    test::writeFile(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+std::size_t filesIn(const std::filesystem::path& folder) {
+    const auto files = std::filesystem::directory_iterator(folder);
+    return static_cast<std::size_t>(std::distance(begin(files), end(files)));
+}
+
+TEST(MfarEvalTraced, FilesOfTheSameNameHaveTheirOwnRowsPicturesAndTruth) {
     const TempFolder folder;
-    for (const char* arguments :
-         {"--scenes absent", "--methods magic", "--paths away", "--budget nan", "--frames 0",
-          "--every 0", "--width 100000", "--hdrvdp --width 64 --height 16"}) {
-        const auto outcome =
-            execute(folder, fmt::format("'{}' traced --frames 1 {}", MFAR_EVAL, arguments));
+    writeModel(folder / "a/object.glb", 1);
+    writeModel(folder / "b/object.glb", 0.5);
+    const auto run = [&](const char* scenes) {
+        return execute(folder, fmt::format("cd '{}' && '{}' traced --scenes {} --paths orbit "
+                                           "--methods product --width 64 --height 48 --budget 2 "
+                                           "--frames 16 --every 15 --truth-samples 1 --truth truth "
+                                           "--save saved --csv out.csv",
+                                           folder.path().string(), MFAR_EVAL, scenes));
+    };
+    auto outcome = run("a/object.glb,b/object.glb");
+    ASSERT_EQ(outcome.status, 0) << outcome.text;
+    const std::string csv = test::readFile(folder / "out.csv");
+    EXPECT_NE(csv.find("a/object.glb/orbit,mean"), std::string::npos) << csv;
+    EXPECT_NE(csv.find("b/object.glb/orbit,mean"), std::string::npos) << csv;
+    const std::size_t truths = filesIn(folder / "truth"), saved = filesIn(folder / "saved");
+    EXPECT_EQ(saved, 2U * 2 * 2) << "two files, two frames, one method and its truth";
+    outcome = run("b/object.glb");
+    ASSERT_EQ(outcome.status, 0) << outcome.text;
+    EXPECT_EQ(filesIn(folder / "truth"), truths) << "a single file finds the truth of both runs";
+    writeModel(folder / "b/object.glb", 0.25);
+    outcome = run("b/object.glb");
+    ASSERT_EQ(outcome.status, 0) << outcome.text;
+    EXPECT_EQ(filesIn(folder / "truth"), truths + truths / 2) << "a changed file has a new truth";
+}
+
+TEST(MfarEvalTraced, InvalidRequestsEndWithAMessageAndStatus2) {
+    const TempFolder folder;
+    const std::pair<const char*, const char*> cases[] = {
+        {"--scenes absent", "'absent' is neither"},
+        {"--methods magic", "--methods"},
+        {"--paths away", "--paths"},
+        {"--budget nan", "--budget"},
+        {"--frames 0", "--frames"},
+        {"--every 0", "--every"},
+        {"--width 100000", "--width"},
+        {"--hdrvdp --width 64 --height 16", "--hdrvdp needs"},
+        {"--frames 15", "no frame is scored"},
+        {"--frames 30 --every 100", "--frames must be at least 101"},
+    };
+    for (const auto& [arguments, message] : cases) {
+        const auto outcome = execute(folder, fmt::format("'{}' traced {}", MFAR_EVAL, arguments));
         EXPECT_EQ(outcome.status, 2) << arguments << outcome.text;
+        EXPECT_NE(outcome.text.find(message), std::string::npos) << outcome.text;
     }
 }
 

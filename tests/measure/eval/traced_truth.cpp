@@ -47,7 +47,6 @@ TracedTruth::TracedTruth(const std::shared_ptr<const Scene>& scene, int samples,
                          std::filesystem::path folder, const std::string& name)
     : scene_(scene), tracer_(scene, truthOptions()), samples_(samples), folder_(std::move(folder)),
       stem_(name) {
-    std::ranges::replace(stem_, '/', '-');
     if (!folder_.empty()) std::filesystem::create_directories(folder_);
 }
 

@@ -16,7 +16,8 @@ namespace mfar::eval {
 /// program.
 class TracedTruth {
 public:
-    /// `name`: name of the path, for file names. Without a folder, nothing is kept.
+    /// `name`: name of scene and path, for file names. Different scenes need different names.
+    /// Without a folder, nothing is kept.
     TracedTruth(const std::shared_ptr<const Scene>& scene, int samples,
                 std::filesystem::path folder, const std::string& name);
 

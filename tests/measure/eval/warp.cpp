@@ -213,19 +213,19 @@ Report evaluateWarp(const WarpRequest& request) {
                    {"reray_share", 4},
                    {"reray_of_objects", 4},
                    {"ms", 2}});
+    const std::vector<std::string> labels = sceneLabels(request.scenes);
     for (std::size_t s = 0; s < request.scenes.size(); ++s) {
         const std::string& scene = request.scenes[s];
         const ProgressPart progress = request.progress.part(s, request.scenes.size(), scene);
         progress.show(0, 1, "");
         const WarpRun run(request, scene);
-        const std::string stem = std::filesystem::path(scene).stem().string();
         for (std::size_t d = 0; d < request.degrees.size(); ++d) {
             const double degrees = request.degrees[d];
             progress.show(d, request.degrees.size(), fmt::format("{:g} degrees", degrees));
             const Shot shot = run.shoot(degrees);
-            const std::string label = fmt::format("{}/{:g}", stem, degrees);
+            const std::string label = fmt::format("{}/{:g}", labels[s], degrees);
             const auto fileOf = [&](const std::string& method) {
-                return fmt::format("{}-{:g}-{}", stem, degrees, method);
+                return fmt::format("{}-{:g}-{}", fileStemOf(labels[s]), degrees, method);
             };
             savePicture(request, fileOf("truth"), bytesOf(shot.truth));
             for (const std::string& method : request.methods) {

@@ -1,5 +1,6 @@
 #include "tests/measure/eval/warp_command.h"
 
+#include "daemon/output_checks.h"
 #include "hal/gl_context.h"
 #include "pipeline/engine/engine.h"
 #include "tests/measure/eval/picture_options.h"
@@ -63,7 +64,8 @@ CLI::App* addWarpCommand(CLI::App& app, WarpRequest& request, WarpFiles& files) 
         ->check(CLI::Range(1, 256));
     sub->add_option("--save", request.save,
                     "folder to write the pictures of every method and of the truth into");
-    sub->add_option("--svg", files.svg, "file to write a plot of the PSNR over the angle into");
+    sub->add_option("--svg", files.svg, "file to write a plot of the PSNR over the angle into")
+        ->check(fileToWrite());
     return sub;
 }
 

@@ -87,9 +87,8 @@ private:
 std::string warpSvg(const WarpRequest& request, const Report& report) {
     std::string body;
     double left = kLeftOf;
-    for (const std::string& scene : request.scenes) {
-        body +=
-            WarpPanel(request, report, std::filesystem::path(scene).stem().string(), left).draw();
+    for (const std::string& scene : sceneLabels(request.scenes)) {
+        body += WarpPanel(request, report, scene, left).draw();
         left += kPanel + kBetween;
     }
     double at = kLeftOf;

@@ -48,6 +48,21 @@ std::vector<std::string> warpSceneNames() {
     return {"still-life", "showpiece"};
 }
 
+std::vector<std::string> sceneLabels(const std::vector<std::string>& scenes) {
+    std::vector<std::string> stems;
+    for (const std::string& scene : scenes)
+        stems.push_back(std::filesystem::path(scene).stem().string());
+    std::vector<std::string> out;
+    for (std::size_t i = 0; i < scenes.size(); ++i)
+        out.push_back(std::ranges::count(stems, stems[i]) == 1 ? stems[i] : scenes[i]);
+    return out;
+}
+
+std::string fileStemOf(std::string label) {
+    std::ranges::replace(label, '/', '-');
+    return label;
+}
+
 std::shared_ptr<const Scene> warpScene(const std::string& name) {
     if (name == "still-life") return render_scenes::stillLife();
     if (name == "showpiece") return std::make_shared<const Scene>(sceneOf(showpiece()));

@@ -14,6 +14,11 @@ namespace mfar::eval {
 /// "still-life": balls and boxes next to and behind each other. "showpiece": the model of
 /// showpiece() on a plane that catches its shadow.
 [[nodiscard]] std::vector<std::string> warpSceneNames();
+/// Short names of scenes: a scene's name, or the file's name without extension. If two scenes have
+/// the same short name, both keep the text they were given as.
+[[nodiscard]] std::vector<std::string> sceneLabels(const std::vector<std::string>& scenes);
+/// The label as a part of a file's name.
+[[nodiscard]] std::string fileStemOf(std::string label);
 /// Loads a scene of warpSceneNames(), or a glTF file. The file's model keeps its size and stands on
 /// a plane. Throws EvalError.
 [[nodiscard]] std::shared_ptr<const Scene> warpScene(const std::string& name);

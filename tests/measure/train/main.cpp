@@ -1,3 +1,4 @@
+#include "daemon/output_checks.h"
 #include "hal/virtual/image_files.h"
 #include "hal/virtual/recording.h"
 #include "tests/measure/train/enlarger_training.h"
@@ -40,11 +41,12 @@ twin::Grey lumaOf(const StoredImage& image) {
     });
 }
 
-void learn(const Options& options) {
-    EnlargerTraining training;
+/// Adds all sharp pictures of the recordings and returns their number.
+int addPictures(const std::vector<std::filesystem::path>& recordings, EnlargerTraining& training) {
     int pictures = 0;
-    for (const std::filesystem::path& root : options.recordings) {
+    for (const std::filesystem::path& root : recordings) {
         const Recording recording = loadRecording(root);
+        const int before = pictures;
         for (const RecordedImage& frame : recording.video) {
             const auto file = recording.truthHighRes(frame.time);
             if (!file) continue;
@@ -55,7 +57,21 @@ void learn(const Options& options) {
                 training.add({sharp, sensor}, heldOut);
             }
         }
+        if (pictures == before)
+            throw std::runtime_error(root.string() +
+                                     ": truth/highres has no picture of a video frame");
     }
+    if (pictures < kHeldOutOf)
+        throw std::runtime_error(
+            fmt::format("at least {} sharp pictures are needed, because every fourth only serves "
+                        "to check the filters; the number of pictures is {}",
+                        kHeldOutOf, pictures));
+    return pictures;
+}
+
+void learn(const Options& options) {
+    EnlargerTraining training;
+    const int pictures = addPictures(options.recordings, training);
     const EnlargerTraining::Outcome outcome = training.solve(kRidge);
     const auto gain = [&](int by) {
         return 10 * std::log10(outcome.cubicError[by] / outcome.error[by]);
@@ -81,7 +97,9 @@ int main(int argc, char** argv) {
     Options options;
     app.add_option("recording", options.recordings, "folders of recordings, in the EuRoC layout")
         ->required();
-    app.add_option("--out", options.out, "file to write the filters into")->required();
+    app.add_option("--out", options.out, "file to write the filters into")
+        ->required()
+        ->check(fileToWrite());
     CLI11_PARSE(app, argc, argv);
     try {
         learn(options);

@@ -1,0 +1,36 @@
+#include "tests/measure/eval/tiny_recording.h"
+
+namespace mfar::eval {
+namespace {
+
+using test::execute;
+using test::Outcome;
+using test::TempFolder;
+
+TEST(MfarTrainEnlarger, TooFewSharpPicturesAreRefusedAndNothingIsWritten) {
+    const TempFolder folder;
+    writeRecording(folder / "blurred", false);
+    writeRecording(folder / "sharp", true);
+    test::writeFile(folder / "kept", "filters");
+    const auto train = [&](const std::string& recordings, const std::string& out) {
+        return execute(folder, fmt::format("cd '{}' && '{}' {} --out {}", folder.path().string(),
+                                           MFAR_TRAIN_ENLARGER, recordings, out));
+    };
+    const std::pair<const char*, const char*> cases[] = {
+        {"blurred", "blurred: truth/highres has no picture"},
+        {"sharp blurred", "blurred: truth/highres has no picture"},
+        {"sharp", "at least 4 sharp pictures are needed"},
+    };
+    for (const auto& [recordings, message] : cases) {
+        const Outcome ran = train(recordings, "kept");
+        EXPECT_EQ(ran.status, 1) << recordings;
+        EXPECT_NE(ran.text.find(message), std::string::npos) << ran.text;
+        EXPECT_EQ(test::readFile(folder / "kept"), "filters") << recordings;
+    }
+    const Outcome ran = train("absent", "nowhere/file");
+    EXPECT_NE(ran.status, 0);
+    EXPECT_NE(ran.text.find("nowhere/file cannot be written"), std::string::npos) << ran.text;
+}
+
+}  // namespace
+}  // namespace mfar::eval
