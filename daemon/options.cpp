@@ -2,6 +2,7 @@
 
 #include "daemon/exit_code.h"
 #include "daemon/option_text.h"
+#include "daemon/rig_inputs.h"
 #include "daemon/rig_words.h"
 
 #include <CLI/CLI.hpp>
@@ -141,7 +142,10 @@ Config effectiveConfig(const Options& options) {
         config.source = *options.source;
         config.recording.clear();
     }
-    if (options.recording) config.recording = *options.recording;
+    if (options.recording) {
+        config.recording = *options.recording;
+        config.places.erase("recording");
+    }
     if (options.display) config.display = *options.display;
     if (options.size) config.size = *options.size;
     if (options.recordTo) config.recordTo = *options.recordTo;
@@ -159,6 +163,12 @@ Config effectiveConfig(const Options& options) {
         throw Failure(ExitCode::BadConfig, "pose.source = \"recorded\" needs a recording to play "
                                            "(--recording)");
     (void)configuredTags(config.pose);
+    return config;
+}
+
+Config usableConfig(const Options& options) {
+    Config config = effectiveConfig(options);
+    requireFiles(config, options.checkConfig ? RecordingCheck::Lists : RecordingCheck::Folder);
     return config;
 }
 
