@@ -1,6 +1,7 @@
 #include "daemon/app.h"
 
 #include "daemon/budgets.h"
+#include "daemon/rig_inputs.h"
 #include "daemon/rig_words.h"
 
 #include <fmt/format.h>
@@ -105,6 +106,8 @@ ExitCode App::run() {
 }
 
 std::string App::runSession(const Config& config) {
+    // Not checked in the constructor, so that the summary and the report contain the fault.
+    requireFiles(config, RecordingCheck::Folder);
     Session session(config, stats_, changes_, sessionCalls_,
                     {input_.get_token(), cancel_.get_token()});
     RunDescription description = session.description();
@@ -175,7 +178,7 @@ std::shared_future<std::string> App::reload() {
 
 void App::readAgain() {
     if (running_) service_.reloading();
-    std::packaged_task<Config()> read([this] { return effectiveConfig(options_); });
+    std::packaged_task<Config()> read([this] { return usableConfig(options_); });
     reload_->config = read.get_future();
     reload_->reader = std::jthread([this, read = std::move(read)]() mutable {
         const Heartbeat heart(stats_.heartbeats(), "reload", budget::kReload, ThreadRole::Helper);
@@ -212,6 +215,7 @@ std::string App::take(const Config& wanted) {
     config_.status = wanted.status;
     config_.objects = wanted.objects;
     config_.light = wanted.light;
+    config_.notes = wanted.notes;
     logNotes();
     changes_.put(tunables(config_));
     setTicks();
@@ -224,7 +228,7 @@ std::string App::take(const Config& wanted) {
 }
 
 void App::logNotes() {
-    for (const std::string& note : modelNotes(config_.objects))
+    for (const std::string& note : notesOf(config_))
         log_.warning(note, {}, {message::kObjects});
 }
 

@@ -11,7 +11,9 @@
 #include <nlohmann/json.hpp>
 
 #include <signal.h>
+#include <system_error>
 
+#include <cerrno>
 #include <cstdlib>
 #include <ctime>
 #include <iostream>
@@ -181,9 +183,11 @@ bool App::writeResults(const std::string& reason, ExitCode code) {
     }
     if (!options_.summary) return isWritten;
     std::ostream& out = summary_.is_open() ? summary_ : std::cout;
+    errno = 0;
     out << all.dump(2) << "\n" << std::flush;
     if (!out)
-        log_.error(fmt::format("{}: the summary cannot be written", options_.summary->string()));
+        log_.error(fmt::format("the summary cannot be written: {}: {}", options_.summary->string(),
+                               std::generic_category().message(errno != 0 ? errno : EIO)));
     return out && isWritten;
 }
 

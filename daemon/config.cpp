@@ -5,7 +5,9 @@
 #include "daemon/rig_words.h"
 #include "daemon/toml_reader.h"
 
+#include <algorithm>
 #include <array>
+#include <iterator>
 #include <span>
 #include <stdexcept>
 #include <utility>
@@ -14,6 +16,8 @@ namespace mfar {
 namespace {
 
 constexpr std::size_t kMostConfigBytes = 1 << 20;
+constexpr std::array kPlacedKeys{"recording", "cameras.calibration", "governor.table",
+                                 "governor.pin", "limits.memory_mb"};
 
 template <class E>
 using Word = std::pair<std::string_view, E>;
@@ -90,9 +94,19 @@ Config parseConfig(std::string_view toml, const std::string& fileName) {
     readEngine(file, config.engine);
     readVirtual(file, config.virtualLayer);
     readLight(file, folder, memory, config.light);
-    readObjects(file, folder, memory, config.objects);
+    readObjects(file, folder, memory, config.objects, config.notes);
+    for (const char* key : kPlacedKeys)
+        if (const std::optional<std::string> place = file.placeOf(key)) config.places[key] = *place;
     file.finish();
     return config;
+}
+
+std::vector<std::string> notesOf(const Config& config) {
+    std::vector<std::string> out = config.notes;
+    if (config.pose.source == PoseOrigin::None && !config.objects.empty())
+        out.emplace_back("no object of [[objects]] is shown, because pose.source is \"none\"");
+    std::ranges::move(modelNotes(config.objects), std::back_inserter(out));
+    return out;
 }
 
 std::string readConfigText(const std::filesystem::path& file) {

@@ -14,6 +14,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -75,6 +77,11 @@ struct Config {
     /// True: the outputs of all passes are checked. This is slow, so only the command line can set
     /// it.
     bool validate = false;
+    /// Messages about keys that have no effect.
+    std::vector<std::string> notes;
+    /// The places in the file of those keys whose values requireFiles() checks, as text that begins
+    /// a message: "mfard.toml:3:15: cameras.calibration: ".
+    std::map<std::string, std::string, std::less<>> places;
 };
 
 /// Reports that a configuration file is invalid. The message has one line per fault:
@@ -91,6 +98,10 @@ public:
 
 /// Throws ConfigError, or Failure(NoInput) if the file cannot be read.
 [[nodiscard]] Config loadConfig(const std::filesystem::path& file);
+
+/// Returns warnings about a configuration: keys without effect, objects and parts of models that
+/// are not shown.
+[[nodiscard]] std::vector<std::string> notesOf(const Config& config);
 
 /// Returns the text of a configuration file, which must be a regular file of at most 1 MiB. Throws
 /// Failure(NoInput) if it cannot be read.

@@ -80,6 +80,9 @@ ControlAnswer record(const ControlActions& actions, const json& request) {
         throw BadRequest(
             R"(record needs a "name" to start a recording, or "stop": true to end it)");
     if (name == request.end()) return line(with(actions.stopRecording()));
+    if (name->is_string() && name->get<std::string>().size() > kLongestName)
+        throw BadRequest(fmt::format("a recording's name must have at most {} characters, not {}",
+                                     kLongestName, name->get<std::string>().size()));
     if (!name->is_string() || !isFolderName(name->get<std::string>()))
         throw BadRequest("a recording's name must consist of letters, digits, '.', '-' and '_', "
                          "and must not begin with '.'");

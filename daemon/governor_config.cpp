@@ -27,16 +27,19 @@ void readGovernor(TomlReader& file, GovernorConfig& governor) {
     governor.table = table;
 }
 
-std::vector<QualityLevel> governedLevels(const GovernorConfig& governor) {
+std::vector<QualityLevel> knownLevels(const GovernorConfig& governor) {
     if (!governor.governs() && governor.pin.empty()) return {};
-    std::vector<QualityLevel> all = builtInQualityLevels();
-    if (!governor.table.empty())
-        all = parseQualityLevels(readConfigText(governor.table), governor.table.string());
+    if (governor.table.empty()) return builtInQualityLevels();
+    return parseQualityLevels(readConfigText(governor.table), governor.table.string());
+}
+
+std::vector<QualityLevel> governedLevels(const GovernorConfig& governor) {
+    std::vector<QualityLevel> all = knownLevels(governor);
     if (governor.pin.empty()) return all;
     const auto pinned = std::ranges::find(all, governor.pin, &QualityLevel::name);
     if (pinned == all.end())
-        throw ConfigError(fmt::format("governor.pin: unknown level \"{}\"; known levels: {}",
-                                      governor.pin, namesOf(all)));
+        throw ConfigError(
+            fmt::format("unknown level \"{}\"; known levels: {}", governor.pin, namesOf(all)));
     return {*pinned};
 }
 

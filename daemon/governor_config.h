@@ -21,10 +21,13 @@ struct GovernorConfig {
 
 void readGovernor(TomlReader& file, GovernorConfig& governor);
 
+/// Returns the levels of the configured table, or the built-in levels without one. Returns an empty
+/// list if there is neither a pinned level nor a deadline. Throws ConfigError if the table is
+/// invalid, and Failure(NoInput) if it cannot be read.
+[[nodiscard]] std::vector<QualityLevel> knownLevels(const GovernorConfig& governor);
+
 /// Returns the levels among which the governor chooses. If a level is pinned, returns only that
-/// level. If there is neither a pinned level nor a deadline, returns an empty list. Throws
-/// ConfigError if the table is invalid or lacks the pinned level, and Failure(NoInput) if the table
-/// cannot be read.
+/// level. Throws ConfigError if the table lacks the pinned level, and the errors of knownLevels().
 [[nodiscard]] std::vector<QualityLevel> governedLevels(const GovernorConfig& governor);
 
 }  // namespace mfar

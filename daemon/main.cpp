@@ -43,7 +43,7 @@ int main(int argc, char** argv) {
             return static_cast<int>(ExitCode::Ok);
         }
         if (line.options.checkConfig) {
-            for (const std::string& note : modelNotes(effectiveConfig(line.options).objects))
+            for (const std::string& note : notesOf(usableConfig(line.options)))
                 log.warning(note);
             fmt::print("ok\n");
             return static_cast<int>(ExitCode::Ok);

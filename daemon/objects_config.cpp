@@ -125,13 +125,27 @@ PlacedObject readObject(TomlReader& file, const std::string& prefix, ModelReader
     return out;
 }
 
+/// Adds a note for each key of an object that is used only for models, or only for shapes.
+void noteUnused(const TomlReader& file, const std::string& prefix, const PlacedObject& object,
+                std::vector<std::string>& notes) {
+    const auto note = [&](const char* key, const char* why) {
+        if (const std::optional<std::string> place = file.placeOf(prefix + key))
+            notes.push_back(*place + "has no effect, because the object is a " + why);
+    };
+    if (!object.model) return note("scale", "simple shape");
+    for (const char* key : {"shape", "size", "colour", "second_colour", "squares"})
+        note(key, "model");
+}
+
 }  // namespace
 
 void readObjects(TomlReader& file, const std::filesystem::path& folder, FileMemory& memory,
-                 std::vector<PlacedObject>& objects) {
+                 std::vector<PlacedObject>& objects, std::vector<std::string>& notes) {
     ModelReader models(folder, memory);
-    for (const std::string& prefix : file.sections("objects", kMostObjects))
+    for (const std::string& prefix : file.sections("objects", kMostObjects)) {
         objects.push_back(readObject(file, prefix, models));
+        noteUnused(file, prefix, objects.back(), notes);
+    }
 }
 
 std::optional<RigidTransform> worldAnchor(const PlacedObject& object, const TagMap& tags) {

@@ -17,9 +17,10 @@ inline constexpr std::size_t kMostObjects = 64;
 
 /// Reads the sections [[objects]] of the configuration, and the model files that they name. If a
 /// model is missing, invalid or larger than `memory`, this is reported with the line of the
-/// configuration that names the model. File names are relative to `folder`.
+/// configuration that names the model. File names are relative to `folder`. Adds a note for each
+/// key without effect to `notes`.
 void readObjects(TomlReader& file, const std::filesystem::path& folder, FileMemory& memory,
-                 std::vector<PlacedObject>& objects);
+                 std::vector<PlacedObject>& objects, std::vector<std::string>& notes);
 
 /// Returns the pose of an object's anchor in the world. The object's position and orientation are
 /// relative to this anchor. For an object on a tag, the anchor is the tag's frame, whose z axis

@@ -3,10 +3,15 @@
 #include "daemon/exit_code.h"
 #include "daemon/number_range.h"
 #include "daemon/option_text.h"
+#include "daemon/rig_inputs.h"
 #include "daemon/rig_words.h"
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
+#include <system_error>
+
+#include <charconv>
 #include <utility>
 
 namespace mfar {
@@ -22,6 +27,14 @@ CLI::Validator oneOf(std::optional<E> (*meaning)(std::string_view), const std::s
                 return meaning(given) ? std::string() : "\"" + given + "\" is not one of " + words;
             },
             "", words};
+}
+
+std::optional<std::string> countFault(std::string_view given) {
+    std::uint64_t count = 0;
+    const auto [end, error] = std::from_chars(given.data(), given.data() + given.size(), count);
+    if (error == std::errc() && end == given.data() + given.size() && count > 0)
+        return std::nullopt;
+    return fmt::format("\"{}\" is not a whole number of at least 1", given);
 }
 
 struct Words {
@@ -70,7 +83,7 @@ void addOthers(CLI::App& app, Options& options, bool& printConfig) {
     app.add_option("--record", options.recordTo, "Record video and stills into this new folder")
         ->type_name("DIR");
     app.add_option("--frames", options.frames, "End after N pictures")
-        ->check(CLI::PositiveNumber)
+        ->check(accepts(countFault, "count"))
         ->type_name("N");
     app.add_option("--seconds", options.seconds, "End after S seconds")->type_name("S");
     app.add_option("--summary", options.summary,
@@ -142,7 +155,10 @@ Config effectiveConfig(const Options& options) {
         config.source = *options.source;
         config.recording.clear();
     }
-    if (options.recording) config.recording = *options.recording;
+    if (options.recording) {
+        config.recording = *options.recording;
+        config.places.erase("recording");
+    }
     if (options.display) config.display = *options.display;
     if (options.size) config.size = *options.size;
     if (options.recordTo) config.recordTo = *options.recordTo;
@@ -160,6 +176,12 @@ Config effectiveConfig(const Options& options) {
         throw Failure(ExitCode::BadConfig, "pose.source = \"recorded\" needs a recording to play "
                                            "(--recording)");
     (void)configuredTags(config.pose);
+    return config;
+}
+
+Config usableConfig(const Options& options) {
+    Config config = effectiveConfig(options);
+    requireFiles(config, options.checkConfig ? RecordingCheck::Lists : RecordingCheck::Folder);
     return config;
 }
 

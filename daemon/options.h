@@ -52,4 +52,9 @@ struct CommandLine {
 /// missing, BadData if the tag map is invalid, BadConfig if options contradict each other.
 [[nodiscard]] Config effectiveConfig(const Options& options);
 
+/// Returns effectiveConfig() after a check of the files that it names, see requireFiles(). With
+/// --check-config, the lists of a recording are checked, too. Throws as effectiveConfig() and
+/// requireFiles().
+[[nodiscard]] Config usableConfig(const Options& options);
+
 }  // namespace mfar

@@ -2,6 +2,7 @@
 
 #include "daemon/budgets.h"
 #include "daemon/rig_cameras.h"
+#include "daemon/rig_inputs.h"
 #include "daemon/rig_source.h"
 #include "daemon/rig_words.h"
 #include "hal/device/display_auto.h"
@@ -62,7 +63,7 @@ struct SyntheticSource final : RigSource {
 
 struct PlayedSource final : RigSource {
     explicit PlayedSource(const Config& config)
-        : player(load(config),
+        : player(recordingOf(config),
                  {.pace = playerPace(config.pace, SourcePace::Consumer), .asksVideoFirst = true}) {
         handOver = handOverAt(playerPace(config.pace, SourcePace::Consumer));
         failure = ExitCode::BadData;
@@ -71,16 +72,6 @@ struct PlayedSource final : RigSource {
             tags = readTagMap(file);
         if (!player.recording().poses.empty())
             recordedPoses = [this](Timestamp t) { return player.recording().poseAt(t); };
-    }
-    static Recording load(const Config& config) {
-        const std::filesystem::path& folder = config.recording;
-        if (!std::filesystem::is_directory(folder))
-            throw Failure(ExitCode::NoInput, folder.string() + ": there is no such recording");
-        Recording out = orFail<RecordingError>(
-            ExitCode::BadData, [&] { return loadRecording(folder, config.limits.pictureBytes()); });
-        requireMemory(config.limits, out.rig.video.size, out.rig.still.size, folder.string(),
-                      memoryOf(out));
-        return out;
     }
     [[nodiscard]] const StereoRig& geometry() const override { return player.recording().rig; }
     [[nodiscard]] Camera& video() override { return player.video(); }
@@ -103,13 +94,10 @@ std::uint64_t lostBy(const Recorder& recorder) {
 
 std::unique_ptr<RigSource> openSource(const Config& config, Heartbeats& hearts) {
     if (!config.recording.empty()) return std::make_unique<PlayedSource>(config);
-    if (config.source == kCameras) {
-        requireMemory(config.limits, config.cameras.video.size, config.cameras.still.size,
-                      kCameras);
-        return std::make_unique<CamerasSource>(config.cameras, hearts);
-    }
     if (const std::optional<std::string> fault = sourceFault(config.source))
         throw Failure(ExitCode::BadConfig, *fault);
+    requireSourceMemory(config);
+    if (config.source == kCameras) return std::make_unique<CamerasSource>(config.cameras, hearts);
     try {
         return std::make_unique<SyntheticSource>(config);
     } catch (const std::runtime_error& error) {

@@ -1,6 +1,5 @@
 #include "daemon/rig_cameras.h"
 
-#include "base/calibration/rig_files.h"
 #include "daemon/budgets.h"
 #include "daemon/config.h"
 #include "daemon/taken_line.h"
@@ -162,15 +161,6 @@ TriggeredStillOptions stillOptions(const TriggerLineConfig& line) {
     return out;
 }
 
-RigCalibration calibrationOf(const CamerasConfig& config) {
-    if (config.calibration.empty()) return {nominalRig(config.video.size, config.still.size), 0};
-    std::error_code ignored;
-    const bool there = std::filesystem::exists(config.calibration, ignored);
-    return orFail<CalibrationError>(there ? ExitCode::BadData : ExitCode::NoInput, [&] {
-        return loadRig(config.calibration, {config.video.size, config.still.size});
-    });
-}
-
 CameraModel nominalCamera(Size size) {
     const double f = size.width / (2 * std::tan(kNominalView / 2));
     return {size, f, f, (size.width - 1) / 2.0, (size.height - 1) / 2.0, {}};
@@ -193,6 +183,15 @@ StereoRig nominalRig(Size video, Size still) {
     StereoRig rig{nominalCamera(video), nominalCamera(still), {}};
     rig.T_still_video.translation.x() = -kNominalBaseline;
     return rig;
+}
+
+RigCalibration calibrationOf(const CamerasConfig& config) {
+    if (config.calibration.empty()) return {nominalRig(config.video.size, config.still.size), 0};
+    std::error_code ignored;
+    const bool there = std::filesystem::exists(config.calibration, ignored);
+    return orFail<CalibrationError>(there ? ExitCode::BadData : ExitCode::NoInput, [&] {
+        return loadRig(config.calibration, {config.video.size, config.still.size});
+    });
 }
 
 CamerasSource::CamerasSource(const CamerasConfig& config, Heartbeats& hearts)

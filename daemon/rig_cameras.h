@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/calibration/rig_files.h"
 #include "base/heartbeats.h"
 #include "daemon/cameras_config.h"
 #include "daemon/rig_source.h"
@@ -18,6 +19,10 @@ namespace mfar {
 /// a horizontal field of view of 60 degrees, 14 mm apart. This geometry suffices for matching in
 /// two dimensions, but not for poses and depth.
 [[nodiscard]] StereoRig nominalRig(Size video, Size still);
+
+/// Returns the configured calibration, or nominalRig() without one. Throws Failure if the
+/// calibration is missing, invalid or made for other picture sizes.
+[[nodiscard]] RigCalibration calibrationOf(const CamerasConfig& config);
 
 [[nodiscard]] TriggerOptions triggerOptions(const TriggerLineConfig& line);
 

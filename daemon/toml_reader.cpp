@@ -254,6 +254,12 @@ std::vector<std::string> TomlReader::sections(std::string_view key, std::size_t 
     return out;
 }
 
+std::optional<std::string> TomlReader::placeOf(std::string_view key) const {
+    const toml::node* node = root_.at_path(key).node();
+    if (node == nullptr) return std::nullopt;
+    return fmt::format("{}{}: ", place(file_, node->source().begin), key);
+}
+
 void TomlReader::finish() {
     refuseUnknown(root_, "");
     if (faults_.empty()) return;

@@ -56,6 +56,10 @@ public:
     /// More than `most` sections are a fault.
     [[nodiscard]] std::vector<std::string> sections(std::string_view key, std::size_t most);
 
+    /// Returns the place of a key as text that begins a message: "file:line:column: key: ". Returns
+    /// nothing if the key is absent.
+    [[nodiscard]] std::optional<std::string> placeOf(std::string_view key) const;
+
     /// Must be called after all keys have been read. Throws ConfigError with all faults, in the
     /// order of the file, if there are any.
     void finish();

@@ -28,10 +28,10 @@ YamlReader::YamlReader(const std::filesystem::path& file) : file_(file) {
     try {
         text = boundedText(file, kMaxBytes);
     } catch (const std::runtime_error& error) {
-        fail(fmt::format("{}, so there is no calibration", error.what()));
+        fail(error.what());
     }
     root_ = boundedYaml(text);
-    if (!root_.IsMap()) calibrationFault(file_, 1, "is not a YAML map, so there is no calibration");
+    if (!root_.IsMap()) calibrationFault(file_, 1, "is not a YAML map");
 }
 
 YAML::Node YamlReader::at(const YAML::Node& map, const char* key) const {

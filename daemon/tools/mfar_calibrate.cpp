@@ -1,5 +1,6 @@
 #include "daemon/tools/calibrate/arguments.h"
 #include "daemon/tools/calibrate/collect.h"
+#include "daemon/tools/calibrate/output_folder.h"
 #include "daemon/tools/calibrate/report.h"
 #include "daemon/tools/calibrate/residual_picture.h"
 
@@ -43,6 +44,7 @@ SensorViews look(const std::vector<RecordedImage>& pictures, Size size, const Ta
 
 void run(const CalibrateArguments& a) {
     const Target target = targetOf(a);
+    const OutputFolder out(a.out);
     const Recording recording = loadRecording(a.recording);
     const SensorViews video = look(recording.video, recording.rig.video.size, target, "video");
     const SensorViews still = look(recording.stills, recording.rig.still.size, target, "still");

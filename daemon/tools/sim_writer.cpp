@@ -23,8 +23,9 @@ public:
     Writer(SyntheticBoard& board, const SimOptions& options)
         : board_(board), options_(options), truth_(options.out / "truth"),
           recorder_(options.out, board.rig(), board.video().info().rateHz) {
-        for (const char* part : {"highres", "inverse_depth", "flow"})
-            fs::create_directories(truth_ / part);
+        if (options.highRes) fs::create_directories(truth_ / "highres");
+        if (options.depth) fs::create_directories(truth_ / "inverse_depth");
+        if (options.flow) fs::create_directories(truth_ / "flow");
         recorder_.addFile("tags.toml", tomlOf(mapOf(board.world().tags)));
     }
 

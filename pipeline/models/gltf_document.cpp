@@ -153,6 +153,7 @@ GltfDocument readDocument(std::span<const std::uint8_t> bytes, const std::string
         if (bytes.size() > most)
             throw std::runtime_error(
                 fmt::format("has {} bytes; the limit is {} bytes", bytes.size(), most));
+        if (bytes.empty()) throw std::runtime_error("is empty");
         requireSoundJson(jsonOf(bytes), limits);
         parse(bytes, document);
     } catch (const std::exception& error) {

@@ -31,7 +31,7 @@ json parseBounded(std::string_view text, std::size_t most) {
     try {
         return json::parse(text, count);
     } catch (const json::exception& error) {
-        throw std::runtime_error(error.what());
+        throw std::runtime_error(fmt::format("is not a glTF file: {}", error.what()));
     }
 }
 

@@ -49,6 +49,19 @@ TEST(SimWriter, ARecordingIsReadBackWithItsGroundTruth) {
     EXPECT_TRUE(fs::exists(folder.path() / "tags.toml"));
 }
 
+TEST(SimWriter, WithoutGroundTruthThereIsNoFolderForIt) {
+    const TempFolder folder;
+    SyntheticOptions options;
+    options.scene = synthetic::Scene::Flat;
+    options.pace = Pace::Consumer;
+    options.frames = 1;
+    SyntheticBoard board(options);
+    SimOptions sim{folder.path()};
+    sim.highRes = sim.depth = sim.flow = false;
+    EXPECT_EQ(writeSimulation(board, sim, [](int) {}).video, 1);
+    EXPECT_FALSE(fs::exists(folder / "truth"));
+}
+
 TEST(SimWriter, ANonEmptyFolderIsRefused) {
     const TempFolder folder;
     fs::create_directory(folder.path() / "other");

@@ -98,6 +98,14 @@ TEST(MfarCalibrate, ARecordingOfOneViewIsRefusedAndNothingIsWritten) {
     EXPECT_EQ(ran.status, 1);
     EXPECT_NE(ran.text.find("mfar-calibrate: too few views"), std::string::npos) << ran.text;
     EXPECT_FALSE(fs::exists(out));
+    const Outcome unwritable =
+        execute(folder, fmt::format("{} {} --aprilgrid {}/aprilgrid.yaml --out {}/tags.toml/out",
+                                    MFAR_CALIBRATE, recording, recording, recording));
+    EXPECT_EQ(unwritable.status, 1);
+    EXPECT_NE(unwritable.text.find("/tags.toml/out: cannot be created: Not a directory"),
+              std::string::npos)
+        << unwritable.text;
+    EXPECT_EQ(unwritable.text.find("searched"), std::string::npos) << unwritable.text;
     EXPECT_NE(calibrate("").text.find("a target is needed"), std::string::npos);
     EXPECT_NE(calibrate("--checkerboard 8x6 --square 0.02").text.find("upside down"),
               std::string::npos);

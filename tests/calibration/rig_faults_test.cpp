@@ -151,8 +151,7 @@ TEST(RigFiles, DevicesAndPipesAreRefused) {
     const TempFolder folder;
     ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
     for (const fs::path& file : {folder / "pipe", fs::path("/dev/zero")})
-        EXPECT_EQ(faultOf(file),
-                  file.string() + ": is not a regular file, so there is no calibration");
+        EXPECT_EQ(faultOf(file), file.string() + ": is not a regular file");
 }
 
 TEST(RigFiles, TheDocumentationListsTheAcceptedRanges) {

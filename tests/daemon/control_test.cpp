@@ -95,6 +95,8 @@ TEST_F(Control, ARecordingNameMustBeASimpleFolderName) {
             << name;
     EXPECT_THAT(errorOf(R"({"command": "record", "name": 7})"), HasSubstr("a recording's name"));
     EXPECT_FALSE(isFolderName(std::string(101, 'a')));
+    EXPECT_EQ(errorOf(json{{"command", "record"}, {"name", std::string(101, 'a')}}.dump()),
+              "a recording's name must have at most 100 characters, not 101");
     EXPECT_TRUE(isFolderName(std::string(100, 'a')));
     EXPECT_EQ(recorded, "");
 }

@@ -94,6 +94,14 @@ TEST(Limits, CamerasWithLargePicturesAreRefused) {
     EXPECT_THAT(refusalOf(config), StartsWith("cameras: video of 640x480 and stills of 8192x8192"));
 }
 
+TEST(Limits, TheSimulatedBoardNeedsMemoryForItsPictures) {
+    Config config;
+    config.source = "synthetic:flat";
+    config.limits.memoryMb = 64;
+    EXPECT_THAT(refusalOf(config),
+                StartsWith("synthetic:flat: video of 640x480 and stills of 2304x1728 need about"));
+}
+
 TEST(Limits, AModelThatNeedsTooMuchMemoryIsReportedWithLineAndColumn) {
     const test::TempFolder folder;
     test::GltfMaker textured = test::richModel();

@@ -169,6 +169,24 @@ TEST(ObjectsConfig, NotesOfAModelAreReportedOnce) {
     EXPECT_TRUE(modelNotes({shape}).empty());
 }
 
+TEST(ObjectsConfig, KeysWithoutEffectAreReported) {
+    Config config = parseConfig("[[objects]]\nshape = \"sphere\"\nscale = 2\n"
+                                "[[objects]]\nmodel = \"showpiece\"\nshape = \"sphere\"\n"
+                                "colour = [1, 0, 0]\nscale = 2\n",
+                                "test.toml");
+    const std::vector<std::string> unused{
+        "test.toml:3:9: objects[0].scale: has no effect, because the object is a simple shape",
+        "test.toml:6:9: objects[1].shape: has no effect, because the object is a model",
+        "test.toml:7:10: objects[1].colour: has no effect, because the object is a model"};
+    EXPECT_EQ(notesOf(config), unused);
+    config.pose.source = PoseOrigin::None;
+    EXPECT_THAT(
+        notesOf(config),
+        testing::Contains("no object of [[objects]] is shown, because pose.source is \"none\""));
+    config.objects.clear();
+    EXPECT_EQ(notesOf(config), unused);
+}
+
 TEST(ObjectsConfig, OmittedObjectsAreReported) {
     const TagMap map({{{TagFamily::Tag36h11, 5}, 0.1, {}}});
     PlacedObject shape, onTag, model;

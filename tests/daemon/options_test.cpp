@@ -81,8 +81,9 @@ TEST(Options, UsageErrorsListTheValidChoices) {
     EXPECT_THAT(usageFault({"--display", "screen"}), AllOf(HasSubstr("none"), HasSubstr("y4m")));
     EXPECT_THAT(usageFault({"--mode", "best"}), HasSubstr("detail"));
     EXPECT_THAT(usageFault({"--pace", "slow"}), HasSubstr("consumer"));
-    EXPECT_THAT(usageFault({"--frames", "0"}), HasSubstr("--frames"));
-    EXPECT_THAT(usageFault({"--frames", "-3"}), HasSubstr("--frames"));
+    for (const char* wrong : {"0", "-3", "x", "1.5", "99999999999999999999"})
+        EXPECT_THAT(usageFault({"--frames", wrong}),
+                    AllOf(HasSubstr("--frames"), HasSubstr(wrong), HasSubstr("at least 1")));
     EXPECT_THAT(usageFault({"--seconds", "nan"}), HasSubstr("--seconds"));
     EXPECT_THAT(usageFault({"--seed", "x"}), HasSubstr("--seed"));
     EXPECT_THAT(usageFault({"--seed", "-1"}), HasSubstr("--seed"));

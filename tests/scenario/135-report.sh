@@ -33,3 +33,7 @@ has_report 'error: .*absent'
 echo "a report that cannot be written ends mfard with an error"
 run 74 --source synthetic:flat --display none --frames 1 --report absent/run.html
 says err 'the report cannot be written: absent/run.html: No such file or directory'
+
+echo "a summary that cannot be written is reported with the cause"
+run 74 --source synthetic:flat --display none --frames 1 --summary /dev/full
+says err 'the summary cannot be written: /dev/full: No space left on device'

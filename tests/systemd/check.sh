@@ -108,6 +108,30 @@ isChip gpiochip1 $'[cameras.trigger]\nline = ""\nchip = "gpiochip1"' &&
     fault "is-trigger-chip accepts a chip without a line"
 isChip gpiochip1 $'line = "17"\nchip = "gpiochip1"' &&
     fault "is-trigger-chip reads keys outside of the section"
+two=$section$'\nchip = "gpiochip0"\nloopback_chip = "gpiochip1"'
+isChip gpiochip1 "$two"$'\nloopback = "6"' || fault "is-trigger-chip refuses the loopback chip"
+isChip gpiochip0 "$two"$'\nloopback = "6"' || fault "is-trigger-chip refuses the line's chip"
+isChip gpiochip2 "$two"$'\nloopback = "6"' && fault "is-trigger-chip accepts a third chip"
+isChip gpiochip1 "$two" && fault "is-trigger-chip accepts a loopback chip without a loopback input"
+
+# Each text is TOML that sets the chip gpiochip1. mfard must accept the text, too.
+chipOne=(
+    $'[cameras.trigger]\r\nline = "17"\r\nchip = "gpiochip1" # header\r'
+    $'[cameras.trigger]\nline=\'17\'\nchip=\'gpiochip1\''
+    $' [ cameras . "trigger" ] # section\n"line" = "17"\n\'chip\' = "gpiochip1"'
+    $'[cameras]\ntrigger.line = "17"\ntrigger.chip = "gpiochip1"'
+    $'cameras.trigger.line = "17"\ncameras.trigger.chip = "gpiochip1"'
+    $'[cameras]\ntrigger = { line = "17", chip = "gpiochip1" } # both'
+    $'[[objects]]\nshape = "box"\n[cameras.trigger]\nline = "17"\nchip = "gpiochip1"'
+)
+for text in "${chipOne[@]}"; do
+    isChip gpiochip1 "$text" || fault "is-trigger-chip refuses the chip of: $text"
+    isChip gpiochip2 "$text" && fault "is-trigger-chip accepts another chip than that of: $text"
+    "$mfard" --check-config --config "$work/trigger.toml" >/dev/null || fault "mfard refuses: $text"
+done
+isChip gpiochip1 $'[cameras.trigger]\n# line = "17"\nchip = "gpiochip1"' &&
+    fault "is-trigger-chip reads a comment"
+isChip gpiochip1 $'[[cameras.trigger]]\nline = "17"' && fault "is-trigger-chip reads a list"
 isChip '../gpiochip1' "$section" && fault "is-trigger-chip accepts an invalid chip name"
 isChip gpiochip1 "$(cat "$sources/mfard.toml")" &&
     fault "is-trigger-chip accepts a chip although no line is configured"

@@ -13,8 +13,9 @@ constexpr std::string_view kIntroduction =
 
 `mfard --config FILE` reads a TOML file; the service reads `/etc/mfar/mfard.toml`. Every key is optional.
 `mfard --print-config` prints a file with all keys and defaults, `mfard --check-config --config FILE` checks one:
-an unknown key, a wrong type or a value out of range is refused with file, line and column. Options of the command
-line, in brackets behind the key, override the file. Names of files are relative to the configuration file.
+an unknown key, a wrong type, a value out of range or the name of an unusable file is refused with file, line and
+column. A key without effect is reported. Options of the command line, in brackets behind the key, override the file.
+Names of files are relative to the configuration file.
 
 Changes take effect after a restart. In sections marked *reload*, they also take effect after `systemctl reload mfard`,
 `mfarctl reload` or SIGHUP. If the new file is invalid, mfard keeps the old configuration.
