@@ -22,10 +22,11 @@ using testing::IsEmpty;
 struct FilterLearningTest : testing::Test {
     ~FilterLearningTest() override { std::filesystem::remove(options.file); }
 
-    static void show(FilterLearning& learning, int first, int last) {
+    static void show(FilterLearning& learning, int first, int last,
+                     const SensorPair& pair = {.videoBlur = 1}) {
         for (int i = first; i <= last; ++i) {
             const twin::Grey sharp = sharpDiscs(i);
-            showTo(learning, sharp, sharp, {.videoBlur = 1});
+            showTo(learning, sharp, sharp, pair);
             learning.finish();
         }
     }
@@ -93,7 +94,7 @@ TEST_F(FilterLearningTest, GuidanceIsLearnedFromTheOlderStillAndKept) {
     options.rig = discsRig();
     {
         FilterLearning learning(options);
-        show(learning, 1, 1);
+        show(learning, 1, 1, {.videoNoise = 4});
         EXPECT_EQ(learning.counts().learner.pairs, 0U) << "guidance needs an older still";
         replace(learning, 2);
         EXPECT_EQ(learning.counts().learner.pairs, 1U);

@@ -18,8 +18,8 @@ struct Refusal {
     bool operator==(const Refusal&) const = default;
 };
 
-void PrintTo(const Refusal& refusal, std::ostream* out) {
-    *out << refusal.code << ": " << refusal.message;
+std::ostream& operator<<(std::ostream& out, const Refusal& refusal) {
+    return out << refusal.code << ": " << refusal.message;
 }
 
 class RigInputs : public testing::Test {

@@ -38,7 +38,8 @@ Options parse(int argc, char** argv) {
     o.run.addOptions(app);
     app.add_option("--case", o.cases, "run only these cases")->delimiter(',');
     app.add_option("--plant", o.plant,
-                   "plant a fault in a shader: the number of the fault, see --list-planted");
+                   "plant a fault in a shader: the number of the fault, see --list-planted")
+        ->check(CLI::Range(0, static_cast<int>(plantedFaults().size()) - 1));
     app.add_flag("--small", o.small, "use only small pictures, as in the tests");
     app.add_flag("--full", o.full, "use only pictures of mfard's usual size")->excludes("--small");
     app.add_option("--pixels", o.pixels,

@@ -134,6 +134,9 @@ void checkPoseNoise(const Options& o, PoseSource poses) {
 }
 
 void addStills(CLI::App& sub, SuperResRequest& request) {
+    sub.add_flag("--no-still", request.noStill,
+                 "give no still to the methods, and leave out methods that need one")
+        ->excludes("--classes");
     sub.add_option("--stills", request.stills,
                    "number of stills that mfar gets for each frame; 2: also the second-nearest "
                    "still in time")
@@ -178,9 +181,6 @@ CLI::App* addSuperRes(CLI::App& app, Options& o) {
            "px]")
         ->check(numberFrom(1e-6, 1e6))
         ->capture_default_str();
-    sub->add_flag("--no-still", o.superres.noStill,
-                  "give no still to the methods, and leave out methods that need one")
-        ->excludes("--classes");
     addStills(*sub, o.superres);
     sub->add_option("--frames", o.superres.frames,
                     "measure at most this many frames of each recording")
