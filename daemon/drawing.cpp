@@ -21,7 +21,8 @@ Drawing::Drawing(const Config& config, const StereoRig& rig, Size output,
     : gpu(gl), validation(config.validate ? std::make_unique<gpu::Validation>() : nullptr),
       engines(chooseEngines(config, gl.get(), rig, output)),
       pipeline(rig, pipelineOptions(config, output, engines)),
-      objects(config.virtualLayer, rig, pipeline), banner(pipeline.outputSize()) {
+      objects(config.virtualLayer, rig, pipeline), tracing(config.virtualLayer.budgetMs),
+      banner(pipeline.outputSize()) {
     pipeline.setMeasure(config.status.measure);
     pipeline.setImporter(gl ? gl->planeImporter() : nullptr);
 }

@@ -4,6 +4,7 @@
 #include "daemon/banner.h"
 #include "daemon/config.h"
 #include "daemon/gpu_watch.h"
+#include "daemon/tracing_watch.h"
 #include "daemon/virtual_world.h"
 #include "hal/gl_context.h"
 #include "hal/picture.h"
@@ -30,6 +31,7 @@ struct Drawing {
     EngineChoice engines;
     Pipeline pipeline;
     VirtualWorld objects;
+    TracingWatch tracing;
     Banner banner;
     Picture last;  ///< the pipeline's last picture, without banner; may be empty
     std::optional<Picture> shown;

@@ -23,6 +23,9 @@ std::string sensorsOf(const Config& config, Rig& rig) {
 }
 
 constexpr std::chrono::milliseconds kFaultInterval{30};
+// A recording is played faster than real time. Without this wait, the path tracer, whose priority
+// is low, would get hardly any processor time.
+constexpr std::chrono::milliseconds kTracerWait{100};
 
 }  // namespace
 
@@ -128,6 +131,8 @@ std::string Session::showFrames(Mailbox<CapturedFrame>& mailbox, CaptureThread& 
     capture.join();
     checkRecording();
     stats_.recorderDropped(rig_.notRecorded());
+    if (auto warning = drawing_->tracing.atEnd())
+        stats_.warn(*std::move(warning), {message::kObjects});
     leavePictures();
     finishDisplay();
     return enough ? "the requested number of frames has been shown" : "end of the source";
@@ -149,6 +154,7 @@ void Session::showNext(std::optional<CapturedFrame>& captured) {
     if (rig_.handOver() == HandOver::Lossless) captured->arrived = Timestamp::now();
     process(*captured);
     captured.reset();
+    if (rig_.handOver() == HandOver::Lossless) drawing_->pipeline.waitForTracer(kTracerWait);
 }
 
 void Session::finishDisplay() {
@@ -260,36 +266,8 @@ void Session::process(CapturedFrame& captured) {
         governor_->add({ms, newStill, result.stats.usedStill, result.stats.changed});
         govern();
     }
-    tell(time);
+    tell(time, result.stats);
     if (drawing_->validation) tellFaultyPasses();
-}
-
-void Session::tell(Timestamp time) {
-    if (const auto traced = drawing_->pipeline.tracedCounters()) stats_.traced(*traced, time);
-    tellLearning();
-    if (auto error = drawing_->pipeline.takeSceneError())
-        stats_.warn("objects: " + *error, {message::kObjects});
-    if (auto error = drawing_->pipeline.takeImportFault())
-        stats_.warn(*error + "; video frames are copied instead");
-    stats_.recorderDropped(rig_.notRecorded());
-    if (auto matching = rig_.matching()) {
-        // StillPolicy repeats the pulses of lost stills, and StillMatcher does not. So the number
-        // of repetitions comes from StillPolicy.
-        matching->repeated = static_cast<std::uint64_t>(policy_.repetitions());
-        stats_.matching(*matching);
-    }
-}
-
-void Session::tellFaultyPasses() {
-    for (const gpu::ValidationFault& fault : drawing_->validation->takeFaults()) {
-        ++validated_.faults;
-        stats_.warn("validation: " + describe(fault));
-    }
-    validated_.values = 0;
-    for (const auto& [pass, count] : drawing_->validation->counts())
-        validated_.values += static_cast<std::uint64_t>(count.values);
-    stats_.validation(validated_);
-    drawing_->validation->nextFrame();
 }
 
 void Session::govern() {

@@ -137,7 +137,8 @@ private:
     void setLearning(bool wanted);
     void takeFilters();
     void endLearning();
-    void tell(Timestamp time);
+    void tell(Timestamp time, const FrameStats& frame);
+    void tellTracing(Timestamp time, const FrameStats& frame);
     void tellLearning();
     void tellFaultyPasses();
     void show(Timestamp time, bool unchanged);

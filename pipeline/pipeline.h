@@ -17,6 +17,7 @@
 #include "pipeline/stage_clock.h"
 #include "pipeline/traced_layer.h"
 
+#include <chrono>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -107,6 +108,9 @@ public:
     /// Counters of the path tracer and the warp. Empty without a path tracer.
     [[nodiscard]] std::optional<TracedLayerCounters> tracedCounters() const;
     [[nodiscard]] std::optional<std::string> takeSceneError();
+    /// Waits until the path tracer has finished the work that the last run() allowed, but at most
+    /// this long. For frames that do not arrive in real time.
+    void waitForTracer(std::chrono::milliseconds most) const;
 
     [[nodiscard]] Size outputSize() const;
     /// Default output size: as wide as the still, with the aspect ratio of the video.

@@ -4,7 +4,9 @@
 #include "pipeline/pipeline_state.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cstring>
+#include <thread>
 #include <utility>
 
 namespace mfar {
@@ -79,6 +81,13 @@ std::optional<TracedLayerCounters> Pipeline::tracedCounters() const {
 std::optional<std::string> Pipeline::takeSceneError() {
     if (!state_->objects || state_->objects->traced() == nullptr) return {};
     return state_->objects->traced()->takeError();
+}
+
+void Pipeline::waitForTracer(std::chrono::milliseconds most) const {
+    if (!state_->objects || state_->objects->traced() == nullptr) return;
+    const auto end = std::chrono::steady_clock::now() + most;
+    while (!state_->objects->traced()->rests() && std::chrono::steady_clock::now() < end)
+        std::this_thread::sleep_for(std::chrono::microseconds(200));
 }
 
 const InverseDepthField& Pipeline::inverseDepth() const {

@@ -32,8 +32,10 @@ shape = "box"
 size = [0.1, 0.1, 0.1]
 position = [0.0, 0.0, 0.06]
 END
-# Few pixels and samples give a picture soon, even on a slow machine.
-sed 's/"preview"/"path-traced"\nresolution = 0.1\nsamples = 1\nbudget_ms = 60/' preview.toml >traced.toml
+# With sanitizers, only few pixels and samples give a picture soon.
+few=
+[ "$patience" = 1 ] || few='\nresolution = 0.1\nsamples = 1\nbudget_ms = 60'
+sed "s/\"preview\"/\"path-traced\"$few/" preview.toml >traced.toml
 
 last preview --config preview.toml
 says err "warning: previews of virtual objects need OpenGL ES 3.1 and are not shown: "
