@@ -1,6 +1,8 @@
 // Computes the luma of the still with its tone curve and amplifies its finest detail, because linear
 // look-ups lose some of it.
 // In: still, RGBA8; tone curve. Out: luma, clamped to 8 bits.
+// LUMA: the still is already luma, R8.
+// Variant: #define LUMA
 #include "luma.glsl"
 #include "pipeline/engine/params/still.h"
 #include "still_tone.glsl"
@@ -21,7 +23,12 @@ layout(location = 0) out vec4 raised;
 // On a photograph reduced from 2304 to 1067 pixels across, a weight of 0 is 2.5 dB better than
 // 0.08.
 float stillAt(ivec2 p) {
-    return toned(lumaOf(texelFetch(still, clamp(p, ivec2(0), textureSize(still, 0) - 1), 0).rgb));
+    vec4 texel = texelFetch(still, clamp(p, ivec2(0), textureSize(still, 0) - 1), 0);
+#ifdef LUMA
+    return toned(texel.r);
+#else
+    return toned(lumaOf(texel.rgb));
+#endif
 }
 
 void main() {

@@ -17,7 +17,7 @@ constexpr double kSameView = 0.5 * kTileSize;
 void Reference::take(const ImageView& picture, Timestamp taken, SuperResMode mode,
                      const StillTone& tone) {
     time = taken;
-    pictures = &still->run(picture, mode, tone);
+    pictures = &still->run(picture, mode, tone, noise.of(picture));
     pyramid->still(*pictures);
     lastFlow = nullptr;
     shows = 1;

@@ -78,8 +78,10 @@ class StillStep {
 public:
     virtual ~StillStep() = default;
     /// The still must be valid and have the still camera's size. `tone` is applied to its luma.
+    /// `noise`: standard deviation of its noise [grey levels], which is removed from `raised` and
+    /// `pairs`, but not from `luma`, so that learned filters do not depend on how it is removed.
     virtual const StillPictures& run(const ImageView& still, SuperResMode mode,
-                                     const StillTone& tone) = 0;
+                                     const StillTone& tone, double noise) = 0;
     /// Prepares the members of StillPictures that the new mode needs. They are computed from the
     /// still of the last run().
     virtual void setMode(SuperResMode mode) = 0;

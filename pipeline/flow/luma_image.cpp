@@ -11,6 +11,8 @@
 namespace mfar {
 namespace {
 
+constexpr int kNoiseBlock = 8;  // side of a block of BlockNoise [px]
+
 // Weights of red, green and blue in the luma (Rec. 601), multiplied by 65536.
 constexpr int kRed = 19595, kGreen = 38470, kBlue = 7471;
 
@@ -160,29 +162,39 @@ void smooth(const LumaImage& in, float side, LumaImage& out) {
                         in.size.width, s, out.row(y));
 }
 
-double noiseOf(const Rows<const std::uint8_t>& picture) {
-    constexpr int kBlock = 8, kRun = 32;
-    std::vector<int> sums;
-    const int blocks = (picture.size.width - 2) / kBlock;
-    for (int y = 1; y + kBlock < picture.size.height; y += kBlock) {
+void BlockNoise::add(const Rows<const std::uint8_t>& picture) {
+    constexpr int kRun = 32;
+    const int blocks = (picture.size.width - 2) / kNoiseBlock;
+    for (int y = 1; y + kNoiseBlock < picture.size.height; y += kNoiseBlock) {
         for (int first = 0; first < blocks; first += kRun) {
             const int count = std::min(kRun, blocks - first);
-            std::array<std::uint16_t, kRun * kBlock> columns;
-            const Rows<const std::uint8_t> part{picture.data + first * kBlock, picture.pitch,
+            std::array<std::uint16_t, kRun * kNoiseBlock> columns;
+            const Rows<const std::uint8_t> part{picture.data + first * kNoiseBlock, picture.pitch,
                                                 picture.size};
-            simd::noiseColumns(part, y, kBlock, count * kBlock, columns.data());
+            simd::noiseColumns(part, y, kNoiseBlock, count * kNoiseBlock, columns.data());
             for (int b = 0; b < count; ++b)
-                sums.push_back(std::accumulate(columns.begin() + b * kBlock,
-                                               columns.begin() + (b + 1) * kBlock, 0));
+                sums_.push_back(std::accumulate(columns.begin() + b * kNoiseBlock,
+                                                columns.begin() + (b + 1) * kNoiseBlock, 0));
         }
     }
-    if (sums.empty()) return 0;
-    const auto quiet = sums.begin() + static_cast<std::ptrdiff_t>(sums.size() / 5);
-    std::nth_element(sums.begin(), quiet, sums.end());
+}
+
+double BlockNoise::take() {
+    if (sums_.empty()) return 0;
+    const auto quiet = sums_.begin() + static_cast<std::ptrdiff_t>(sums_.size() / 5);
+    std::nth_element(sums_.begin(), quiet, sums_.end());
+    const int sum = *quiet;
+    sums_.clear();
     // For white noise, the result of the filter in noiseColumns() has 6 times the standard
     // deviation of the noise. The factor sqrt(pi / 2) converts a mean absolute value to a standard
     // deviation.
-    return std::sqrt(1.5708) * *quiet / (6.0 * kBlock * kBlock);
+    return std::sqrt(1.5708) * sum / (6.0 * kNoiseBlock * kNoiseBlock);
+}
+
+double noiseOf(const Rows<const std::uint8_t>& picture) {
+    BlockNoise noise;
+    noise.add(picture);
+    return noise.take();
 }
 
 }  // namespace mfar

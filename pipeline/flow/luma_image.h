@@ -61,10 +61,22 @@ void halve(const LumaImage& fine, LumaImage& coarse);
 /// two neighbours, in [0, 1/3]. `in` and `out` must be different pictures.
 void smooth(const LumaImage& in, float side, LumaImage& out);
 
-/// Returns the standard deviation of the picture's noise [grey levels]. A filter (Immerkaer, Fast
-/// noise variance estimation, 1996) first removes smooth slopes, and steps and lines along the
-/// axes. Then the noise of each block of 8x8 pixels is measured. The result is the 20 % quantile
-/// over all blocks.
+/// Measures the noise of a picture, or of parts of it. A filter (Immerkaer, Fast noise variance
+/// estimation, 1996) first removes smooth slopes, and steps and lines along the axes. Then the
+/// noise of each block of 8x8 pixels is measured.
+class BlockNoise {
+public:
+    /// Adds the blocks of a picture. The outermost pixels only serve the filter.
+    void add(const Rows<const std::uint8_t>& picture);
+    /// Returns the 20 % quantile of the blocks' standard deviations [grey levels], and forgets the
+    /// blocks. Without blocks, the result is 0.
+    [[nodiscard]] double take();
+
+private:
+    std::vector<int> sums_;
+};
+
+/// Returns the standard deviation of the picture's noise [grey levels], see BlockNoise.
 [[nodiscard]] double noiseOf(const Rows<const std::uint8_t>& picture);
 
 }  // namespace mfar

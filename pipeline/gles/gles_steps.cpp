@@ -69,8 +69,9 @@ public:
         pictures_.luma = Field<std::uint8_t>({}, setup.transfers);
     }
 
-    const StillPictures& run(const ImageView& still, SuperResMode, const StillTone& tone) override {
-        still_.set(still, tone);
+    const StillPictures& run(const ImageView& still, SuperResMode, const StillTone& tone,
+                             double noise) override {
+        still_.set(still, tone, noise);
         lumaCopy_.setFormat(still.format);
         pictures_.tone = tone;
         ++pictures_.number;

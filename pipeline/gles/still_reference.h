@@ -21,8 +21,9 @@ public:
     StillReference(const StereoRig& rig, Size output, gpu::PictureTexture& picture);
 
     /// Uploads a still of the still camera's size. Its pixel format may change from one still to
-    /// the next. `tone` is applied to raised().
-    void set(const ImageView& still, const StillTone& tone = {});
+    /// the next. `tone` is applied to raised(). `noise`: standard deviation of the noise [grey
+    /// levels] that is removed from raised().
+    void set(const ImageView& still, const StillTone& tone = {}, double noise = 0);
 
     /// The rig, but with a still camera of the resolution of picture().
     [[nodiscard]] const StereoRig& rig() const { return rig_; }
@@ -40,9 +41,10 @@ private:
     gpu::PictureTexture& picture_;
     std::optional<StillReducer> reducer_;
     ToneTexture tone_;
-    gpu::Texture raised_;
-    gpu::Framebuffer raisedTarget_;
-    gpu::DrawPass<params::RaiseStill> raise_;
+    gpu::Texture quiet_, raised_;
+    gpu::Framebuffer quietTarget_, raisedTarget_;
+    gpu::DrawPass<params::QuietStill> removeNoise_;
+    gpu::DrawPass<params::RaiseStill> raise_, raiseQuiet_;
 };
 
 }  // namespace mfar

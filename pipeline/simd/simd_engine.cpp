@@ -26,9 +26,9 @@ public:
         pictures_.rig = still_.rig();
     }
 
-    const StillPictures& run(const ImageView& still, SuperResMode mode,
-                             const StillTone& tone) override {
-        still_.set(still, tone);
+    const StillPictures& run(const ImageView& still, SuperResMode mode, const StillTone& tone,
+                             double noise) override {
+        still_.set(still, tone, true, noise);
         ++pictures_.number;
         pictures_.tone = tone;
         pictures_.luma.writtenOnHost(still_.luma());

@@ -81,6 +81,31 @@ void RaisedRow(const std::array<const std::uint8_t*, 3>& luma, std::int16_t neig
         hn::StoreU(Bytes(Raised(luma, share, x)), U8(), to + x);
 }
 
+void QuietRow(const std::array<const std::uint8_t*, 3>& luma, float noise, std::size_t pixels,
+              std::uint8_t* to) {
+    const hn::ScalableTag<float> d;
+    const hn::RebindToSigned<decltype(d)> whole;
+    const hn::Rebind<std::uint8_t, decltype(d)> bytes;
+    const auto least = hn::Set(d, noise), ninth = hn::Set(d, 1.0F / 9);
+    for (std::size_t x = 0; x < pixels; x += hn::Lanes(d)) {
+        const auto load = [&](int row, int column) HWY_ATTR {
+            return hn::ConvertTo(d, hn::PromoteTo(whole, hn::LoadU(bytes, luma[row] + x + column)));
+        };
+        const auto here = load(1, 0);
+        auto sum = hn::Zero(d), squares = hn::Zero(d);
+        for (int i = 0; i < 9; ++i) {
+            const auto off = hn::Sub(load(i / 3, i % 3 - 1), here);
+            sum = hn::Add(sum, off);
+            squares = hn::MulAdd(off, off, squares);
+        }
+        const auto mean = hn::Mul(sum, ninth);
+        const auto variance = hn::NegMulAdd(mean, mean, hn::Mul(squares, ninth));
+        const auto removed = hn::Div(least, hn::Max(variance, least));
+        const auto quiet = hn::NearestInt(hn::MulAdd(removed, mean, here));
+        hn::StoreU(hn::DemoteTo(bytes, quiet), bytes, to + x);
+    }
+}
+
 void PairRows(const std::uint8_t* upper, const std::uint8_t* lower, std::size_t pixels,
               std::uint16_t* pairs) {
     const U16 d;
@@ -119,6 +144,7 @@ namespace mfar::simd {
 HWY_EXPORT(LumaOfPlane);
 HWY_EXPORT(LumaOfPairs);
 HWY_EXPORT(RaisedRow);
+HWY_EXPORT(QuietRow);
 HWY_EXPORT(PairRows);
 HWY_EXPORT(PackRow);
 
@@ -135,6 +161,11 @@ void lumaOfPairs(const std::uint8_t* yAndChroma, const std::int16_t* chroma, con
 void raisedRow(const std::array<const std::uint8_t*, 3>& luma, std::int16_t neighboursShare,
                std::size_t pixels, std::uint8_t* to) {
     HWY_DYNAMIC_DISPATCH(RaisedRow)(luma, neighboursShare, pixels, to);
+}
+
+void quietRow(const std::array<const std::uint8_t*, 3>& luma, float noise, std::size_t pixels,
+              std::uint8_t* to) {
+    HWY_DYNAMIC_DISPATCH(QuietRow)(luma, noise, pixels, to);
 }
 
 void pairRows(const std::uint8_t* upper, const std::uint8_t* lower, std::size_t pixels,

@@ -28,6 +28,12 @@ void lumaOfPairs(const std::uint8_t* yAndChroma, const std::int16_t* chroma, con
 void raisedRow(const std::array<const std::uint8_t*, 3>& luma, std::int16_t neighboursShare,
                std::size_t pixels, std::uint8_t* to);
 
+/// Removes noise from a row of luma. A pixel moves towards the mean of its 3x3 neighbourhood: the
+/// more, the less the variance there exceeds `noise` [grey levels^2], which must be positive
+/// (Wiener filter, still_quiet.frag). `luma`: as in raisedRow().
+void quietRow(const std::array<const std::uint8_t*, 3>& luma, float noise, std::size_t pixels,
+              std::uint8_t* to);
+
 /// Packs two rows of bytes into one row of pairs. `upper` becomes the low bytes.
 void pairRows(const std::uint8_t* upper, const std::uint8_t* lower, std::size_t pixels,
               std::uint16_t* pairs);

@@ -16,7 +16,8 @@ constexpr int kStillGrain = 16;
 }  // namespace
 
 StillPreparation::Scratch::Scratch(Size still)
-    : luma(still.width), wide({still.width, 1}), raised({still.width, 2}), rgb({still.width, 3}) {}
+    : luma(still.width), wide({still.width, 1}), raised({still.width, 2}), rgb({still.width, 3}),
+      shown({still.width, 3}) {}
 
 StillPreparation::StillPreparation(const StereoRig& rig, Size output,
                                    std::shared_ptr<Workers> workers)
@@ -38,18 +39,16 @@ void StillPreparation::inParts(int rows, const std::function<void(int, int, Scra
     });
 }
 
-void StillPreparation::set(const ImageView& still, const StillTone& tone, bool keepsPicture) {
+void StillPreparation::set(const ImageView& still, const StillTone& tone, bool keepsPicture,
+                           double noise) {
     takeLuma(still);
     const Rows<const std::uint8_t> grey = luma();
     unmade_ =
         ImageView{grey.data, grey.size, static_cast<std::size_t>(grey.pitch), PixelFormat::Gray8};
     if (keepsPicture) keep(still);
-    if (reduction_) {
-        reduceLuma();
-        applyTone(tone, reduction_->luma);
-    }
-    applyTone(tone, luma_);
-    makePairs();
+    if (reduction_) reduceLuma();
+    makePairs(tone, quietVariance(noise, whole_, rig_.still.size));
+    applyTone(tone);
 }
 
 void StillPreparation::takeLuma(const ImageView& still) {
@@ -109,33 +108,56 @@ void StillPreparation::reduceLuma() {
     });
 }
 
-void StillPreparation::applyTone(const StillTone& tone, Luma& luma) {
+void StillPreparation::applyTone(const StillTone& tone) {
     if (tone.isIdentity()) return;
-    const auto [width, height] = luma.rows().size;
-    inParts(height, [&, width = width](int first, int last, Scratch&) {
+    inParts(whole_.height, [&](int first, int last, Scratch&) {
         for (int y = first; y < last; ++y) {
-            tone.apply({luma[y], static_cast<std::size_t>(width)});
-            luma.repeatBorder(y);
+            tone.apply({luma_[y], static_cast<std::size_t>(whole_.width)});
+            luma_.repeatBorder(y);
         }
     });
 }
 
-void StillPreparation::raisedRowOf(int y, std::uint8_t* to) {
-    const auto [width, height] = rig_.still.size;
+// Returns row y of detailed() without noise and with the tone curve. It stays valid while no row
+// further away than two rows is requested.
+const std::uint8_t* StillPreparation::shownRow(int y, const StillTone& tone, float quiet,
+                                               Scratch& scratch) {
     Luma& luma = detailed();
-    raisedRow({luma[std::max(y - 1, 0)], luma[y], luma[std::min(y + 1, height - 1)]},
-              neighboursShare_, static_cast<std::size_t>(width), to);
+    if (!(quiet > 0) && tone.isIdentity()) return luma[y];
+    const auto [width, height] = rig_.still.size;
+    const auto pixels = static_cast<std::size_t>(width);
+    const int slot = y % static_cast<int>(scratch.shownRows.size());
+    std::uint8_t* to = scratch.shown[slot];
+    if (std::exchange(scratch.shownRows[slot], y) == y) return to;
+    if (quiet > 0)
+        quietRow({luma[std::max(y - 1, 0)], luma[y], luma[std::min(y + 1, height - 1)]}, quiet,
+                 pixels, to);
+    else
+        std::memcpy(to, luma[y], pixels);
+    if (!tone.isIdentity()) tone.apply({to, pixels});
+    to[-1] = to[0];
+    to[width] = to[width - 1];
+    return to;
 }
 
-void StillPreparation::makePairs() {
+void StillPreparation::makePairs(const StillTone& tone, float quiet) {
     const auto [width, height] = rig_.still.size;
-    inParts(height, [&, width = width, height = height](int first, int last, Scratch& scratch) {
-        raisedRowOf(first, scratch.raised[first % 2]);
+    const auto pixels = static_cast<std::size_t>(width);
+    inParts(height, [&, height = height](int first, int last, Scratch& scratch) {
+        scratch.shownRows.fill(-1);
+        const auto raise = [&](int y) {
+            const auto row = [&](int at) {
+                return shownRow(std::clamp(at, 0, height - 1), tone, quiet, scratch);
+            };
+            raisedRow({row(y - 1), row(y), row(y + 1)}, neighboursShare_, pixels,
+                      scratch.raised[y % 2]);
+        };
+        raise(first);
         for (int y = first; y < last; ++y) {
-            const int next = y + 1, below = std::min(next, height - 1);
-            raisedRowOf(below, scratch.raised[next % 2]);
-            pairRows(scratch.raised[y % 2], scratch.raised[next % 2],
-                     static_cast<std::size_t>(width), pairs_[y]);
+            const int next = y + 1;
+            if (next < height) raise(next);
+            pairRows(scratch.raised[y % 2], scratch.raised[std::min(next, height - 1) % 2], pixels,
+                     pairs_[y]);
         }
     });
 }

@@ -10,6 +10,7 @@
 #include "pipeline/simd/scratch_slots.h"
 #include "pipeline/simd/still_luma.h"
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -29,16 +30,18 @@ public:
 
     /// Sets a valid picture of the still camera's size, in any pixel format. `tone` is applied to
     /// the luma, but not to the colours of picture(). `keepsPicture`: true copies the still's
-    /// colours for picture(); false makes picture() return the luma as a grey picture.
-    void set(const ImageView& still, const StillTone& tone = {}, bool keepsPicture = true);
+    /// colours for picture(); false makes picture() return the luma as a grey picture. `noise`:
+    /// standard deviation of the noise [grey levels] that is removed from pairs().
+    void set(const ImageView& still, const StillTone& tone = {}, bool keepsPicture = true,
+             double noise = 0);
 
     /// The rig, but with a still camera of the size of pairs(): it has the same lens, but may have
     /// fewer pixels.
     [[nodiscard]] const StereoRig& rig() const { return rig_; }
     /// Rec. 601 luma of the whole still, with the tone curve.
     [[nodiscard]] Rows<const std::uint8_t> luma() const { return luma_.rows(); }
-    /// Luma at the size of rig().still. A still that already had this size is sharpened a little:
-    /// its finest detail is raised, because later linear look-ups blur it.
+    /// Luma without noise, at the size of rig().still. A still that already had this size is
+    /// sharpened a little: its finest detail is raised, because later linear look-ups blur it.
     [[nodiscard]] StillPairs pairs() const { return {pairs_[0], pairs_.pitch(), pairs_.size()}; }
     /// The picture as RGBA8 with R in the lowest byte, at the size of rig().still. 64 readable
     /// bytes follow each row. The first call after set() computes it.
@@ -68,6 +71,8 @@ private:
         StillLuma::Scratch luma;
         AlignedRows<float> wide;
         AlignedRows<std::uint8_t> raised, rgb;
+        Luma shown;                      // rows of the luma without noise, see shownRow()
+        std::array<int, 3> shownRows{};  // numbers of these rows
         std::vector<const std::uint8_t*> rows;
         std::vector<float> weights;
     };
@@ -81,10 +86,11 @@ private:
     void takeLuma(const ImageView& still);
     void keep(const ImageView& still);
     void reduceLuma();
-    void applyTone(const StillTone& tone, Luma& luma);
-    void makePairs();
+    void applyTone(const StillTone& tone);
+    void makePairs(const StillTone& tone, float quiet);
+    [[nodiscard]] const std::uint8_t* shownRow(int y, const StillTone& tone, float quiet,
+                                               Scratch& scratch);
     void reducePictureRow(int y, Scratch& scratch);
-    void raisedRowOf(int y, std::uint8_t* to);
     template <class RowAt>
     void weighColumn(const RowTaps& taps, int y, Size from, const RowAt& rowAt, Scratch& scratch);
     [[nodiscard]] Luma& detailed() { return reduction_ ? reduction_->luma : luma_; }

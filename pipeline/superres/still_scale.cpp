@@ -14,6 +14,15 @@ constexpr double kFiner = 1.4;
 // a smaller reduction, the blur by resampling would be worse than the aliasing that it prevents.
 constexpr double kWorthReducing = 0.9;
 
+// Less noise than this is not seen, and is not removed [grey levels].
+constexpr double kSeenNoise = 0.75;
+// No sensor has more noise than this. A still that seems to have more has very fine texture.
+constexpr double kMostNoise = 12;
+// This number of noise variances is removed. In flat areas, the variance of 3x3 pixels varies by a
+// half, so a factor of 1 would leave specks. With noise of 3 and 6 grey levels added to the stills
+// of photographs, 3 and 4 gain 0.5 and 1.8 dB; 2 and 6 gain less.
+constexpr double kRemoved = 4;
+
 }  // namespace
 
 StereoRig stillFor(Size output, StereoRig rig) {
@@ -27,6 +36,15 @@ StereoRig stillFor(Size output, StereoRig rig) {
             rig.still.scaledTo({scaled(rig.still.size.width, x), scaled(rig.still.size.height, y)});
     }
     return rig;
+}
+
+float quietVariance(double noise, Size whole, Size shown) {
+    if (!(noise >= kSeenNoise)) return 0;
+    // The tent filter of the reduction keeps this share of the variance of white noise.
+    const auto kept = [](int from, int to) { return from == to ? 1.0 : 2.0 * to / (3.0 * from); };
+    const double level = std::min(noise, kMostNoise);
+    return static_cast<float>(kRemoved * level * level * kept(whole.width, shown.width) *
+                              kept(whole.height, shown.height));
 }
 
 }  // namespace mfar

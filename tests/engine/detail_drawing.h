@@ -51,7 +51,7 @@ public:
         : setup_{first.rig, output, {}, std::make_shared<Workers>(2)},
           stillEngine_(engineOf(engines.still)), detailEngine_(engineOf(engines.detail)),
           still_(stillEngine_->still()), step_(detailEngine_->detail()),
-          pictures_(still_->run(first.stillView(), SuperResMode::Detail, {})) {}
+          pictures_(still_->run(first.stillView(), SuperResMode::Detail, {}, 0)) {}
 
     Rows<const std::uint32_t> draw(const DetailCase& frame, const FilterBank* filters = nullptr) {
         const CellWeights weights = weightsOf(frame);
@@ -62,7 +62,7 @@ public:
                                        const FilterBank* filters) {
         if (!secondStill_) secondStill_ = stillEngine_->still();
         const StillPictures& pictures =
-            secondStill_->run(second.stillView(), SuperResMode::Detail, {});
+            secondStill_->run(second.stillView(), SuperResMode::Detail, {}, 0);
         const CellWeights weights = weightsOf(frame), secondWeights = weightsOf(second);
         const DetailStep::Matched other{pictures, secondWeights},
             matched{pictures_, weights, &other};

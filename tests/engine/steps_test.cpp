@@ -84,7 +84,7 @@ TEST_P(StepsTest, StillPyramidIsResampledToPixelsOfTheVideo) {
         const auto prepare = engine->still();
         const auto step = engine->pyramid();
         const LumaPyramid& pyramid =
-            step->still(prepare->run(still.view(), SuperResMode::Detail, {}));
+            step->still(prepare->run(still.view(), SuperResMode::Detail, {}, 0));
         // Tolerance: the shaders' filter has weights of 8 bits; the kernels filter rounded luma.
         EXPECT_LE(worstOf(levelOf(pyramid, pyramid.still[0]),
                           twin::lumaFromStill(twin::luma(still.view()), rig)),
@@ -124,7 +124,7 @@ TEST_P(StepsTest, FinestDetailOfTheStillIsAmplifiedUnlessTheStillIsReduced) {
             const TestPicture still = Waves(5, 4, 60, 30).shoot(rig.still.size, {.format = format});
             const auto engine = engineFor(rig, output);
             const auto step = engine->still();
-            const StillPictures& made = step->run(still.view(), SuperResMode::Detail, {});
+            const StillPictures& made = step->run(still.view(), SuperResMode::Detail, {}, 0);
             twin::Grey luma = twin::luma(still.view());
             if (share == 0) luma = twin::reduced(luma, made.rig.still.size);
             EXPECT_LE(worstOf(raisedOf(made), twin::raised(luma, share)), 1.6) << share;
@@ -144,7 +144,8 @@ TEST_P(StepsTest, LumaOfAStillIsCorrectInEveryPixelFormat) {
         view.format = format;
         const auto engine = engineFor(rig, rig.still.size);
         const auto step = engine->still();
-        const Rows<const std::uint8_t> luma = step->run(view, SuperResMode::Detail, {}).luma.host();
+        const Rows<const std::uint8_t> luma =
+            step->run(view, SuperResMode::Detail, {}, 0).luma.host();
         EXPECT_LE(worstOf(twin::greyOf(luma.size, [&](int x, int y) { return double(luma[y][x]); }),
                           wanted),
                   1)
@@ -167,7 +168,7 @@ TEST_P(StepsTest, TheToneCurveIsAppliedToTheStillsLumaPyramidAndDetail) {
         };
         const auto engine = engineFor(rig, output);
         const auto step = engine->still();
-        const StillPictures& made = step->run(still.view(), SuperResMode::Detail, tone);
+        const StillPictures& made = step->run(still.view(), SuperResMode::Detail, tone, 0);
         EXPECT_EQ(made.tone, tone);
         const twin::Grey luma = twin::luma(still.view());
         const Rows<const std::uint8_t> host = made.luma.host();

@@ -48,6 +48,21 @@ inline Grey raised(const Grey& luma, double neighbours) {
     });
 }
 
+/// Removes noise from luma with a Wiener filter over 3x3 pixels. `noise`: variance that is removed.
+inline Grey quiet(const Grey& luma, double noise) {
+    return greyOf(luma.size, [&](int x, int y) {
+        double sum = 0, squares = 0;
+        for (int i = 0; i < 9; ++i) {
+            const double value = luma.at(x + i % 3 - 1, y + i / 3 - 1);
+            sum += value;
+            squares += value * value;
+        }
+        const double mean = sum / 9, variance = squares / 9 - mean * mean;
+        const double kept = variance > noise ? 1 - noise / variance : 0;
+        return mean + kept * (luma.at(x, y) - mean);
+    });
+}
+
 /// Reduces a picture along both axes with a tent filter that is two result pixels wide.
 inline Grey reduced(const Grey& g, Size to) {
     const auto along = [](int from, int wanted, int i, const auto& valueAt) {

@@ -99,7 +99,8 @@ void comparePyramids(Context& c, const LumaPyramid& gles, const LumaPyramid& sim
     }
 }
 
-void compareStills(Context& c, const StillPictures& gles, const StillPictures& simd) {
+void compareStills(Context& c, const StillPictures& gles, const StillPictures& simd,
+                   bool areQuiet) {
     c.checks.within(largestDifference(gles.luma.host(), simd.luma.host()), 0, 1,
                     "difference of a still's luma");
     const auto raised = gles.raised.host();
@@ -108,7 +109,8 @@ void compareStills(Context& c, const StillPictures& gles, const StillPictures& s
     for (int y = 0; y < raised.size.height; ++y)
         for (int x = 0; x < raised.size.width; ++x)
             most = std::max(most, std::abs(raised[y][x] - (pairs[y][x] & 255)));
-    c.checks.within(most, 0, 2, "difference of a still's raised luma");
+    // Where the variance is near that of the noise, the removed share depends on rounding.
+    c.checks.within(most, 0, areQuiet ? 5 : 2, "difference of a still's raised luma");
 }
 
 void compareWeights(Context& c, const CellWeights& gles, const CellWeights& simd) {
@@ -158,10 +160,11 @@ void stepByStep(Context& c) {
     const Shot shot(c, sensors.video);
     const VideoFrame frame{sensors.video.view(), shot.planes, 1};
 
+    const double noise = c.hostile.pick({0.0, 5.0});
     const auto glesStill = engines[0]->still(), simdStill = engines[1]->still();
-    const StillPictures& still = glesStill->run(sensors.still.view(), mode, {});
-    const StillPictures& simdPictures = simdStill->run(sensors.still.view(), mode, {});
-    compareStills(c, still, simdPictures);
+    const StillPictures& still = glesStill->run(sensors.still.view(), mode, {}, noise);
+    const StillPictures& simdPictures = simdStill->run(sensors.still.view(), mode, {}, noise);
+    compareStills(c, still, simdPictures, noise > 0);
 
     const auto glesPyramid = engines[0]->pyramid(), simdPyramid = engines[1]->pyramid();
     glesPyramid->still(still);

@@ -2,8 +2,8 @@
 
 #include <cstdint>
 
-// Parameters for preparing a still in the shaders still_reduce.frag and still_raise.frag and in
-// SIMD. params_to_glsl.cmake translates this header to GLSL.
+// Parameters for preparing a still in the shaders still_reduce.frag, still_quiet.frag and
+// still_raise.frag and in SIMD. params_to_glsl.cmake translates this header to GLSL.
 namespace mfar::params {
 
 /// Linear look-ups weaken a still's finest detail. A filter amplifies this detail before;
@@ -14,6 +14,10 @@ inline constexpr float kLinearLoss = 0.08F;
 struct alignas(16) ReduceStill {
     std::int32_t alongX, alongY;  ///< direction of the filter: (1, 0) or (0, 1)
     float scale;                  ///< pixels of the picture per pixel of the result, >= 1
+};
+
+struct alignas(16) QuietStill {
+    float noise;  ///< variance that is removed, > 0; grey levels are in [0, 1]
 };
 
 struct alignas(16) RaiseStill {

@@ -1,9 +1,12 @@
 #include "pipeline/gles/still_reference.h"
+#include "pipeline/superres/still_scale.h"
 #include "tests/engine/gl_test.h"
 #include "tests/engine/gles/tile_pass.h"
 #include "tests/oracle/still.h"
 
 #include <opencv2/imgproc.hpp>
+
+#include <random>
 
 namespace mfar {
 namespace {
@@ -263,6 +266,34 @@ TEST_F(Draw, TilesOfConstantWeightEqualTilesWithAnImageOfWeights) {
         const gpu::Texture plain = drawnByTiles(shader, "#define PLAIN_TILE\n", params, from);
         EXPECT_LE(worst(channelOf(plain, 0), channelOf(drawn(shader, params, from, kOutput), 0)),
                   1);
+    }
+}
+
+TEST_F(Draw, TheRaisedStillIsWithoutNoise) {
+    constexpr double kNoise = 4;
+    std::mt19937 random(1);
+    std::normal_distribution<double> noise(0, kNoise);
+    TestPicture still(kSmallStill);
+    for (int y = 0; y < kSmallStill.height; ++y)
+        for (int x = 0; x < kSmallStill.width; ++x)
+            std::fill_n(still.at(x, y), 4,
+                        static_cast<std::uint8_t>(90 + (x > y ? 40 : 0) + noise(random)));
+    gpu::PictureTexture picture(gpu::Filter::Linear);
+    StillTone darker;
+    for (std::size_t i = 0; i < darker.levels.size(); ++i)
+        darker.levels[i] = static_cast<std::uint8_t>(i / 2);
+    for (const Size output : {kSmallStill, Size{100, 70}}) {
+        StillReference reference(plainRig({50, 35}, kSmallStill), output, picture);
+        reference.set(still.view(), darker, kNoise);
+        const Size size = reference.rig().still.size;
+        const bool isReduced = size != kSmallStill;
+        twin::Grey luma = twin::greyOf(kSmallStill, [&](int x, int y) { return *still.at(x, y); });
+        if (isReduced) luma = twin::reduced(luma, size);
+        twin::Grey wanted = twin::quiet(luma, quietVariance(kNoise, kSmallStill, size));
+        for (double& level : wanted.values)
+            level /= 2;
+        wanted = twin::raised(wanted, isReduced ? 0 : kLinearLoss);
+        EXPECT_LE(worst(channelOf(reference.raised(), 0), wanted), 2);
     }
 }
 

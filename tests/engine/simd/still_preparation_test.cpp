@@ -1,5 +1,6 @@
 #include "base/image_layout.h"
 #include "pipeline/simd/still_preparation.h"
+#include "pipeline/superres/still_scale.h"
 #include "tests/engine/simd/detail_case.h"
 #include "tests/oracle/still.h"
 
@@ -90,6 +91,38 @@ TEST(StillPreparation, PairsContainAPixelAndThePixelBelow) {
                 ASSERT_EQ(pair >> 8, pairs.data[below * pairs.pitch + x] & 255) << x << " " << y;
             }
     }
+}
+
+TEST(StillPreparation, PairsAreWithoutNoiseButLumaIsUnchanged) {
+    constexpr double kNoise = 4;
+    for (const auto& [output, neighbours] : {std::pair{Size{131, 97}, 0.08}, {Size{50, 37}, 0.0}}) {
+        Still s({40, 30}, {131, 97}, output);
+        const TestPicture picture({131, 97}, 12);
+        s.preparation.set(picture.view, {}, true, kNoise);
+        EXPECT_LE(twin::worst(lumaOf(picture.view), s.preparation.luma()), 1);
+        const StillPairs pairs = s.preparation.pairs();
+        Grey luma = lumaOf(picture.view);
+        if (pairs.size != luma.size) luma = twin::reduced(luma, pairs.size);
+        const Grey wanted = twin::raised(
+            twin::quiet(luma, quietVariance(kNoise, {131, 97}, pairs.size)), neighbours);
+        double removed = 0;
+        for (int y = 0; y < pairs.size.height; ++y)
+            for (int x = 0; x < pairs.size.width; ++x) {
+                const int level = pairs.data[y * pairs.pitch + x] & 255;
+                ASSERT_NEAR(level, std::clamp(wanted.at(x, y), 0.0, 255.0), 3) << x << " " << y;
+                removed += std::abs(wanted.at(x, y) - luma.at(x, y));
+            }
+        EXPECT_GT(removed, 0.5 * pairs.size.width * pairs.size.height);
+    }
+}
+
+TEST(QuietVariance, IsFourVariancesOfTheNoiseThatTheReductionLeaves) {
+    EXPECT_EQ(quietVariance(0, {400, 300}, {400, 300}), 0);
+    EXPECT_EQ(quietVariance(0.7, {400, 300}, {400, 300}), 0) << "this noise is not seen";
+    EXPECT_EQ(quietVariance(std::nan(""), {400, 300}, {400, 300}), 0);
+    EXPECT_FLOAT_EQ(quietVariance(3, {400, 300}, {400, 300}), 36);
+    EXPECT_FLOAT_EQ(quietVariance(3, {400, 300}, {200, 150}), 4);
+    EXPECT_FLOAT_EQ(quietVariance(50, {400, 300}, {400, 300}), 576) << "this is texture";
 }
 
 TEST(StillPreparation, TheToneCurveChangesLumaAndPairsButNotThePicture) {
