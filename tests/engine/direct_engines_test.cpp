@@ -1,9 +1,9 @@
 #include "pipeline/flow/cell_field.h"
-#include "pipeline/gles/device_copies.h"
 #include "pipeline/gles/direct_matcher.h"
 #include "pipeline/simd/direct_match.h"
 #include "tests/engine/gl_test.h"
 #include "tests/engine/pictures.h"
+#include "tests/engine/seen_still.h"
 #include "tests/oracle/direct.h"
 
 #include <algorithm>
@@ -30,33 +30,15 @@ Eigen::Vector2d trueFlow(double x, double y) {
 /// A video of fine print that aliases. The flow along epipolar lines (`lines`) is correct except
 /// for small errors and some outliers; the refined flow (`given`) is off by up to a pixel. Some
 /// cells are not doubtful or not matched.
-struct Print {
+struct Print : SeenStill {
     Print()
-        : video(kVideo), rig(bentRig(kVideo, kStill)), work(TileWork::everything(tilesOf(kVideo))) {
+        : SeenStill(bentRig(kVideo, kStill), printAt,
+                    [](const Eigen::Vector2d& p) { return trueFlow(p.x(), p.y()); }),
+          work(TileWork::everything(tilesOf(kVideo))) {
         work.noise = kNoise;
         for (std::size_t i = 0; i < work.flags.size(); ++i)
             work.flags[i].matched = i % 7 != 3 ? 1 : 0;
-        still = twin::greyOf(
-            kStill, [](int x, int y) { return std::round(printAt(Eigen::Vector2d(x, y))); });
-        shoot();
         fillCells();
-    }
-
-    void shoot() {
-        const twin::Grey seen = twin::greyOf(kVideo, [this](int x, int y) {
-            double sum = 0;
-            for (int k = 0; k < 36; ++k) {
-                const int column = k % 6, row = k / 6;
-                const Eigen::Vector2d p(x + (column + 0.5) / 6 - 0.5, y + (row + 0.5) / 6 - 0.5);
-                sum += printAt(twin::stillPixel(rig, p + trueFlow(p.x(), p.y()))) / 36;
-            }
-            return std::clamp(std::round(sum), 0.0, 255.0);
-        });
-        for (const double v : seen.values)
-            pixels.insert(pixels.end(), {static_cast<std::uint8_t>(v), static_cast<std::uint8_t>(v),
-                                         static_cast<std::uint8_t>(v), 255});
-        video.take({pixels.data(), kVideo, 4UL * kVideo.width, PixelFormat::Rgba8});
-        grey = seen;
     }
 
     void fillCells() {
@@ -85,11 +67,7 @@ struct Print {
     }
 
     const Size cells = cellsOf(kVideo);
-    RgbPlanes video;
-    StereoRig rig;
     TileWork work;
-    twin::Grey grey, still;
-    std::vector<std::uint8_t> pixels;  // RGBA8
     std::vector<std::array<float, 4>> lines;
     std::vector<FlowCell> given;
     std::vector<ErrorCell> errors;
@@ -101,13 +79,7 @@ struct Matched {
 };
 
 Matched matchedOnHost(const Print& in) {
-    std::vector<std::uint16_t> pairs(static_cast<std::size_t>(kStill.width) * kStill.height + 64);
-    for (int y = 0; y < kStill.height; ++y)
-        for (int x = 0; x < kStill.width; ++x)
-            pairs[static_cast<std::size_t>(y) * kStill.width + x] =
-                static_cast<std::uint16_t>(static_cast<int>(in.still.at(x, y)) +
-                                           256 * static_cast<int>(in.still.at(x, y + 1)));
-    const simd::StillPairs still{pairs.data(), kStill.width, kStill};
+    const simd::StillPairs still = in.pairs();
     const simd::LookUpParams lookUp(in.rig);
     const simd::DirectMatch match{in.video,
                                   still,
@@ -130,15 +102,10 @@ Matched matchedOnGpu(const Print& in) {
     cells.write(std::span(in.given), 0);
     cells.write(std::span(in.lines), count * sizeof(FlowCell));
     cells.write(std::span(in.errors), 2 * count * sizeof(FlowCell));
-    gpu::Texture video(kVideo, gpu::TexelFormat::Rgba8);
-    TextureCopy(video).upload(in.pixels.data(), 4L * kVideo.width);
-    std::vector<std::uint8_t> bytes(in.still.values.begin(), in.still.values.end());
-    gpu::Texture still(kStill, gpu::TexelFormat::R8, gpu::Filter::Linear);
-    TextureCopy(still).upload(bytes.data(), kStill.width);
     TileBuffer tiles(kVideo);
     tiles.set(in.work);
     DirectMatcher(in.rig).run(cells, {0, static_cast<int>(count), 2 * static_cast<int>(count)},
-                              video, still, tiles);
+                              in.videoTexture(), in.stillTexture(), tiles);
     return {cells.read<FlowCell>(count, 0),
             cells.read<ErrorCell>(count, 2 * count * sizeof(FlowCell))};
 }
