@@ -74,6 +74,10 @@ class RecordedStatistics(unittest.TestCase):
         one = shader_stats.parse(['shader: a.comp #define B', line])['a.comp #define B']
         self.assertEqual((one.spills, one.fills), (73, 123))
 
+    def test_a_name_after_the_start_of_another_line_is_found(self):
+        all_shaders = shader_stats.parse(['shader: a.comp', '; type: shader: b.comp #define C'])
+        self.assertEqual(set(all_shaders), {'a.comp', 'b.comp #define C'})
+
 
 class Weights(unittest.TestCase):
     def test_instructions_count_once_per_iteration_of_their_loops(self):

@@ -157,7 +157,8 @@ def parse(lines):
     out, wanted, shader, nir, stage = {}, (), None, None, ''
     for line in lines:
         line = line.replace('MESA: info: ', '').rstrip('\n')
-        named = re.match(r'shader: (\S+\.(comp|frag|vert))(?: (.*))?$', line)
+        # The driver for Adreno prints from another thread, so the name can follow a part of its line.
+        named = re.search(r'shader: (\S+\.(comp|frag|vert))(?: (.*))?$', line)
         if named:
             name = named.group(1).rsplit('/', 1)[-1]
             shader = Shader(name, (named.group(3) or '').strip())
