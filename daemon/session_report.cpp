@@ -1,4 +1,3 @@
-
 // Member functions of Session that pass results on to its Stats.
 
 #include "daemon/session.h"

@@ -1,5 +1,7 @@
 #include "tests/stability/seeded_run.h"
 
+#include "daemon/number_range.h"
+
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
@@ -11,9 +13,10 @@ void SeededRun::addOptions(CLI::App& app) {
     jobs = static_cast<int>(std::max(std::thread::hardware_concurrency(), 1U));
     app.add_option("--minutes", minutes,
                    "number of minutes during which new seeds are run (default 1)")
-        ->check(CLI::NonNegativeNumber);
-    app.add_option("--seed", seed, "run only this seed");
-    app.add_option("--first", first, "the first seed (default: taken from the clock)");
+        ->check(numberFrom(0, 1e6));
+    app.add_option("--seed", seed, "run only this seed")->check(withoutSign());
+    app.add_option("--first", first, "the first seed (default: taken from the clock)")
+        ->check(withoutSign());
     app.add_option("--rounds", rounds, "end after this many seeds in each process")
         ->check(CLI::NonNegativeNumber);
     app.add_option("--jobs", jobs,
