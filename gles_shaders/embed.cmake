@@ -35,7 +35,7 @@ set(entries "")
 foreach(name IN LISTS names)
     set(seen "")
     resolve(${name} seen text)
-    string(APPEND entries "    {\"${name}\", R\"GLSL(${text})GLSL\"},\n")
+    string(APPEND entries "    {\"${name}\", R\"GLSL(${text})GLSL\"sv},\n")
 endforeach()
 file(WRITE "${OUT}" "#include \"gles_shaders/shaders.h\"
 
@@ -45,6 +45,8 @@ file(WRITE "${OUT}" "#include \"gles_shaders/shaders.h\"
 
 namespace mfar::shaders {
 namespace {
+
+using namespace std::string_view_literals;
 
 constexpr Source kAll[] = {
 ${entries}};

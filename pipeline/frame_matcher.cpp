@@ -20,7 +20,8 @@ void FrameMatcher::match(const RgbPlanes& video, Rows<const std::uint8_t> still,
     const TileWork work = TileWork::everything(tilesOf(rig_.video.size));
     const VideoFrame frame{view, video, ++frames_};  // the steps read only the planes, not the view
     const LumaPyramid& luma = pyramid_->video(frame, work);
-    const CellWeights& weights = weigh_->run(luma, flow_->run(luma, work, false), work);
+    const CellWeights& weights =
+        weigh_->run(luma, flow_->run({frame, pictures}, luma, work, false), work);
     const CameraModel& looked = pictures.rig.still;
     out.take(video, pictures.luma.host(), weights.lookUps.host(),
              {looked.size, looked.fx / rig_.video.fx, looked.fy / rig_.video.fy});

@@ -233,7 +233,7 @@ Pipeline::State::Match Pipeline::State::matchStill(const VideoFrame& frame, cons
         found = &newest.flow->refine({frame, *newest.pictures}, pyramids, work,
                                      {epipolar->forward(), epipolar->occlusion()});
     } else {
-        found = &newest.flow->run(pyramids, work,
+        found = &newest.flow->run({frame, *newest.pictures}, pyramids, work,
                                   newest.lastFlow != nullptr && options.skips.knownFlow);
     }
     lap("flow");
@@ -269,7 +269,7 @@ const CellWeights* Pipeline::State::matchSecond(const VideoFrame& frame, const T
     }
     const LumaPyramid& pyramids = second.pyramid->video(frame, missed);
     const bool usePrior = second.lastFlow != nullptr && options.skips.knownFlow;
-    second.lastFlow = &second.flow->run(pyramids, missed, usePrior);
+    second.lastFlow = &second.flow->run({frame, *second.pictures}, pyramids, missed, usePrior);
     second.lastWeights = &weighed(second, frame, pyramids, *second.lastFlow, missed);
     secondTiles.judge(shown, second.lastWeights->weighed.host());
     second.count(missed.matched, secondTiles.gained());

@@ -113,12 +113,16 @@ public:
     /// std::invalid_argument if an option is out of range.
     virtual void setOptions(const Flow2dOptions& options) = 0;
     /// Searches the flow from video to still (forward) and from still to video (backward). If
-    /// `usePrior` is true, the last frame's flow vectors are candidates in all cells.
-    virtual const FlowCells& run(const LumaPyramid& luma, const TileWork& work, bool usePrior) = 0;
+    /// `usePrior` is true, the last frame's flow vectors are candidates in all cells. Finally, the
+    /// forward flow is corrected by comparison with the still at its full resolution, see
+    /// params::kSubpixelReach. `luma` must contain the pyramids of `pictures`.
+    virtual const FlowCells& run(const Pictures& pictures, const LumaPyramid& luma,
+                                 const TileWork& work, bool usePrior) = 0;
     /// Refines `along`, the flow along epipolar lines. Its errors must be below a pixel. First,
     /// tiles in which the flow does not fit the pictures are searched in two dimensions. Then,
     /// doubtful cells are compared with the still at its full resolution, see
-    /// params::kPatchSamples. `luma` must contain the pyramids of `pictures`.
+    /// params::kPatchSamples. Finally, the flow is corrected as by run(). `luma` must contain the
+    /// pyramids of `pictures`.
     virtual const FlowCells& refine(const Pictures& pictures, const LumaPyramid& luma,
                                     const TileWork& work, const AlongLines& along) = 0;
     /// Returns a flag for each tile, row-major: true if the last refine() searched the tile. Waits

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/image_view.h"
+#include "pipeline/engine/params/flow.h"
 
 #include <algorithm>
 #include <cmath>
@@ -31,6 +32,16 @@ inline constexpr int kPatchSide = 8;
 /// Returns how far patchStart() moves a patch from the place around the middle of its cell.
 [[nodiscard]] constexpr int patchShift(int cell, int pixels) {
     return patchStart(cell, pixels) - (kCell * cell - (kPatchSide - kCell) / 2);
+}
+
+/// Returns the change of the flow per pixel. `before` and `after` are the flow two cells before and
+/// after the cell. The result is the one-sided difference that is smaller in magnitude. It is 0 if
+/// the differences have different signs or if one is NaN. GLSL: slopeAt() in flow_cells.glsl.
+[[nodiscard]] inline float slopeOf(float before, float here, float after) {
+    const float a = here - before, b = after - here;
+    if (!(a * b > 0)) return 0;
+    const float least = std::copysign(std::min(std::abs(a), std::abs(b)), b) / (2 * kCell);
+    return std::clamp(least, -params::kSteepestFlow, params::kSteepestFlow);
 }
 
 /// Interpolates one channel of `cells` bilinearly at pixel (x, y). There are four channels per

@@ -8,6 +8,7 @@
 #include "pipeline/gles/flow2d.h"
 #include "pipeline/gles/luma_pyramids.h"
 #include "pipeline/gles/still_reference.h"
+#include "pipeline/gles/subpixel_corrector.h"
 #include "pipeline/simd/luma_rows.h"
 
 #include <cassert>
@@ -138,6 +139,7 @@ class GlesFlow final : public FlowStep {
 public:
     GlesFlow(const StepSetup& setup, const StereoRig& stillRig, FrameOnGpu& frame)
         : frame_(frame), flow_(setup.rig.video.size, setup.flow2d), direct_(stillRig),
+          subpixel_(stillRig),
           entries_(2 * flow_.forward().cells.width * flow_.forward().cells.height),
           copy_(flow_.cells(), flow_.forward().offset, static_cast<std::size_t>(entries_),
                 sizeof(FlowCell)),
@@ -145,8 +147,10 @@ public:
                  flow_.backward().cells, flow_.backward().level, false} {}
 
     void setOptions(const Flow2dOptions& options) override { flow_.setOptions(options); }
-    const FlowCells& run(const LumaPyramid& luma, const TileWork& work, bool usePrior) override {
+    const FlowCells& run(const Pictures& pictures, const LumaPyramid& luma, const TileWork& work,
+                         bool usePrior) override {
         flow_.run(lumaOf(luma), frame_.tiles(work), usePrior);
+        correct(pictures, work, -1);
         return written();
     }
     const FlowCells& refine(const Pictures& pictures, const LumaPyramid& luma, const TileWork& work,
@@ -157,6 +161,7 @@ public:
             direct_.run(flow_.cells(),
                         {flow_.forward().offset, flow_.seed(), flow_.backward().offset},
                         frame_.video(pictures.video), raisedOf(pictures.still), tiles);
+        correct(pictures, work, flow_.backward().offset);
         return written();
     }
     std::vector<bool> searchedTiles() const override { return flow_.searched().read(); }
@@ -167,6 +172,12 @@ private:
     static LumaOnGpu lumaOf(const LumaPyramid& luma) {
         return {luma.video, luma.still, bufferOf(luma.words).buffer()};
     }
+    void correct(const Pictures& pictures, const TileWork& work, int errors) {
+        if (work.matched > 0)
+            subpixel_.run(flow_.cells(), {flow_.forward().offset, errors},
+                          frame_.video(pictures.video), raisedOf(pictures.still),
+                          frame_.tiles(work));
+    }
     const FlowCells& written() {
         cells_.errorsGiven = flow_.errorsGiven();
         cells_.cells.writtenOnDevice(copy_, {entries_, 1});
@@ -176,6 +187,7 @@ private:
     FrameOnGpu& frame_;
     Flow2d flow_;
     DirectMatcher direct_;
+    SubpixelCorrector subpixel_;
     int entries_;
     BufferCopy copy_;
     FlowCells cells_;

@@ -155,13 +155,7 @@ private:
         const int c = std::clamp(column_, i, std::max(in_.cells.width - 1 - i, i)) - column_;
         const int r = std::clamp(row_, j, std::max(in_.cells.height - 1 - j, j)) - row_;
         const Vector before = at(c - i, r - j), here = at(c, r), after = at(c + i, r + j);
-        const auto least = [](float a, float b) {
-            if (!(a * b > 0)) return 0.0F;
-            const float s = std::copysign(std::min(std::abs(a), std::abs(b)), b) / kSide;
-            return std::clamp(s, -params::kSteepestFlow, params::kSteepestFlow);
-        };
-        return {least(here.x - before.x, after.x - here.x),
-                least(here.y - before.y, after.y - here.y)};
+        return {slopeOf(before.x, here.x, after.x), slopeOf(before.y, here.y, after.y)};
     }
 
     [[nodiscard]] Place placeOf(Vector u) const {

@@ -10,6 +10,7 @@
 #include "pipeline/simd/simd_warp.h"
 #include "pipeline/simd/still_kernels.h"
 #include "pipeline/simd/still_preparation.h"
+#include "pipeline/simd/subpixel_flow.h"
 #include "pipeline/simd/weigh_step.h"
 #include "pipeline/superres/still_scale.h"
 
@@ -124,15 +125,21 @@ public:
     SimdFlow(const StepSetup& setup, std::shared_ptr<PairedStills> stills)
         : workers_(setup.workers), stills_(std::move(stills)),
           lookUp_(stillFor(setup.output, setup.rig)),
+          subpixel_(stillFor(setup.output, setup.rig), setup.workers),
           flow_(setup.rig.video.size, setup.flow2d, setup.workers),
           cells_{Field<FlowCell>({}, setup.transfers), flow_.forward().size, flow_.backward().size,
                  flow_.backwardLevel(), false},
           row_({2 * static_cast<int>(cells_.count()), 1}) {}
 
     void setOptions(const Flow2dOptions& options) override { flow_.setOptions(options); }
-    const FlowCells& run(const LumaPyramid& luma, const TileWork& work, bool usePrior) override {
+    const FlowCells& run(const Pictures& pictures, const LumaPyramid& luma, const TileWork& work,
+                         bool usePrior) override {
         flow_.run(lumaOf(luma), work, usePrior);
         copy(flow_.backward());
+        if (work.matched > 0) {
+            takeForward();
+            correct(pictures, work, nullptr);
+        }
         return written();
     }
     const FlowCells& refine(const Pictures& pictures, const LumaPyramid& luma, const TileWork& work,
@@ -142,9 +149,12 @@ public:
         ErrorCell* to = errors();
         for (int y = 0; y < given.size.height; ++y)
             to = std::copy_n(given[y], given.size.width, to);
-        written();
-        if (work.matched > 0) matchDirectly(pictures, work, along.vectors);
-        return cells_;
+        if (work.matched > 0) {
+            takeForward();
+            matchDirectly(pictures, work, along.vectors);
+            correct(pictures, work, errors());
+        }
+        return written();
     }
     std::vector<bool> searchedTiles() const override { return flow_.searchedTiles(); }
     int searchedCount() const override { return flow_.searchedCount(); }
@@ -170,16 +180,22 @@ private:
                               });
         });
     }
+    void correct(const Pictures& pictures, const TileWork& work, const ErrorCell* errors) {
+        subpixel_.run(pictures.video.planes, stills_->of(pictures.still), work, row_[0], errors);
+    }
     void copy(Rows<const FlowCell> backward) {
         FlowCell* to = row_[0] + cells_.count();
         for (int y = 0; y < backward.size.height; ++y)
             to = std::copy_n(backward[y], backward.size.width, to);
     }
-    const FlowCells& written() {
+    // Must not be called if no tile is matched, because the last frame's flow is then still valid.
+    void takeForward() {
         const Rows<const FlowCell> forward = flow_.forward();
         FlowCell* to = row_[0];
         for (int y = 0; y < forward.size.height; ++y)
             to = std::copy_n(forward[y], forward.size.width, to);
+    }
+    const FlowCells& written() {
         cells_.errorsGiven = flow_.errorsGiven();
         cells_.cells.writtenOnHost(row_.rows());
         return cells_;
@@ -188,6 +204,7 @@ private:
     std::shared_ptr<Workers> workers_;
     std::shared_ptr<PairedStills> stills_;
     simd::LookUpParams lookUp_;
+    simd::SubpixelFlow subpixel_;
     simd::Flow2d flow_;
     FlowCells cells_;
     AlignedRows<FlowCell> row_;

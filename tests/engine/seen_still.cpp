@@ -15,6 +15,7 @@ SeenStill::SeenStill(const StereoRig& cameras,
     still = twin::greyOf(rig.still.size, [&](int x, int y) {
         return std::clamp(std::round(luma(Eigen::Vector2d(x, y))), 0.0, 255.0);
     });
+    bytes_.assign(still.values.begin(), still.values.end());
     grey = twin::greyOf(rig.video.size, [&](int x, int y) {
         double sum = 0;
         for (int k = 0; k < 36; ++k) {
@@ -25,26 +26,25 @@ SeenStill::SeenStill(const StereoRig& cameras,
         return std::clamp(std::round(sum), 0.0, 255.0);
     });
     for (const double v : grey.values)
-        pixels.insert(pixels.end(), {static_cast<std::uint8_t>(v), static_cast<std::uint8_t>(v),
-                                     static_cast<std::uint8_t>(v), 255});
-    video.take({pixels.data(), rig.video.size, 4UL * rig.video.size.width, PixelFormat::Rgba8});
+        pixels_.insert(pixels_.end(), {static_cast<std::uint8_t>(v), static_cast<std::uint8_t>(v),
+                                       static_cast<std::uint8_t>(v), 255});
+    video.take(videoView());
     for (int y = 0; y < rig.still.size.height; ++y)
         for (int x = 0; x < rig.still.size.width; ++x)
-            words.push_back(static_cast<std::uint16_t>(static_cast<int>(still.at(x, y)) +
-                                                       256 * static_cast<int>(still.at(x, y + 1))));
-    words.resize(words.size() + 64);
+            words_.push_back(static_cast<std::uint16_t>(
+                static_cast<int>(still.at(x, y)) + 256 * static_cast<int>(still.at(x, y + 1))));
+    words_.resize(words_.size() + 64);
 }
 
 gpu::Texture SeenStill::stillTexture() const {
-    const std::vector<std::uint8_t> bytes(still.values.begin(), still.values.end());
     gpu::Texture out(rig.still.size, gpu::TexelFormat::R8, gpu::Filter::Linear);
-    TextureCopy(out).upload(bytes.data(), rig.still.size.width);
+    TextureCopy(out).upload(bytes_.data(), rig.still.size.width);
     return out;
 }
 
 gpu::Texture SeenStill::videoTexture() const {
     gpu::Texture out(rig.video.size, gpu::TexelFormat::Rgba8);
-    TextureCopy(out).upload(pixels.data(), 4L * rig.video.size.width);
+    TextureCopy(out).upload(pixels_.data(), 4L * rig.video.size.width);
     return out;
 }
 

@@ -20,9 +20,16 @@ struct SeenStill {
     SeenStill(const StereoRig& cameras, const std::function<double(const Eigen::Vector2d&)>& luma,
               const std::function<Eigen::Vector2d(const Eigen::Vector2d&)>& flow);
 
-    /// Valid as long as this object.
+    // The views are valid as long as this object.
     [[nodiscard]] simd::StillPairs pairs() const {
-        return {words.data(), rig.still.size.width, rig.still.size};
+        return {words_.data(), rig.still.size.width, rig.still.size};
+    }
+    [[nodiscard]] ImageView videoView() const {
+        return {pixels_.data(), rig.video.size, 4UL * rig.video.size.width, PixelFormat::Rgba8};
+    }
+    [[nodiscard]] ImageView stillView() const {
+        return {bytes_.data(), rig.still.size, static_cast<std::size_t>(rig.still.size.width),
+                PixelFormat::Gray8};
     }
     [[nodiscard]] gpu::Texture stillTexture() const;
     [[nodiscard]] gpu::Texture videoTexture() const;
@@ -32,8 +39,8 @@ struct SeenStill {
     RgbPlanes video;
 
 private:
-    std::vector<std::uint8_t> pixels;  // RGBA8
-    std::vector<std::uint16_t> words;
+    std::vector<std::uint8_t> bytes_, pixels_;  // of the still (grey) and of the video (RGBA8)
+    std::vector<std::uint16_t> words_;
 };
 
 }  // namespace mfar

@@ -174,7 +174,7 @@ void stepByStep(Context& c) {
     if (shot.work.matched > 0) comparePyramids(c, pyramid, other);
 
     const auto flow = engines[0]->flow();
-    const FlowCells& cells = flow->run(pyramid, shot.work, false);
+    const FlowCells& cells = flow->run({frame, still}, pyramid, shot.work, false);
     const auto glesWeigh = engines[0]->weigh(), simdWeigh = engines[1]->weigh();
     const CellWeights& weights = glesWeigh->run(pyramid, cells, shot.work);
     if (shot.work.matched > 0)

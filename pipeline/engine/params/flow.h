@@ -81,6 +81,28 @@ inline constexpr float kSameFlow = 0.05F;
 /// Largest change of the flow within one surface [px per px]. A larger change is a depth edge.
 inline constexpr float kSteepestFlow = 0.25F;
 
+/// Because of aliasing (see kPatchSamples), the flow of most cells is off by about 0.1 px.
+/// Therefore, every cell is finally compared with the still at its full resolution, and one
+/// Gauss-Newton step corrects its flow. The derivative of the still along x is its mean half a
+/// pixel to the right minus its mean half a pixel to the left; along y likewise. The sums over a
+/// cell's pixels count with weight 4, those of the cells beside, above and below it with weight 2,
+/// and those of the diagonal neighbours with weight 1.
+///
+/// The flow of a cell and its change per pixel define a plane. A neighbour was compared at its own
+/// flow, so its sums are first converted to the flow that the plane has there. If its flow is
+/// kSubpixelReach [px] or more away from the plane, it belongs to another surface and does not
+/// count. Below this, its weight decreases with the distance.
+inline constexpr float kSubpixelReach = 0.5F;
+/// Sum of the weights of all compared pixels: 16 per cell times (4 + 4 * 2 + 4 * 1).
+inline constexpr float kSubpixelPixels = 256.0F;
+/// Expected error of the flow along each axis [px]. The less of the video the still explains, and
+/// the smaller the derivatives are, the more this expectation limits the correction.
+inline constexpr float kSubpixelError = 0.07F;
+/// A correction of this length [px] or more is not made, because the cell probably does not match.
+inline constexpr float kSubpixelLongest = 1.0F;
+/// A cell keeps its flow if the factor that fits the still's luma to the video's is below this.
+inline constexpr float kLeastSubpixelGain = 0.2F;
+
 /// A plane is fitted to the flow of cells within this distance along each axis [cells].
 inline constexpr int kCleanUpRadius = 2;
 /// A plane is fitted to the flow around a cell. A neighbour whose flow differs from the plane by
@@ -147,6 +169,22 @@ struct alignas(16) CompareDirectly {
     float texelX, texelY;
     /// Smallest texture of a patch (see FlowCell) for which the cost is meaningful [grey levels^2].
     float leastTexture;
+};
+
+struct alignas(16) SumSubpixel {
+    Rig rig;
+    std::int32_t columns, rows;
+    std::int32_t videoWidth, videoHeight;
+    /// Indices in cells[]: of the flow field's first cell, and of the first ErrorCell. -1: there
+    /// are no ErrorCells.
+    std::int32_t source, errors;
+    float texelX, texelY;
+};
+
+struct alignas(16) CorrectSubpixel {
+    std::int32_t columns, rows;
+    std::int32_t target;  ///< index in cells[] of the flow field's first cell
+    float noise;
 };
 
 struct alignas(16) FlagTiles {

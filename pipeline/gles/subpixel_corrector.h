@@ -1,0 +1,35 @@
+#pragma once
+
+#include "base/geometry.h"
+#include "base/gl/buffer.h"
+#include "base/gl/pass.h"
+#include "pipeline/engine/params/flow.h"
+#include "pipeline/gles/tile_buffer.h"
+
+namespace mfar {
+
+/// Corrects the flow by a fraction of a pixel, see params::kSubpixelReach.
+class SubpixelCorrector {
+public:
+    /// The still camera of `stillRig` has the resolution of the still that is compared.
+    explicit SubpixelCorrector(const StereoRig& stillRig);
+
+    /// Indices in a buffer of cells: of the flow's first cell, and of the first ErrorCell, or -1
+    /// without ErrorCells.
+    struct Fields {
+        int flow, errors;
+    };
+    /// Changes the flow in `cells` where tiles are matched. `still` is luma with amplified finest
+    /// detail and a linear filter.
+    void run(const gpu::Buffer& cells, const Fields& fields, const gpu::Texture& video,
+             const gpu::Texture& still, const TileBuffer& tiles);
+
+private:
+    StereoRig rig_;
+    Size cells_;
+    gpu::Buffer sums_;
+    gpu::ComputePass<params::SumSubpixel> sum_;
+    gpu::ComputePass<params::CorrectSubpixel> correct_;
+};
+
+}  // namespace mfar
