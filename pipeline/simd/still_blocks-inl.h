@@ -46,17 +46,13 @@ public:
             return hn::IfThenElse(inTop, permuted(top, begin, place),
                                   permuted(bottom, begin, place));
 #endif
-        return loaded(x, y);
+        return scattered(x, y);
     }
 
-private:
-    /// Number of rows between a loaded row of the still and the row that is prefetched. The CPU
-    /// does not predict which rows will be read, because the output is drawn in strips.
-    static constexpr std::ptrdiff_t kRowsAhead = 2;
-
-    /// Loads the block of each lane on its own. On most targets, Highway's gathers would need
-    /// addresses that are multiples of four bytes. On the others, gathers are hardly faster.
-    HWY_INLINE hn::Vec<U> loaded(hn::Vec<I> x, hn::Vec<I> y) const {
+    /// Like at(), but faster if neighbouring lanes read blocks that are far apart. Loads the block
+    /// of each lane on its own. On most targets, Highway's gathers would need addresses that are
+    /// multiples of four bytes. On the others, gathers are hardly faster.
+    HWY_INLINE hn::Vec<U> scattered(hn::Vec<I> x, hn::Vec<I> y) const {
         HWY_ALIGN std::int32_t at[hn::MaxLanes(I())];
         HWY_ALIGN std::uint32_t out[hn::MaxLanes(U())];
         hn::Store(hn::Add(hn::Mul(y, pitch_), x), I(), at);
@@ -64,6 +60,11 @@ private:
             std::memcpy(out + i, still_.data + at[i], sizeof(out[0]));
         return hn::Load(U(), out);
     }
+
+private:
+    /// Number of rows between a loaded row of the still and the row that is prefetched. The CPU
+    /// does not predict which rows will be read, because the output is drawn in strips.
+    static constexpr std::ptrdiff_t kRowsAhead = 2;
 
 #if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
     static constexpr std::int32_t kBefore = 4;  // columns loaded before the first lane's block

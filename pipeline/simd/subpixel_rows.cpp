@@ -120,7 +120,7 @@ public:
                 const Positions at = PositionsWithin(
                     still.size, along(place.centre.x, place.alongX.x, place.alongY.x),
                     along(place.centre.y, place.alongX.y, place.alongY.y));
-                samples_[j][i] = MeanOfFour(blocks.at(at.x, at.y), at);
+                samples_[j][i] = MeanOfFour(blocks.scattered(at.x, at.y), at);
             }
     }
     /// Returns the mean of the 2x2 samples from column i and row j on, minus 128 [grey levels].
