@@ -1,5 +1,7 @@
 #include "pipeline/reference.h"
 
+#include "pipeline/simd/still_noise.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -17,7 +19,7 @@ constexpr double kSameView = 0.5 * kTileSize;
 void Reference::take(const ImageView& picture, Timestamp taken, SuperResMode mode,
                      const StillTone& tone) {
     time = taken;
-    pictures = &still->run(picture, mode, tone, noise.of(picture));
+    pictures = &still->run(picture, mode, tone, simd::noiseOfStill(picture));
     pyramid->still(*pictures);
     lastFlow = nullptr;
     shows = 1;

@@ -2,7 +2,6 @@
 
 #include "base/time.h"
 #include "pipeline/engine/steps.h"
-#include "pipeline/simd/still_noise.h"
 
 #include <memory>
 #include <vector>
@@ -16,7 +15,6 @@ struct Reference {
     std::unique_ptr<PyramidStep> pyramid;
     std::unique_ptr<FlowStep> flow;
     std::unique_ptr<WeighStep> weigh;
-    simd::StillNoise noise{};
     const StillPictures* pictures = nullptr;
     Timestamp time{};
     const FlowCells* lastFlow = nullptr;

@@ -29,9 +29,7 @@ SubpixelFlow::SubpixelFlow(const StereoRig& stillRig, std::shared_ptr<Workers> w
       corrected_(planes<2>(cells_)), sums_(planes<kSubpixelSums>(cells_)),
       luma_(workers_->count(), [this] {
           return AlignedRows<std::int16_t>({kCell * wholeVectors(cells_).width + kRoom, kCell});
-      }) {
-    std::fill_n(none_[0] - 1, wholeVectors(cells_).width + 2, 0.0F);
-}
+      }) {}
 
 void SubpixelFlow::forRows(const std::function<void(int)>& body) {
     workers_->forRange(cells_.height, kCellsPerTile, [&](int first, int last) {

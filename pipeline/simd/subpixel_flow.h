@@ -48,7 +48,7 @@ private:
     Size video_, cells_;
     std::shared_ptr<Workers> workers_;
     CellPlane flowX_, flowY_, compared_;
-    CellPlane none_;  // one row of zeros, instead of rows outside the picture
+    CellPlane none_;  // one row of zeros (never written), instead of rows outside the picture
     std::array<CellPlane, 2> alongX_, alongY_, corrected_;
     std::array<CellPlane, kSubpixelSums> sums_;
     ScratchSlots<AlignedRows<std::int16_t>> luma_;

@@ -45,9 +45,8 @@ double measured(const Grey& scene, double sigma, PixelFormat format = PixelForma
         bytes.insert(bytes.end(), channels,
                      static_cast<std::uint8_t>(
                          std::clamp(std::round(value + sigma * noise(random)), 0.0, 255.0)));
-    StillNoise out;
     const auto width = static_cast<std::size_t>(scene.size.width);
-    return out.of({bytes.data(), scene.size, channels * width, format});
+    return noiseOfStill({bytes.data(), scene.size, channels * width, format});
 }
 
 TEST(StillNoise, FindsWhiteNoiseInEachFormat) {
