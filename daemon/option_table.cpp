@@ -273,9 +273,9 @@ constexpr Option kVirtual[] = {
            "Width and height of the path-traced picture as a share of the still's. The path-traced "
            "picture is never larger than the output."),
     word("holes", "push-pull re-render both none", R"("both")",
-         "Method that fills holes. (A hole: pixels of a virtual object that come into view between "
-         "two path-traced pictures.) \"push-pull\": colours around the hole; \"re-render\": the "
-         "path tracer with few samples; \"both\"; or \"none\"."),
+         "Method that fills holes (pixels that come into view between two path-traced pictures): "
+         "\"push-pull\": colours around the hole; \"re-render\": few samples of the path tracer, "
+         "but \"push-pull\" in shadows; \"both\"; or \"none\"."),
     whole("threads", kThreads, "1", "Number of threads of the path tracer."),
     flag("filter", "true", "Smooth the noise of pictures with few samples, but not their edges."),
     number(

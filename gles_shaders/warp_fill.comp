@@ -3,7 +3,7 @@
 // An object without any known colour, for example one that has just emerged from behind others,
 // gets the colour of the objects around it.
 // A pixel belongs to a crack if it is at an edge, or if most of its neighbours show the surface of
-// the pixel. Cracks are always filled, from nearby pixels.
+// the pixel. Cracks are always filled.
 // In: list[] (holes[] of warp_rest.comp) and state of warp_rest.comp; pyramid. Out: colours of the
 // listed pixels, RGBA8 premultiplied; bit 30 in list[] marks a crack.
 #include "warp_hole_params.glsl"
@@ -80,10 +80,11 @@ void main() {
     uint id = uint(own.r * 255.0 + 0.5);
     bool crack = (entry.x & (1u << 30)) != 0u || isCrack(p, own.r);
     if (crack) list[i].x = entry.x | (1u << 30);
-    if (!crack && params.fillsAll == 0) return;
+    bool fills = (id == kCatcherNumber ? params.fillsCatcher : params.fillsObjects) != 0;
+    if (!crack && !fills) return;
     vec4 sum;
     float weight;
-    int last = crack && params.fillsAll == 0 ? min(kCrackLevels, params.levelCount) : params.levelCount;
+    int last = fills ? params.levelCount : kCrackLevels;
     gather(p, id, last, sum, weight);
     if (weight == 0.0 && id != kCatcherNumber) gather(p, kAnyObject, last, sum, weight);
     if (weight > 0.0) imageStore(colour, p, min(unpackUnorm4x8(entry.y) + own.g * sum / weight, vec4(1.0)));

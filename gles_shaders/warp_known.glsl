@@ -71,23 +71,25 @@ float lookUp(bool ofTraced, int firstRow, vec3 at, float id, Paint paint, out ve
     return weights > kLeastLookUpWeight ? weights : 0.0;
 }
 
-// Looks up the colour of surface `id` at `point` in all pictures and returns it in `found`. `paint`
-// is used for objects only. Returns the share of the colour that is known, [0, 1].
+// Looks up the colour of surface `id` at `point` in the traced picture or, if that does not show it
+// and it is an object, in the re-rendered pictures. Returns it in `found`. `paint` is used for
+// objects only. Returns the share of the colour that is known, [0, 1].
 float known(vec3 point, float id, Paint paint, out vec4 found) {
-    if (lookUp(true, 0, inView(0, uint(id), point), id, paint, found) > 0.0) return 1.0;
+    vec3 at = inView(0, uint(id), point);
+    if (lookUp(true, 0, at, id, paint, found) > 0.0) return 1.0;
+    // Outside the traced picture, the shadow catcher's colour is unknown. It nevertheless counts as
+    // known and transparent, so that it is not filled.
+    found = vec4(0.0);
+    if (id == float(kCatcher)) return at.z > 0.0 ? 0.0 : 1.0;
     // Re-rendered pictures fade in: their shares grow from 0 to 1. Of those that show the point,
     // the one with the largest share determines the colour.
     float share_ = 0.0;
     for (int i = 0; i < params.rerendered; ++i) {
         vec4 own;
-        vec3 at = inView(i + 1, uint(id), point);
+        at = inView(i + 1, uint(id), point);
         if (params.views[i + 1].share <= share_ || lookUp(false, i * params.height, at, id, paint, own) == 0.0) continue;
         share_ = params.views[i + 1].share;
         found = own;
     }
-    if (share_ > 0.0) return share_;
-    // Outside the traced picture, the shadow catcher's colour is unknown. It nevertheless counts as
-    // known and transparent, so that it is not listed as missing.
-    found = vec4(0.0);
-    return id == float(kCatcher) && !(inView(0, uint(id), point).z > 0.0) ? 1.0 : 0.0;
+    return share_;
 }

@@ -1,13 +1,14 @@
 // Second pass of the warp for the pixels that warp_look_up.frag leaves: pixels at edges, whose
-// coverage is a multiple of a quarter, and pixels that the traced picture does not show. The latter
-// are looked up in re-rendered pictures, which contain pixels that were traced later to fill gaps.
+// coverage is a multiple of a quarter, and pixels that the traced picture does not show. Pixels of
+// objects among the latter are looked up in re-rendered pictures, which contain pixels that were
+// traced later to fill gaps.
 // A pixel is composed of an object and, below it, the shadow catcher.
 // In: list[] of warp_rest_list.comp. Out: colour, z and state of the pixels; holes[];
 // holeCommands[].
 // Components of the state. x: number of the surface whose colour is unknown. y: share of the pixel
-// whose colour is unknown. z: 1 if the surface in x fills the pixel and no picture shows it. w:
-// number of the surface that fills the pixel, if the whole colour is known. A number is 0 if there
-// is no such surface.
+// whose colour is unknown. z: 1 if an object fills the pixel and no picture shows it. w: number of
+// the surface that fills the pixel, if the whole colour is known. A number is 0 if there is no such
+// surface.
 // holes[] = pixels without a known colour: pixel index, colour so far (RGBA8). Bit 31 of the index:
 // z of the state is 1. Bit 30: the pixel is at an edge.
 // holeCommands[0] = number of groups of 64 entries of holes[] (x), number of entries (w).
@@ -65,7 +66,7 @@ void main() {
     if (covered > 0.0) shown += covered * objectKnown * ofObject;
     if (below > 0.0) shown += below * catcherKnown * ofCatcher;
     bool missed = objectKnown < 1.0, hole = missed || catcherKnown < 1.0;
-    bool nowhere = objectKnown == 0.0 || catcherKnown == 0.0;
+    bool open = objectKnown == 0.0 && covered == 1.0;
     // An edge pixel without a known colour is not rendered individually: the result would be a
     // mixture of the surfaces at the edge. It is filled from its neighbours instead.
     bool edge = (missed ? covered : below) < 1.0;
@@ -75,11 +76,11 @@ void main() {
     float part = missed ? covered * (1.0 - objectKnown) : below * (1.0 - catcherKnown);
     imageStore(colour, p, shown);
     imageStore(depth, p, vec4(z));
-    imageStore(state, p, vec4(missing / 255.0, part, nowhere && !edge ? 1.0 : 0.0, plain / 255.0));
+    imageStore(state, p, vec4(missing / 255.0, part, open ? 1.0 : 0.0, plain / 255.0));
     if (!hole) return;
     uint i = atomicAdd(holeCommands[0].w, 1u);
     if (i % 64u == 0u) atomicAdd(holeCommands[0].x, 1u);
     if (i == 0u)
         for (int l = 0; l < params.levels; ++l) holeCommands[l + 1] = groupsOf(params.wanted[l]);
-    holes[i] = uvec2(uint(index) | (edge ? 1u << 30 : nowhere ? 1u << 31 : 0u), packUnorm4x8(shown));
+    holes[i] = uvec2(uint(index) | (edge ? 1u << 30 : open ? 1u << 31 : 0u), packUnorm4x8(shown));
 }

@@ -27,14 +27,15 @@ struct TracedLayerCounters {
     std::uint64_t unmoved = 0;    ///< frames that showed a traced picture without warping it
     std::uint64_t requested = 0;  ///< pixels requested to be traced individually
     std::uint64_t answered = 0;
-    /// Number of pixels of the layer that no picture shows. They are not counted in every frame;
-    /// this is the last count.
+    /// Number of objects' pixels that no picture shows. They are not counted in every frame; this
+    /// is the last count.
     int openHoles = 0;
 };
 
 /// The virtual layer, drawn by path tracing. Threads of low priority trace pictures over the time
 /// of many frames. In each frame, the last finished picture is warped to the frame's pose, and
-/// pixels that no picture shows are traced individually. No function waits for the threads.
+/// pixels of objects that no picture shows are traced individually. No function waits for the
+/// threads.
 class TracedLayer {
 public:
     /// False in builds for 32-bit ARM, which have no path tracer.

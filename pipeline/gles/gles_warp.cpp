@@ -90,7 +90,7 @@ private:
         silhouette_.draw(frame.T_world_camera, frame.bounds);
         const ViewLookUp::Input input{silhouette_, textures_, *traced_, rerendered_,
                                       rerenderedTextures_};
-        filler_.begin(frame.bounds, pushPulls(options_.filling));
+        filler_.begin(frame.bounds, options_.filling);
         lookUp_.run(input, frame.T_world_camera, frame.bounds, filler_);
     }
 

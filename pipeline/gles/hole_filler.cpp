@@ -39,7 +39,7 @@ HoleFiller::HoleFiller(Size layer)
                  gpu::Buffer(2 * sizeof(std::uint32_t) * pixels)};
 }
 
-void HoleFiller::begin(const PixelRect& where, bool pushPull) {
+void HoleFiller::begin(const PixelRect& where, HoleFilling filling) {
     std::array<Command, 1 + kLevels> none{};
     for (Command& command : none)
         command = {0, 1, 1, 0};
@@ -47,8 +47,9 @@ void HoleFiller::begin(const PixelRect& where, bool pushPull) {
     params_ = {};
     params_.bounds = boundsOf(where);
     params_.width = layer_.width;
-    params_.fillsAll = pushPull ? 1 : 0;
-    params_.levelCount = pushPull ? kLevels : params::kCrackLevels;
+    params_.fillsObjects = pushPulls(filling) ? 1 : 0;
+    params_.fillsCatcher = fillsShadows(filling) ? 1 : 0;
+    params_.levelCount = fillsShadows(filling) ? kLevels : params::kCrackLevels;
     PixelRect r = where;
     int end = 0;
     for (int l = 0; l < levels(); ++l) {
@@ -102,8 +103,6 @@ std::optional<WarpHoles> HoleFiller::poll() {
             ++out.cracks;
         else if ((pixel & kOpen) != 0)
             out.open.push_back(pixel & ~kOpen);
-        else
-            ++out.fading;
     }
     std::ranges::sort(out.open);
     return out;

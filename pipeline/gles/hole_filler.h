@@ -4,6 +4,7 @@
 #include "base/gl/fence.h"
 #include "base/gl/pass.h"
 #include "pipeline/warp/pass_params.h"
+#include "pipeline/warp/warp_options.h"
 #include "pipeline/warp/warp_step.h"
 
 #include <array>
@@ -16,16 +17,17 @@ namespace mfar {
 
 /// Lists pixels that the warp left without a known colour, and fills them from their surroundings.
 /// The CPU can read the list one or two frames later. Pixels in cracks of one pixel width are
-/// always filled, because most of their neighbours show the same surface. Larger areas are filled
-/// by push-pull on request.
+/// always filled, because most of their neighbours show the same surface. HoleFilling says which
+/// larger areas are filled, by push-pull.
 class HoleFiller {
 public:
     static constexpr int kLevels = 6;
 
     explicit HoleFiller(Size layer);
 
-    /// Begins an empty list of pixels in `where`. With `pushPull`, larger areas are filled too.
-    void begin(const PixelRect& where, bool pushPull);
+    /// Begins an empty list of pixels in `where`. `filling` says which pixels are filled besides
+    /// cracks.
+    void begin(const PixelRect& where, HoleFilling filling);
     /// Dispatch commands and length of the list; see warp_rest.comp.
     [[nodiscard]] const gpu::Buffer& commands() const { return lists_[current_].commands; }
     [[nodiscard]] const gpu::Buffer& entries() const { return lists_[current_].entries; }

@@ -1,5 +1,7 @@
 #include "pipeline/simd/hole_pyramid.h"
 
+#include "pipeline/warp/pass_params.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -12,7 +14,6 @@ std::uint32_t rounded(float value) {
     return static_cast<std::uint32_t>(above);
 }
 
-constexpr int kCrackLevels = 2;  // number of pyramid levels that fill cracks if push-pull is off
 constexpr std::uint32_t kAnyObject = 254;
 constexpr int kBlockShift = HolePyramid::kLevels;
 constexpr std::size_t kHolesAtATime = 32;
@@ -59,9 +60,9 @@ std::uint8_t halfWeight(float sum) {
 HolePyramid::HolePyramid(Size layer, std::shared_ptr<Workers> workers)
     : width_(layer.width), workers_(std::move(workers)) {}
 
-void HolePyramid::fill(const Layer& layer, std::span<Hole> holes, bool pushPull) {
+void HolePyramid::fill(const Layer& layer, std::span<Hole> holes, HoleFilling filling) {
     if (holes.empty()) return;
-    levelCount_ = pushPull ? kLevels : kCrackLevels;
+    levelCount_ = fillsShadows(filling) ? kLevels : params::kCrackLevels;
     markBlocks(layer.where, holes);
     PixelRect r = layer.where;
     for (int l = 0; l < levelCount_; ++l) {
@@ -74,7 +75,7 @@ void HolePyramid::fill(const Layer& layer, std::span<Hole> holes, bool pushPull)
     const int count = static_cast<int>(holes.size());
     const auto body = [&](int i, int end) {
         for (; i < end; ++i)
-            fillHole(layer, holes[static_cast<std::size_t>(i)], pushPull);
+            fillHole(layer, holes[static_cast<std::size_t>(i)], filling);
     };
     if (workers_)
         workers_->forRange(count, kHolesAtATime, body);
@@ -234,12 +235,13 @@ bool isCrack(const HolePyramid::Layer& layer, int x, int y, std::uint32_t id) {
 /// Fills a hole with colours of its own object. An object that has just appeared from behind others
 /// has no known colour. Then the colours of all surrounding objects are used, because the object
 /// would look transparent without a colour.
-void HolePyramid::fillHole(const Layer& layer, Hole& hole, bool pushPull) const {
+void HolePyramid::fillHole(const Layer& layer, Hole& hole, HoleFilling filling) const {
     const int x = static_cast<int>(hole.pixel) % width_, y = static_cast<int>(hole.pixel) / width_;
     const std::uint32_t state = layer.state[y][x], id = state & 255U;
     hole.isEdge = hole.isEdge || isCrack(layer, x, y, id);
-    if (!hole.isEdge && !pushPull) return;
-    const int last = hole.isEdge && !pushPull ? kCrackLevels : levelCount_;
+    const bool fills = id == kCatcherNumber ? fillsShadows(filling) : pushPulls(filling);
+    if (!hole.isEdge && !fills) return;
+    const int last = fills ? levelCount_ : params::kCrackLevels;
     Sum sum = gathered(x, y, id, last);
     if (sum.weight == 0 && id != kCatcherNumber) sum = gathered(x, y, kAnyObject, last);
     if (!(sum.weight > 0)) return;

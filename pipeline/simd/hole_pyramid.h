@@ -4,6 +4,7 @@
 #include "base/rows.h"
 #include "base/workers.h"
 #include "pipeline/simd/view_look_up.h"
+#include "pipeline/warp/warp_options.h"
 
 #include <array>
 #include <cstdint>
@@ -31,8 +32,8 @@ public:
     };
     /// `holes`: the layer's holes, ascending. A hole is a crack if its isEdge is true, or if at
     /// least five of its eight neighbours show the same surface. Cracks are always filled, and
-    /// their isEdge is set to true. `pushPull`: true if the other holes are filled, too.
-    void fill(const Layer& layer, std::span<Hole> holes, bool pushPull);
+    /// their isEdge is set to true. `filling` says which other holes are filled, too.
+    void fill(const Layer& layer, std::span<Hole> holes, HoleFilling filling);
 
 private:
     /// A texel of a pyramid level: number (`id`) and colour (`object`) of the object with the
@@ -56,7 +57,7 @@ private:
     [[nodiscard]] Area areaAt(int level, int x, int y) const;
     void markBlocks(const PixelRect& where, std::span<const Hole> holes);
     void pull(const Layer& layer, int level);
-    void fillHole(const Layer& layer, Hole& hole, bool pushPull) const;
+    void fillHole(const Layer& layer, Hole& hole, HoleFilling filling) const;
     void addLevel(int level, int x, int y, std::uint32_t id, Sum& sum) const;
     [[nodiscard]] Sum gathered(int x, int y, std::uint32_t id, int last) const;
 

@@ -173,11 +173,16 @@ bool RestPixels::lookUp(const View& view, const Point3& at, const Wanted& wanted
 }
 
 /// Looks up a surface's colour in the traced picture or, if that does not show it, in the
-/// re-rendered pictures. Returns the share of the colour that is known, [0, 1].
+/// re-rendered pictures. The latter are used for objects only. Returns the share of the colour that
+/// is known, [0, 1].
 float RestPixels::known(const Wanted& wanted, Colour& found) const {
     Point3 at;
     const bool inTraced = inView(traced_, wanted, at);
     if (inTraced && lookUp(traced_, at, wanted, found)) return 1;
+    found = {};
+    // Outside the traced picture, the shadow catcher's colour is unknown. It nevertheless counts as
+    // known and without shadow, so that it is not filled.
+    if (wanted.id == kCatcherId) return inTraced ? 0.0F : 1.0F;
     float share = 0;
     for (int i = 0; i < rerenderedCount_; ++i) {
         const View& rerendered = rerendered_[static_cast<std::size_t>(i)];
@@ -188,11 +193,7 @@ float RestPixels::known(const Wanted& wanted, Colour& found) const {
         share = rerendered.share;
         found = own;
     }
-    if (share > 0) return share;
-    // Outside the traced picture, the shadow catcher's colour is unknown. It nevertheless counts as
-    // known and without shadow, so that it is not listed as missing.
-    found = {};
-    return wanted.id == kCatcherId && !inView(traced_, wanted, at) ? 1.0F : 0.0F;
+    return share;
 }
 
 bool RestPixels::needsPaint() const {
@@ -226,7 +227,7 @@ RestPixel RestPixels::at(const Asked& asked) const {
         out.colour |= byteOf(shown) << 8 * c;
     }
     const bool missed = objectKnown < 1, hole = missed || catcherKnown < 1;
-    const bool nowhere = objectKnown == 0 || catcherKnown == 0;
+    const bool isOpen = objectKnown == 0 && covered == 1;
     // An edge pixel without a known colour is not rendered individually: the result would be a
     // mixture of the surfaces at the edge. It is filled from its neighbours instead.
     const bool edge = (missed ? covered : below) < 1;
@@ -237,9 +238,8 @@ RestPixel RestPixels::at(const Asked& asked) const {
     const std::uint32_t plain = hole ? 0 : covered == 1 ? id : below == 1 ? kCatcherNumber : 0;
     const std::uint32_t missing = missed ? id : hole ? kCatcherNumber : 0;
     const float part = missed ? covered * (1 - objectKnown) : below * (1 - catcherKnown);
-    const std::uint32_t open = nowhere && !edge ? 255 : 0;
-    out.state = missing | byteOf(255 * part) << 8 | open << 16 | plain << 24;
-    if (hole) out.hole = Hole{0, out.colour, edge, nowhere && !edge};
+    out.state = missing | byteOf(255 * part) << 8 | (isOpen ? 255U : 0U) << 16 | plain << 24;
+    if (hole) out.hole = Hole{0, out.colour, edge, isOpen};
     return out;
 }
 

@@ -67,7 +67,7 @@ public:
         const ViewLookUp::Input input{raster_, rerendered_, store_, raster_.models().plane()};
         lookUp_.run(input, frame.T_world_camera, where);
         pyramid_.fill({lookUp_.colour(), lookUp_.state(), where}, lookUp_.holes(),
-                      pushPulls(options_.filling));
+                      options_.filling);
         if (frame.lists) listHoles();
         rerendered_.age();
         if (sharpener_) sharpener_->show(lookUp_.colour());
@@ -115,8 +115,6 @@ private:
                 ++out.cracks;
             else if (hole.isOpen)
                 out.open.push_back(hole.pixel);
-            else
-                ++out.fading;
         }
     }
 

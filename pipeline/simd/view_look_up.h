@@ -30,8 +30,8 @@ class SurfaceRaster;
 struct Hole {
     std::uint32_t pixel;
     std::uint32_t colour;  ///< known part of the colour, RGBA8 premultiplied
-    /// isEdge: several surfaces meet in the pixel. isOpen: one surface fills the pixel, and no
-    /// picture shows this surface there.
+    /// isEdge: several surfaces meet in the pixel. isOpen: an object fills the pixel, and no
+    /// picture shows the object there.
     bool isEdge, isOpen;
 };
 
@@ -55,7 +55,7 @@ private:
 };
 
 /// Looks up the colour of every layer pixel that shows a surface. The colour comes from the traced
-/// picture or, if that does not show the surface, from RerenderedPictures. Plain pixels (see
+/// picture or, if that does not show an object, from RerenderedPictures. Plain pixels (see
 /// lookUpRow()) are processed in vectors, all others one by one. Several threads process different
 /// rows. CPU version of the GLES engine's ViewLookUp.
 class ViewLookUp {

@@ -19,7 +19,8 @@ inline constexpr float kSameDepth = 0.003F;
 /// A surface's colour is interpolated only between texels that show this surface. The colour is
 /// unreliable if the sum of the texels' weights is below this limit.
 inline constexpr float kLeastLookUpWeight = 0.2F;
-/// Number of pyramid levels from which cracks of one pixel are filled.
+/// Number of pyramid levels from which a crack of one pixel is filled if larger holes of its
+/// surface stay empty.
 inline constexpr int kCrackLevels = 2;
 inline constexpr std::uint32_t kContrastLevels = 64U;
 
@@ -90,7 +91,7 @@ struct alignas(16) FillHoles {
     PixelBounds bounds;
     HoleLevel levels[6];
     std::int32_t width;
-    std::int32_t fillsAll;  ///< 1: fills all missing pixels; 0: only cracks
+    std::int32_t fillsObjects, fillsCatcher;  ///< 1: fills all missing pixels; 0: only cracks
     std::int32_t level;
     std::int32_t levelCount;
     std::int32_t rows, rowsBelow;  ///< rows of this pyramid level and of the next finer level

@@ -36,11 +36,13 @@ void RerenderedPictures::add(const HoleAnswer& answer,
         const auto x = static_cast<int>(pixels[i] % static_cast<unsigned>(layer_.width));
         const auto y = static_cast<int>(pixels[i] / static_cast<unsigned>(layer_.width));
         const float z = answer.depth[i];
-        const bool is = answer.id[i] != 0 && z > LensProjection::kNear && z < kFarthestSurface;
-        const bool object = is && answer.id[i] != kCatcherId;
-        surfaces_[pixels[i]] = {is ? z : 0, is ? static_cast<float>(answer.id[i]) : 0, 0, 1};
-        if (is) colours_[pixels[i]] = object ? filled(answer.colour[i]) : answer.colour[i];
-        if (object && !answer.light.empty()) lights_[pixels[i]] = answer.light[i];
+        const bool isObject = answer.id[i] != 0 && answer.id[i] != kCatcherId &&
+                              z > LensProjection::kNear && z < kFarthestSurface;
+        if (isObject) {
+            surfaces_[pixels[i]] = {z, static_cast<float>(answer.id[i]), 0, 1};
+            colours_[pixels[i]] = filled(answer.colour[i]);
+            if (!answer.light.empty()) lights_[pixels[i]] = answer.light[i];
+        }
         bounds = around(bounds, {x, y, x + 1, y + 1});
     }
     for (const std::uint32_t i : pixels)

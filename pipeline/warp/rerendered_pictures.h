@@ -11,8 +11,8 @@
 namespace mfar {
 
 /// The last kPictures re-rendered pictures. Each consists of the pixels of one HoleAnswer. These
-/// were traced for the camera pose in the answer. The warp looks up colours in these pictures as in
-/// the traced picture. A new picture replaces the oldest.
+/// were traced for the camera pose in the answer. The warp looks up colours of objects in these
+/// pictures as in the traced picture. A new picture replaces the oldest.
 class RerenderedPictures {
 public:
     static constexpr int kPictures = 4;

@@ -20,7 +20,7 @@ struct WarpCounters {
     std::uint64_t requested = 0;  ///< pixels requested for individual rendering
     std::uint64_t answered = 0;   ///< requested pixels that were rendered
     std::uint64_t rays = 0;
-    int openHoles = 0;  ///< pixels that no picture shows
+    int openHoles = 0;  ///< pixels of objects that no picture shows
     int cracks = 0;     ///< pixels in cracks, which are one pixel wide
 };
 
@@ -52,9 +52,10 @@ public:
     /// each object.
     LayerPicture& run(const RigidTransform& T_world_camera, std::vector<RigidTransform> poses = {});
 
-    /// Returns the pixels to render individually: missing pixels of a recent frame, or edge pixels
-    /// if camera and objects rest. At most mostRequested pixels are returned, evenly spread. Empty
-    /// if no such pixels are known, or if an earlier request for this scene is not answered yet.
+    /// Returns the pixels to render individually: missing pixels of objects in a recent frame, or
+    /// edge pixels if camera and objects rest. At most mostRequested pixels are returned, evenly
+    /// spread. Empty if no such pixels are known, or if an earlier request for this scene is not
+    /// answered yet.
     /// Must be called once per frame, even if the frame is not drawn because the camera rests.
     /// Never waits.
     [[nodiscard]] std::optional<HoleRequest> takeRequest();

@@ -3,7 +3,8 @@
 namespace mfar {
 
 /// Method to fill pixels of a model that no picture shows (holes). Cracks of one pixel are always
-/// closed.
+/// closed. Holes in the shadow catcher are interpolated, except with None: a shadow is smooth, and
+/// a few samples of it would be noisy.
 enum class HoleFilling {
     None,      ///< leave the pixels empty
     PushPull,  ///< interpolate the pixels from their surroundings
@@ -35,6 +36,9 @@ struct WarpOptions {
 }
 [[nodiscard]] inline bool pushPulls(HoleFilling filling) {
     return filling == HoleFilling::PushPull || filling == HoleFilling::Both;
+}
+[[nodiscard]] inline bool fillsShadows(HoleFilling filling) {
+    return filling != HoleFilling::None;
 }
 
 /// Throws std::invalid_argument that names the first option out of range.

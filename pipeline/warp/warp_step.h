@@ -13,9 +13,8 @@
 namespace mfar {
 
 struct WarpHoles {
-    std::vector<std::uint32_t> open;  ///< pixels that no picture shows, ascending
+    std::vector<std::uint32_t> open;  ///< pixels of objects that no picture shows, ascending
     int cracks = 0;                   ///< number of pixels in cracks; they are not in `open`
-    int fading = 0;                   ///< number of pixels whose re-rendered pictures still fade in
 };
 
 /// Processes the pixels of a warp. Each engine implements it; Warp decides when it runs. The result
@@ -63,9 +62,9 @@ public:
     virtual void dropEdges() = 0;
 
     /// State of each pixel as RGBA8, for tests. R: number of the surface whose colour is unknown.
-    /// G: share of the pixel whose colour is unknown. B: 255 if the surface in R fills the pixel
-    /// and no picture shows it. A: number of the surface that fills the pixel, if the whole colour
-    /// is known.
+    /// G: share of the pixel whose colour is unknown. B: 255 if the surface in R is an object, it
+    /// fills the pixel, and no picture shows it. A: number of the surface that fills the pixel, if
+    /// the whole colour is known.
     [[nodiscard]] virtual const Field<std::uint32_t>& state() const = 0;
 };
 

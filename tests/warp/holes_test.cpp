@@ -11,6 +11,7 @@ using test::CastScene;
 using WarpHolesGl = GlTest;
 
 constexpr Size kHoleLayer{200, 150};
+constexpr double kTurn = 50;  // [degrees]; uncovers a wide strip of each ball
 
 struct Turned {
     explicit Turned(const WarpOptions& options)
@@ -32,19 +33,19 @@ struct Turned {
 // A hole is a pixel of the new view whose surface the traced picture does not show.
 TEST_F(WarpHolesGl, HolesOfTheTracedPictureAreRequested) {
     Turned s({});
-    const auto request = s.requestAt(15);
+    const auto request = s.requestAt(kTurn);
     ASSERT_TRUE(request);
     EXPECT_GT(request->pixels.size(), 50U);
     EXPECT_TRUE(std::ranges::is_sorted(request->pixels));
-    const RenderedPicture now = s.scene.cast({s.warp.camera(), test::orbit(15)});
+    const RenderedPicture now = s.scene.cast({s.warp.camera(), test::orbit(kTurn)});
     const RenderedPicture before = s.scene.cast({s.warp.camera(), test::orbit(0)});
     int hidden = 0, surfaces = 0;
     for (const std::uint32_t pixel : request->pixels) {
-        if (now.id[pixel] == 0) continue;  // an empty pixel beside the shadow has no depth
+        if (now.id[pixel] == 0 || now.id[pixel] == kCatcherId) continue;
         ++surfaces;
         const Eigen::Vector2d at(pixel % kHoleLayer.width, pixel / kHoleLayer.width);
         const Eigen::Vector3d p = now.depth[pixel] * s.warp.camera().unproject(at).homogeneous();
-        const Eigen::Vector3d q = test::orbit(0).inverse() * (test::orbit(15) * p);
+        const Eigen::Vector3d q = test::orbit(0).inverse() * (test::orbit(kTurn) * p);
         const Eigen::Vector2d r = s.warp.camera().project(q.hnormalized());
         const auto x = std::lround(r.x()), y = std::lround(r.y());
         const auto i = static_cast<std::size_t>(y * kHoleLayer.width + x);
@@ -54,16 +55,17 @@ TEST_F(WarpHolesGl, HolesOfTheTracedPictureAreRequested) {
     // Up to a fifth of the requested pixels were visible. They are at the edge of a ball, where
     // rounding decides if a pixel counts as hidden.
     EXPECT_GT(surfaces, 100);
+    EXPECT_GT(surfaces, 0.95 * static_cast<double>(request->pixels.size()));
     EXPECT_GT(hidden, 0.8 * surfaces);
 }
 
 TEST_F(WarpHolesGl, OnlyOneRequestIsOpenAtATimeAndItsAnswerFillsTheHoles) {
     Turned s({});
-    const auto request = s.requestAt(15);
+    const auto request = s.requestAt(kTurn);
     ASSERT_TRUE(request);
-    EXPECT_FALSE(s.requestAt(15)) << "the first request is not answered yet";
+    EXPECT_FALSE(s.requestAt(kTurn)) << "the first request is not answered yet";
     s.warp.answer(test::answered(s.scene, *request));
-    const auto second = s.requestAt(15);
+    const auto second = s.requestAt(kTurn);
     const std::size_t left = second ? second->pixels.size() : 0;
     EXPECT_LT(left, request->pixels.size() / 20);
     EXPECT_EQ(s.warp.counters().answered, request->pixels.size());
@@ -71,10 +73,10 @@ TEST_F(WarpHolesGl, OnlyOneRequestIsOpenAtATimeAndItsAnswerFillsTheHoles) {
 
 TEST_F(WarpHolesGl, AnsweredPixelsAreReusedAfterTheCameraMoved) {
     Turned s({.filling = HoleFilling::Rerender});
-    const auto request = s.requestAt(15);
+    const auto request = s.requestAt(kTurn);
     ASSERT_TRUE(request);
     s.warp.answer(test::answered(s.scene, *request));
-    const auto second = s.requestAt(16.5);
+    const auto second = s.requestAt(kTurn + 1.5);
     const std::size_t left = second ? second->pixels.size() : 0;
     EXPECT_LT(left, request->pixels.size() / 3)
         << "only pixels that the further rotation uncovers are requested";
@@ -82,9 +84,9 @@ TEST_F(WarpHolesGl, AnsweredPixelsAreReusedAfterTheCameraMoved) {
 
 TEST_F(WarpHolesGl, AnswersFadeInOverSeveralFrames) {
     Turned s({.fadeFrames = 4});
-    const auto request = s.requestAt(15);
+    const auto request = s.requestAt(kTurn);
     ASSERT_TRUE(request);
-    const auto mean = [&] { return test::meanGreen(s.warp, test::orbit(15), request->pixels); };
+    const auto mean = [&] { return test::meanGreen(s.warp, test::orbit(kTurn), request->pixels); };
     const double filled = mean();
     s.warp.answer(test::answeredInWhite(s.scene, *request));
     double last = filled;
@@ -98,7 +100,7 @@ TEST_F(WarpHolesGl, AnswersFadeInOverSeveralFrames) {
 
 TEST_F(WarpHolesGl, HolesBeyondTheRequestLimitAreSampledEvenly) {
     Turned all({}), few({.mostRequested = 100});
-    const auto every = all.requestAt(20), some = few.requestAt(20);
+    const auto every = all.requestAt(kTurn), some = few.requestAt(kTurn);
     ASSERT_TRUE(every && some);
     ASSERT_EQ(some->pixels.size(), 100U);
     EXPECT_TRUE(std::ranges::includes(every->pixels, some->pixels));
@@ -114,8 +116,39 @@ TEST_F(WarpHolesGl, HolesBeyondTheRequestLimitAreSampledEvenly) {
 TEST_F(WarpHolesGl, ModesThatDoNotRenderHolesRequestNoPixels) {
     for (const HoleFilling filling : {HoleFilling::None, HoleFilling::PushPull}) {
         Turned s({.filling = filling});
-        EXPECT_FALSE(s.requestAt(15));
+        EXPECT_FALSE(s.requestAt(kTurn));
         EXPECT_GT(s.warp.counters().openHoles, 50);
+    }
+}
+
+TEST_F(WarpHolesGl, HolesInTheShadowAreFilledFromItsSurroundingsAndNotRequested) {
+    for (const HoleFilling filling :
+         {HoleFilling::Both, HoleFilling::Rerender, HoleFilling::PushPull, HoleFilling::None}) {
+        SCOPED_TRACE(static_cast<int>(filling));
+        Turned s({.filling = filling});
+        const RigidTransform now = test::orbit(15);
+        const auto rgba = test::bytesOf(s.warp.run(now).colour);
+        glFinish();
+        const auto request = s.warp.takeRequest();
+        const auto state = test::bytesOf(s.warp.state());
+        const RenderedPicture truth = s.scene.cast({s.warp.camera(), now});
+        int holes = 0;
+        double error = 0, shadow = 0;
+        for (std::uint32_t i = 0; i < truth.id.size(); ++i) {
+            if (state[4 * i] != kCatcherId || state[4 * i + 1] < 255) continue;
+            EXPECT_FALSE(request && std::ranges::binary_search(request->pixels, i));
+            if (truth.id[i] != kCatcherId) continue;
+            ++holes;
+            error += std::abs(rgba[4 * i + 3] - truth.colour[i][3]);
+            shadow += truth.colour[i][3];
+        }
+        EXPECT_GT(holes, 50);
+        EXPECT_GT(shadow, 10 * holes) << "[levels of 255]";
+        if (filling == HoleFilling::None) {
+            EXPECT_GT(error, 0.8 * shadow);
+        } else {
+            EXPECT_LT(error, 0.5 * shadow);
+        }
     }
 }
 
@@ -142,7 +175,7 @@ TEST_F(WarpHolesGl, PixelsOfAppearingObjectsAreFilledAtOnce) {
 
 TEST_F(WarpHolesGl, InvalidAnswersAreRefusedAndAnswersOfAnotherSceneIgnored) {
     Turned s({});
-    const auto request = s.requestAt(15);
+    const auto request = s.requestAt(kTurn);
     ASSERT_TRUE(request);
     const HoleAnswer good = test::answered(s.scene, *request);
     HoleAnswer bad = good;

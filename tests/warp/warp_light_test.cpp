@@ -136,23 +136,24 @@ TEST_F(WarpLight, BothEnginesShowTheSameLightOnMovedObjects) {
 }
 
 TEST_F(WarpLight, BothEnginesShowTheSameLightInRerenderedPixels) {
+    constexpr double kTurn = 40;  // [degrees]
     const WarpOptions options{.filling = HoleFilling::Rerender};
     LitWarp gles(EngineKind::Gles, false, options), simd(EngineKind::Simd, false, options);
     for (LitWarp* one : {&gles, &simd})
-        (void)one->at(15);
+        (void)one->at(kTurn);
     const auto request = gles.request();
     ASSERT_TRUE(request && simd.request());
     HoleAnswer answer = test::answered(gles.cast, *request);
     for (const std::uint32_t pixel : answer.pixels)
         answer.light.push_back(lightAt(pixel));
-    // The colours must not be used where the light is known. The shadow catcher has no light.
+    // The colours must not be used where the light is known.
     for (std::size_t i = 0; i < answer.id.size(); ++i)
-        if (answer.id[i] != 0 && answer.id[i] != kCatcherId) answer.colour[i] = {255, 0, 255, 255};
-    const std::vector<std::uint8_t> before = gles.at(15);
+        if (answer.id[i] != 0) answer.colour[i] = {255, 0, 255, 255};
+    const std::vector<std::uint8_t> before = gles.at(kTurn);
     gles.warp.answer(answer);
     simd.warp.answer(answer);
-    const std::vector<std::uint8_t> now = gles.at(15);
-    expectSame(now, simd.at(15));
+    const std::vector<std::uint8_t> now = gles.at(kTurn);
+    expectSame(now, simd.at(kTurn));
     int changed = 0;
     for (const std::uint32_t pixel : answer.pixels)
         changed += now[4UL * pixel + 3] != before[4UL * pixel + 3] ? 1 : 0;

@@ -17,11 +17,12 @@ constexpr const char* kWarpHelp =
     "Methods differ in how they fill holes, the pixels that the warped picture does not show.\n"
     "none: left empty; push-pull: from pixels around them; re-render: these pixels are traced;\n"
     "both: re-render, and push-pull until the traced pixels arrive; inpaint: by Telea's method\n"
-    "in OpenCV; full: no warp, the whole picture is traced anew.\n"
+    "in OpenCV; full: no warp, the whole picture is traced anew. re-render and both fill holes\n"
+    "in shadows as push-pull does.\n"
     "psnr_db: of red, green and blue where the truth shows an object; hole_share: holes in\n"
-    "objects and shadow, divided by the pixels of the objects; reray_share: rays of pixels\n"
-    "that are traced one by one (holes and blurred edges), divided by the rays of the method\n"
-    "`full`; reray_of_objects: the same rays, divided by those of the objects' pixels only;\n"
+    "objects, divided by the pixels of the objects; reray_share: rays of pixels that are\n"
+    "traced one by one (holes and blurred edges), divided by the rays of the method `full`;\n"
+    "reray_of_objects: the same rays, divided by those of the objects' pixels only;\n"
     "ms: time of the warp after all traced pixels have arrived; for `inpaint`, time of the\n"
     "inpainting only; for `full`, time of the tracing.";
 
