@@ -21,14 +21,10 @@ constexpr float kSurely = 4;
 // A difference of more than this many standard errors is not noise.
 constexpr float kTolerance = 2.5F;
 // A sample on the shadow catcher shows either full shadow or none, because its ray is either
-// blocked or not. After few samples, adjacent pixels of a penumbra therefore differ by more than
-// kTolerance allows. They would not be averaged, and the penumbra would have spots. So on the
-// shadow catcher, kSparseTolerance replaces kTolerance in all filter levels with a step of at most
-// kSparseStep, the distance of sparse samples [px].
-constexpr int kSparseStep = 4;
-constexpr float kSparseTolerance = 5;
-// From this number of samples on, a pixel's light is not limited to that of its neighbours.
-constexpr float kEnoughSamples = 10;
+// blocked or not. The samples of some pixels of a penumbra all agree by chance. The filter would
+// then underestimate the noise, would not average these pixels, and the penumbra would have spots.
+// So kCatcherTolerance replaces kTolerance on the shadow catcher.
+constexpr float kCatcherTolerance = 4;
 constexpr int kBefore = 2;               // number of stages before the first level
 constexpr float kLeastVariance = 1e-7F;  // (a tenth of a grey level)^2 at white
 // Upper limit of the relative change of depth per pixel on one surface.
@@ -131,10 +127,7 @@ void NoiseFilter::forNeighbours(int x, int y, int reach, int step, Use use) cons
 NoiseFilter::Limits NoiseFilter::limitsAt(int x, int y) const {
     const std::size_t i = static_cast<std::size_t>(y) * size_.width + x;
     const LightPixel& pixel = pixels_[i];
-    const auto isFew = [](float count) { return count > 0 && count < kEnoughSamples; };
-    if (pixel.id == 0 || pixel.id == kCatcherId || pixel.kept ||
-        !(isFew(pixel.firstCount) || isFew(pixel.secondCount)))
-        return {};
+    if (pixel.id == 0 || pixel.id == kCatcherId || pixel.kept) return {};
     ThirdLargest first, second;
     forNeighbours(x, y, 1, 1, [&](std::size_t j) {
         if (j == i) return;
@@ -143,8 +136,8 @@ NoiseFilter::Limits NoiseFilter::limitsAt(int x, int y) const {
         if (there.secondCount > 0) second.add(luminanceOf<float>(there.second.matrix()));
     });
     Limits out;
-    if (isFew(pixel.firstCount)) out.first = first.value();
-    if (isFew(pixel.secondCount)) out.second = second.value();
+    if (pixel.firstCount > 0) out.first = first.value();
+    if (pixel.secondCount > 0) out.second = second.value();
     return out;
 }
 
@@ -242,9 +235,8 @@ void NoiseFilter::filterRow(int level, int y) {
                           .y = y},
                          {.step = step,
                           .tolerance = kTolerance,
-                          .sparseTolerance = step <= kSparseStep ? kSparseTolerance : kTolerance,
-                          .few = LightPixel::kFew,
-                          .sparseId = kCatcherId,
+                          .catcherTolerance = kCatcherTolerance,
+                          .catcherId = kCatcherId,
                           .leastVariance = kLeastVariance,
                           .depthSlope = kDepthSlope});
     if (level + 1 < kLevels) return;

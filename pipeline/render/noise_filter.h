@@ -34,9 +34,10 @@ struct LightPixel {
 /// The filter works on light without the surface's paint, so that textures stay sharp. A pixel
 /// ignores neighbours across a depth edge or on another surface. Neighbours with another normal
 /// have less weight. Pixels without an id stay unchanged. A pixel without samples gets its
-/// neighbours' light. Few samples may include a rare bright one. So if an object's pixel has few
-/// samples, its light is limited to that of its neighbours, but only if noise can explain the
-/// excess. Variances fall with the number of samples, so that the filter finally changes nothing.
+/// neighbours' light. The samples of a pixel may include a rare bright one. So the light of an
+/// object's pixel is limited to that of its neighbours, but only if noise can explain the excess.
+/// This darkens an evenly lit surface by about a quarter of a pixel's standard error.
+/// Variances fall with the number of samples, so that the filter finally changes nothing.
 /// The filter runs in stages, one after the other. Several threads may filter rows of the same
 /// stage at the same time.
 class NoiseFilter {

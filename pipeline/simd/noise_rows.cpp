@@ -125,12 +125,10 @@ private:
 };
 
 template <class D>
-HWY_INLINE hn::Vec<D> squaredTolerance(D d, const NoiseRule& rule, hn::Vec<D> id,
-                                       const float* count) {
-    const auto isSparse = hn::And(hn::Eq(id, hn::Set(d, rule.sparseId)),
-                                  hn::Lt(hn::LoadU(d, count), hn::Set(d, rule.few)));
+HWY_INLINE hn::Vec<D> squaredTolerance(D d, const NoiseRule& rule, hn::Vec<D> id) {
+    const auto isCatcher = hn::Eq(id, hn::Set(d, rule.catcherId));
     const auto tolerance =
-        hn::IfThenElse(isSparse, hn::Set(d, rule.sparseTolerance), hn::Set(d, rule.tolerance));
+        hn::IfThenElse(isCatcher, hn::Set(d, rule.catcherTolerance), hn::Set(d, rule.tolerance));
     return hn::Mul(tolerance, tolerance);
 }
 
@@ -163,7 +161,7 @@ void FilterNoiseRow(const NoiseRow& row, const NoiseRule& rule) {
         const int x = row.where.x0 + static_cast<int>(first);
         const std::ptrdiff_t centre = static_cast<std::ptrdiff_t>(row.y) * row.width + x;
         const SameSurface<D> surface(d, row.surfaces, centre, rule.depthSlope);
-        const auto tolerance2 = squaredTolerance(d, rule, surface.id(), row.from[0].count + centre);
+        const auto tolerance2 = squaredTolerance(d, rule, surface.id());
         const auto leastVariance = hn::Set(d, rule.leastVariance);
         PartMean<D> a(d, row.from[0], centre, tolerance2), b(d, row.from[1], centre, tolerance2);
         forNeighbours(d, row, rule.step, surface, x,

@@ -24,9 +24,8 @@ struct LightSurfaces {
 struct NoiseRule {
     int step;  ///< distance between a pixel and its neighbours [px], at most kNoiseMargin
     /// Largest luminance difference between two pixels that noise explains [standard deviations of
-    /// the difference]. It is `sparseTolerance` at pixels of surface `sparseId` whose first
-    /// LightPart has fewer than `few` samples, else `tolerance`.
-    float tolerance, sparseTolerance, few, sparseId;
+    /// the difference]. It is `catcherTolerance` on surface `catcherId`, else `tolerance`.
+    float tolerance, catcherTolerance, catcherId;
     float leastVariance;  ///< added to the variance of each luminance difference
     float depthSlope;     ///< largest change of depth within a surface [fraction of depth per px]
 };

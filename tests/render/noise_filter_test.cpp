@@ -79,34 +79,55 @@ TEST(NoiseFilter, EstimatesUnknownVariances) {
     EXPECT_LT(errorOf(pixels, flat), kSigma / 2);
 }
 
-// A quarter of the pixels has one sample each. Half-shadowed pixels need many samples: in a single
-// sample, objects block all of the light or none. So single pixels look like spots until the filter
-// averages them with their neighbours. On the shadow catcher, it averages over larger differences
-// of light than on an object.
-TEST(NoiseFilter, SingleSamplesOfASoftShadowLeaveFewerSpotsOnTheCatcherThanOnObjects) {
-    const auto spots = [](std::uint8_t id) {
-        std::mt19937 random(1);
-        std::bernoulli_distribution isBlocked(0.25);
-        Pixels pixels = noisyPicture(flat);
-        for (std::size_t i = 0; i < pixels.size(); ++i) {
-            LightPixel& p = pixels[i];
-            const bool isSampled = i % kNoisySize.width % 2 == 0 && i / kNoisySize.width % 2 == 0;
-            p.first = p.second = Eigen::Array3f::Constant(isSampled && isBlocked(random) ? -1 : 0);
-            p.firstVariance = p.secondVariance = -1;
-            p.firstCount = p.secondCount = isSampled ? 1 : 0;
-            p.id = id;
-        }
-        pixels = filtered(kNoisySize, pixels);
-        float mean = 0;
-        for (const LightPixel& p : pixels)
-            mean += p.first[0] / static_cast<float>(pixels.size());
-        return errorOf(pixels, [&](int, int) { return mean; });
-    };
-    EXPECT_LT(spots(kCatcherId), 0.8 * spots(1));
+/// Returns the error of a filtered soft shadow. A quarter of the pixels has `samples` samples each.
+/// In a single sample, objects block all of the light or none. So single pixels look like spots
+/// until the filter averages them with their neighbours.
+double spotsOf(std::uint8_t id, int samples, std::uint32_t seed) {
+    constexpr double kBlocked = 0.25;
+    std::mt19937 random(seed);
+    std::bernoulli_distribution isBlocked(kBlocked);
+    Pixels pixels = noisyPicture(flat);
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        LightPixel& p = pixels[i];
+        const bool isSampled = i % kNoisySize.width % 2 == 0 && i / kNoisySize.width % 2 == 0;
+        const auto n = static_cast<float>(samples);
+        float share = 0;
+        for (int k = 0; isSampled && k < samples; ++k)
+            share += isBlocked(random) ? 1 / n : 0;
+        p.first = p.second = Eigen::Array3f::Constant(-share);
+        p.firstVariance = p.secondVariance =
+            n < LightPixel::kFew ? -1 : share * (1 - share) / (n - 1);
+        p.firstCount = p.secondCount = isSampled ? n : 0;
+        p.id = id;
+    }
+    return errorOf(filtered(kNoisySize, pixels), [&](int, int) { return -kBlocked; });
 }
 
-// Returns the middle of a dark picture after filtering, if only this pixel was bright.
-LightPixel brightPixelFiltered(float samples, std::uint8_t id) {
+double meanSpotsOf(std::uint8_t id, int samples) {
+    constexpr std::uint32_t kSeeds = 10;
+    double sum = 0;
+    for (std::uint32_t seed = 1; seed <= kSeeds; ++seed)
+        sum += spotsOf(id, samples, seed) / kSeeds;
+    return sum;
+}
+
+TEST(NoiseFilter, SamplesOfASoftShadowLeaveFewerSpotsOnTheCatcherThanOnObjects) {
+    for (const int samples : {1, 4, 16})
+        EXPECT_LT(meanSpotsOf(kCatcherId, samples), 0.8 * meanSpotsOf(1, samples)) << samples;
+}
+
+// From LightPixel::kFew samples on, the variance is estimated from the pixel's own samples. It is
+// too low if they all agree by chance.
+TEST(NoiseFilter, MoreSamplesOfASoftShadowLeaveHardlyMoreSpots) {
+    static_assert(LightPixel::kFew == 4);
+    EXPECT_LT(meanSpotsOf(kCatcherId, 2), meanSpotsOf(kCatcherId, 1));
+    EXPECT_LT(meanSpotsOf(kCatcherId, 4), 1.3 * meanSpotsOf(kCatcherId, 2));
+    EXPECT_LT(meanSpotsOf(kCatcherId, 16), meanSpotsOf(kCatcherId, 4));
+}
+
+// Returns the middle of a dark picture after filtering, if only this pixel was bright. `variance`
+// is that of the bright pixel if it has at least LightPixel::kFew samples.
+LightPixel brightPixelFiltered(float samples, std::uint8_t id, float variance = 1e-6F) {
     Pixels pixels = noisyPicture(flat, 0);
     for (LightPixel& p : pixels) {
         p.firstVariance = p.secondVariance = samples < LightPixel::kFew ? -1 : 1e-6F;
@@ -115,16 +136,18 @@ LightPixel brightPixelFiltered(float samples, std::uint8_t id) {
     }
     const std::size_t middle = 16 * kNoisySize.width + 20;
     pixels[middle].first = pixels[middle].second = Eigen::Array3f(10, 5, 5);
+    if (samples >= LightPixel::kFew)
+        pixels[middle].firstVariance = pixels[middle].secondVariance = variance;
     return filtered(kNoisySize, pixels)[middle];
 }
 
-TEST(NoiseFilter, ABrightPixelWithFewSamplesIsLimitedToItsNeighbours) {
-    const LightPixel found = brightPixelFiltered(1, 1);
-    for (const Eigen::Array3f& light : {found.first, found.second})
+TEST(NoiseFilter, ABrightPixelIsLimitedToItsNeighboursIfNoiseExplainsIt) {
+    const LightPixel few = brightPixelFiltered(1, 1), many = brightPixelFiltered(64, 1, 25);
+    for (const Eigen::Array3f& light : {few.first, few.second, many.first, many.second})
         EXPECT_NEAR(0.2126F * light[0] + 0.7152F * light[1] + 0.0722F * light[2], 0.5F, 0.02F);
 }
 
-TEST(NoiseFilter, ABrightPixelWithManySamplesStaysBright) {
+TEST(NoiseFilter, ABrightPixelStaysBrightIfNoiseDoesNotExplainIt) {
     const LightPixel found = brightPixelFiltered(10, 1);
     EXPECT_NEAR(found.first[0], 10, 0.1F);
     EXPECT_NEAR(found.second[1], 5, 0.1F);

@@ -14,7 +14,7 @@ namespace {
 
 constexpr Size kPicture{71, 40};
 constexpr std::size_t kPixels = 71 * 40;
-constexpr float kSparse = 3;  // NoiseRule::sparseId
+constexpr float kCatcher = 3;  // NoiseRule::catcherId
 
 /// The arrays of a picture by name, with their margins.
 class Arrays {
@@ -99,7 +99,7 @@ Filtered meanOf(Arrays& a, const LightPart<const float>& part, const NoiseRule& 
         return static_cast<std::size_t>(v) * kPicture.width + static_cast<std::size_t>(u);
     };
     const std::size_t i = index(x, y);
-    const bool isSparse = a.of("id")[i] == kSparse && a.of("firstcount")[i] < rule.few;
+    const bool isCatcher = a.of("id")[i] == kCatcher;
     Filtered out;
     for (int v = y - rule.step; v <= y + rule.step; v += rule.step)
         for (int u = x - rule.step; u <= x + rule.step; u += rule.step) {
@@ -109,7 +109,7 @@ Filtered meanOf(Arrays& a, const LightPart<const float>& part, const NoiseRule& 
             const double spline = (u == x ? 0.5 : 0.25) * (v == y ? 0.5 : 0.25);
             const double weight =
                 spline * surfaceWeight(a, i, j, rule) *
-                likeness(part, i, j, isSparse ? rule.sparseTolerance : rule.tolerance, rule);
+                likeness(part, i, j, isCatcher ? rule.catcherTolerance : rule.tolerance, rule);
             for (std::size_t c = 0; c < 3; ++c)
                 out.light[c] += weight * part.light[c][j];
             out.variance += weight * weight * part.variance[j];
@@ -147,7 +147,7 @@ TEST(FilterNoiseRow, AveragesPixelsWhoseDifferenceNoiseMayExplain) {
         const PixelRect where{left, 3, std::min(left + static_cast<int>(width), kPicture.width),
                               36};
         for (const int step : {1, 2, 8}) {
-            const NoiseRule rule{step, 2.5F, 5, 4, kSparse, 1e-7F, 0.01F};
+            const NoiseRule rule{step, 2.5F, 4, kCatcher, 1e-7F, 0.01F};
             for (const int y : {3, 20, 35}) {
                 filterNoiseRow({{{a.of("nx"), a.of("ny"), a.of("nz")},
                                  a.of("depth"),
