@@ -22,7 +22,7 @@ std::optional<std::string> TracingWatch::atEnd() {
     return fmt::format("virtual objects were in view in {} frames but are not shown, because the "
                        "path tracer has no picture of them yet; it got {:.0f} of {:.0f} ms of "
                        "processor time (its priority is low, so other load delays it)",
-                       frames_, usedMs_, budgetMs_ * static_cast<double>(frames_));
+                       frames_, usedMs_, 2 * budgetMs_ * static_cast<double>(frames_));
 }
 
 }  // namespace mfar

@@ -18,7 +18,8 @@ public:
     /// The user is warned if objects are in view for this long without a picture.
     static constexpr std::chrono::seconds kPatience{5};
 
-    /// `budgetMs`: processor time that the path tracer may use per frame.
+    /// `budgetMs`: TracedRendererOptions::budgetMs. Until the first picture is shown, the path
+    /// tracer may use twice this time per frame.
     explicit TracingWatch(double budgetMs) : budgetMs_(budgetMs) {}
 
     /// Must be called after each frame. `inView`: objects that nothing hides are in view. Returns a

@@ -14,7 +14,7 @@ CtlParser::CtlParser() {
     app.add_subcommand("reload", "Read the configuration file again");
     app.add_subcommand("trigger", "Request one still");
     CLI::App* snapshot = app.add_subcommand("snapshot", "Save the last picture that mfard made");
-    snapshot->add_option("FILE", a.snapshot, "PNG file")->required();
+    snapshot->add_option("FILE", a.snapshot, "PNG file; -: standard output")->required();
     snapshot->add_flag("--screen", a.screen, "Save the picture as the screen shows it");
     CLI::App* record = app.add_subcommand("record", "Record video and stills");
     CLI::Option* name = record->add_option("NAME", a.record,

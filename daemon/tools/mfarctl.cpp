@@ -6,14 +6,25 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <cstdio>
 #include <exception>
+#include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace mfar {
 namespace {
 
 constexpr int kRefused = 1;
+
+void writePng(const ImageView& picture) {
+    std::vector<std::uint8_t> bytes;
+    encodePng(picture, bytes);
+    const bool written = std::fwrite(bytes.data(), 1, bytes.size(), stdout) == bytes.size();
+    if (!written || std::fflush(stdout) != 0)
+        throw std::runtime_error("the picture cannot be written to standard output");
+}
 
 void saveSnapshot(const Reply& reply, const std::string& file) {
     const Size size{reply.body.value("width", 0), reply.body.value("height", 0)};
@@ -21,7 +32,10 @@ void saveSnapshot(const Reply& reply, const std::string& file) {
                           size.height <= kMaxImageSide;
     if (!possible || reply.data.size() != std::size_t{4} * size.width * size.height)
         throw Refused("mfard sent an invalid picture");
-    savePng(file, {reply.data.data(), size, std::size_t{4} * size.width, PixelFormat::Rgba8});
+    const ImageView picture{reply.data.data(), size, std::size_t{4} * size.width,
+                            PixelFormat::Rgba8};
+    if (file == "-") return writePng(picture);
+    savePng(file, picture);
     fmt::print("{}: {}x{}\n", file, size.width, size.height);
 }
 

@@ -23,7 +23,7 @@ TEST(TracingWatch, WarnsOnceIfObjectsStayWithoutAPicture) {
     EXPECT_EQ(watch.add(true, counters(0, 103), kStart + milliseconds(4999)), std::nullopt);
     EXPECT_EQ(watch.add(true, counters(0, 105), kStart + seconds(5)),
               "virtual objects were in view in 3 frames but are not shown, because the path tracer "
-              "has no picture of them yet; it got 5 of 24 ms of processor time (its priority is "
+              "has no picture of them yet; it got 5 of 48 ms of processor time (its priority is "
               "low, so other load delays it)");
     EXPECT_EQ(watch.add(true, counters(0, 105), kStart + seconds(20)), std::nullopt);
     EXPECT_EQ(watch.atEnd(), std::nullopt);

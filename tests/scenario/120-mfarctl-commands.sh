@@ -38,6 +38,10 @@ asks snapshot picture.png
 says answer 'picture.png: 2304x1728'
 file=$(od -An -tx1 -N8 picture.png | tr -d ' ')
 [ "$file" = 89504e470d0a1a0a ] || fail "the snapshot is not a PNG file"
+asks snapshot -
+file=$(od -An -tx1 -N8 answer | tr -d ' ')
+[ "$file" = 89504e470d0a1a0a ] || fail "the snapshot on standard output is not a PNG file"
+[ ! -e ./- ] || fail "mfarctl snapshot - wrote a file"
 refused 1 snapshot --screen x.png
 says err.ctl 'there is no screen'
 
