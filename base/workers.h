@@ -37,4 +37,23 @@ private:
     std::vector<std::jthread> threads_;  // must be the last member: threads use the members above
 };
 
+/// Does the same as workers->forRange(), without allocating memory. If `workers` is null, the
+/// caller executes the whole loop.
+template <class Body>
+void forRange(Workers* workers, int end, int grain, const Body& body) {
+    if (workers != nullptr)
+        workers->forRange(end, grain, std::ref(body));
+    else if (end > 0)
+        body(0, end);
+}
+
+/// Calls body(row) once for each row in [first, last), like forRange().
+template <class Body>
+void forRows(Workers* workers, int first, int last, int grain, const Body& body) {
+    forRange(workers, last - first, grain, [first, &body](int begin, int end) {
+        for (int row = first + begin; row < first + end; ++row)
+            body(row);
+    });
+}
+
 }  // namespace mfar

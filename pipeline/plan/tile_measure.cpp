@@ -74,10 +74,7 @@ void measureTiles(const RgbPlanes& now, const RgbPlanes& drawn, const ChangeBoun
                 simd::measureTileGroup(pixels.cut(wholeTiles), bounds, to + wholeTiles);
         }
     };
-    if (workers)
-        workers->forRange(tiles.height, 4, measureRows);
-    else
-        measureRows(0, tiles.height);
+    forRange(workers, tiles.height, 4, measureRows);
 }
 
 }  // namespace mfar

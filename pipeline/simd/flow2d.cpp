@@ -29,14 +29,6 @@ PatchPicture pictureOf(const LumaLevel& level, std::span<const std::uint32_t> wo
     return {first, 4 * std::ptrdiff_t{level.pitch}, level.width, level.height};
 }
 
-template <class Row>
-void shareRows(Workers& workers, int rows, const Row& row) {
-    workers.forRange(rows, 1, [&](int first, int last) {
-        for (int y = first; y < last; ++y)
-            row(y);
-    });
-}
-
 template <class Key, class Run>
 void forTileRuns(int columns, int cellsPerTile, const Key& keyOf, const Run& run) {
     for (int first = 0; first < columns;) {
@@ -192,14 +184,13 @@ void Flow2d::searchLevel(Ways ways, int level) {
     const int rows =
         ways[0]->direction.stages[static_cast<std::size_t>(level)].areas[0].cells().height;
     const int both = rows * static_cast<int>(ways.size());
-    shareRows(*workers_, both, [&](int y) {
-        searchRow(*ways[static_cast<std::size_t>(y / rows)], level, y % rows);
-    });
+    forRows(workers_.get(), 0, both, 1,
+            [&](int y) { searchRow(*ways[static_cast<std::size_t>(y / rows)], level, y % rows); });
     int most = 0;
     for (const Way* way : ways)
         most = std::max(most, roundsAt(*way, level));
     for (int round = most; round > 0; --round)
-        shareRows(*workers_, both, [&](int y) {
+        forRows(workers_.get(), 0, both, 1, [&](int y) {
             const Way& way = *ways[static_cast<std::size_t>(y / rows)];
             if (round <= roundsAt(way, level)) propagateRow(way, level, (round - 1) % 2, y % rows);
         });
@@ -257,7 +248,7 @@ void Flow2d::refine(const Luma& luma, const TileWork& work, Cells forward, Cells
     const FlowPlanes field = forwards_.stages[0].areas[0].planes();
     const AlignStep step{pictureOf(luma.video[0], luma.words), pictureOf(luma.still[0], luma.words),
                          field, forward[0].data(), params::kAlignSteps};
-    shareRows(*workers_, field.rows, [&](int row) {
+    forRows(workers_.get(), 0, field.rows, 1, [&](int row) {
         alignRow(step, work, row);
         const std::size_t first = static_cast<std::size_t>(row) * videoCells_.width;
         for (std::size_t i = first; i < first + static_cast<std::size_t>(videoCells_.width); ++i)
@@ -287,7 +278,7 @@ void Flow2d::searchListed(const Way& way) {
             step.errorPitch = std::ptrdiff_t{4} * videoCells_.width;
         }
         const std::span<const TileSearch::Group> groups = searched_.groups(level);
-        shareRows(*workers_, static_cast<int>(groups.size()), [&](int i) {
+        forRows(workers_.get(), 0, static_cast<int>(groups.size()), 1, [&](int i) {
             const auto [x, y] = groups[static_cast<std::size_t>(i)];
             searchListedGroup(step, x, y);
         });
@@ -298,7 +289,8 @@ void Flow2d::prepareCleanUp(Direction& direction) {
     const FlowPlanes field =
         direction.stages[static_cast<std::size_t>(direction.finest)].areas[0].planes();
     float* known = FlowField::first(direction.known);
-    shareRows(*workers_, field.rows, [&](int row) { prepareCleanUpRow(field, known, row); });
+    forRows(workers_.get(), 0, field.rows, 1,
+            [&](int row) { prepareCleanUpRow(field, known, row); });
     const auto repeat = [&](float* plane) {
         const int room = field.columns + 2 * kCleanUpRadius;
         const auto copy = [&](int from, int to) {
@@ -321,7 +313,7 @@ void Flow2d::cleanUpForward(const TileWork& work, bool keepsUnchanged) {
     const CleanUpStep step{field, FlowField::first(forwards_.known), &forward_[0].x,
                            options_.planeFits};
     enum class Does : std::uint8_t { CleansUp, Copies, Keeps };
-    shareRows(*workers_, field.rows, [&](int row) {
+    forRows(workers_.get(), 0, field.rows, 1, [&](int row) {
         forTileRuns(
             field.columns, kCellsPerTile,
             [&](int tile) {
@@ -342,7 +334,8 @@ void Flow2d::cleanUpBackward() {
         backwards_.stages[static_cast<std::size_t>(backwardLevel_)].areas[0].planes();
     const CleanUpStep step{field, FlowField::first(backwards_.known), &backward_[0].x,
                            options_.planeFits};
-    shareRows(*workers_, field.rows, [&](int row) { cleanUpCells(step, row, 0, field.columns); });
+    forRows(workers_.get(), 0, field.rows, 1,
+            [&](int row) { cleanUpCells(step, row, 0, field.columns); });
 }
 
 }  // namespace mfar::simd

@@ -73,14 +73,8 @@ void HolePyramid::fill(const Layer& layer, std::span<Hole> holes, HoleFilling fi
         pull(layer, l);
     }
     const int count = static_cast<int>(holes.size());
-    const auto body = [&](int i, int end) {
-        for (; i < end; ++i)
-            fillHole(layer, holes[static_cast<std::size_t>(i)], filling);
-    };
-    if (workers_)
-        workers_->forRange(count, kHolesAtATime, body);
-    else
-        body(0, count);
+    forRows(workers_.get(), 0, count, kHolesAtATime,
+            [&](int i) { fillHole(layer, holes[static_cast<std::size_t>(i)], filling); });
 }
 
 /// Marks the blocks in which fillHole() reads texels: at each pyramid level, the block that
@@ -181,10 +175,7 @@ void HolePyramid::pull(const Layer& layer, int level) {
             }
         }
     };
-    if (workers_)
-        workers_->forRange(r.y1 - r.y0, 8, rows);
-    else
-        rows(0, r.y1 - r.y0);
+    forRange(workers_.get(), r.y1 - r.y0, 8, rows);
 }
 
 /// Adds the colour of one pyramid level at a pixel, interpolated bilinearly. The colour's weight is

@@ -127,10 +127,7 @@ void LumaPyramids::buildCoarse(const std::vector<LumaLevel>& levels) {
     for (std::size_t i = 1; i < levels.size(); ++i) {
         const LumaLevel &fine = levels[i - 1], &coarse = levels[i];
         const auto part = [&](int first, int last) { halve(fine, coarse, first, last); };
-        if (coarse.height >= kSharedRows)
-            workers_->forRange(coarse.height, 32, part);
-        else
-            part(0, coarse.height);
+        forRange(coarse.height >= kSharedRows ? workers_.get() : nullptr, coarse.height, 32, part);
     }
 }
 

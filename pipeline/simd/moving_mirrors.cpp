@@ -102,15 +102,7 @@ MirrorRow MovingMirrors::rowAt(int y) const {
 
 template <class Body>
 void MovingMirrors::forRows(const Body& body) const {
-    const PixelRect& where = traced_->bounds;
-    const auto rows = [&](int y, int end) {
-        for (; y < end; ++y)
-            body(where.y0 + y);
-    };
-    if (workers_)
-        workers_->forRange(where.y1 - where.y0, kMirrorRows, rows);
-    else
-        rows(0, where.y1 - where.y0);
+    mfar::forRows(workers_.get(), traced_->bounds.y0, traced_->bounds.y1, kMirrorRows, body);
 }
 
 }  // namespace mfar::simd

@@ -118,19 +118,8 @@ void OcclusionStep::run(const LayerRowsView& layer, const RealDepth& real, const
     const int upper = baseOf(rows_, bounds.y0), lower = baseOf(rows_, bounds.y1 - 1);
     const auto [top, bottom] = samples(upper, lower, video_.height);
     const Task task{layer, real, video, picture, bounds, first, last};
-    forRows(top, bottom, 16, [&](int y) { prepareRow(task, y); });
-    forRows(upper, lower + 1, 4, [&](int base) { drawRows(task, base); });
-}
-
-void OcclusionStep::forRows(int first, int last, int grain, const std::function<void(int)>& body) {
-    const auto part = [&](int begin, int end) {
-        for (int row = first + begin; row < first + end; ++row)
-            body(row);
-    };
-    if (workers_)
-        workers_->forRange(last - first, grain, part);
-    else
-        part(0, last - first);
+    forRows(workers_.get(), top, bottom, 16, [&](int y) { prepareRow(task, y); });
+    forRows(workers_.get(), upper, lower + 1, 4, [&](int base) { drawRows(task, base); });
 }
 
 SampleRow OcclusionStep::samplesOf(int y) {

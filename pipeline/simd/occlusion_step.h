@@ -10,7 +10,6 @@
 #include "pipeline/simd/visibility_rows.h"
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <vector>
 
@@ -91,7 +90,6 @@ private:
     [[nodiscard]] LayerColumns layerColumns(const Strip& strip) const;
     [[nodiscard]] SampleRow samplesOf(int y);
     [[nodiscard]] SampleWindow windowOf(int y);
-    void forRows(int first, int last, int grain, const std::function<void(int)>& body);
 
     Size video_, output_, layer_;
     CompositeOptions options_;

@@ -5,7 +5,6 @@
 #include "pipeline/simd/enlarge_rows.h"
 
 #include <algorithm>
-#include <functional>
 #include <utility>
 
 namespace mfar::simd {
@@ -31,17 +30,13 @@ SubpixelFlow::SubpixelFlow(const StereoRig& stillRig, std::shared_ptr<Workers> w
           return AlignedRows<std::int16_t>({kCell * wholeVectors(cells_).width + kRoom, kCell});
       }) {}
 
-void SubpixelFlow::forRows(const std::function<void(int)>& body) {
-    workers_->forRange(cells_.height, kCellsPerTile, [&](int first, int last) {
-        for (int row = first; row < last; ++row)
-            body(row);
-    });
-}
-
 void SubpixelFlow::run(const RgbPlanes& video, const StillPairs& still, const TileWork& work,
                        FlowCell* flow, const ErrorCell* errors) {
     const Frame frame{video, still, work, flow, errors};
-    forRows([&](int row) { take(frame, row); });
+    const auto forCellRows = [&](const auto& body) {
+        forRows(workers_.get(), 0, cells_.height, kCellsPerTile, body);
+    };
+    forCellRows([&](int row) { take(frame, row); });
     workers_->forRange(cells_.height, kCellsPerTile, [&](int first, int last) {
         luma_.with([&](AlignedRows<std::int16_t>& luma) {
             for (int row = first; row < last; ++row) {
@@ -50,7 +45,7 @@ void SubpixelFlow::run(const RgbPlanes& video, const StillPairs& still, const Ti
             }
         });
     });
-    forRows([&](int row) { correct(frame, row); });
+    forCellRows([&](int row) { correct(frame, row); });
 }
 
 void SubpixelFlow::take(const Frame& frame, int row) {

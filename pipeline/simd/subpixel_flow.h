@@ -11,7 +11,6 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <memory>
 
 namespace mfar::simd {
@@ -42,7 +41,6 @@ private:
     void takeLuma(const RgbPlanes& video, int row, int first, int last,
                   AlignedRows<std::int16_t>& to) const;
     void correct(const Frame& frame, int row);
-    void forRows(const std::function<void(int)>& body);
 
     LookUpParams lookUp_;
     Size video_, cells_;

@@ -120,13 +120,6 @@ void SurfaceRaster::place(const SilhouetteModels::Object& object, std::uint32_t 
     }
 }
 
-void SurfaceRaster::forRange(int end, int grain, const std::function<void(int, int)>& body) const {
-    if (workers_)
-        workers_->forRange(end, grain, body);
-    else if (end > 0)
-        body(0, end);
-}
-
 void SurfaceRaster::draw(const RigidTransform& T_world_camera, const PixelRect& where) {
     const RigidTransform T_camera_world = T_world_camera.inverse();
     grid_ = {2 * where.x0, 2 * where.y0, 2 * where.x1, 2 * where.y1};
@@ -134,29 +127,24 @@ void SurfaceRaster::draw(const RigidTransform& T_world_camera, const PixelRect& 
         p.isInView = !common(models_.boundsOf(*p.object, T_camera_world), where).empty();
         p.view = pointTransformOf(T_camera_world * p.object->T_world_object, p.object->scale);
     }
-    forRange(static_cast<int>(chunks_.size()), 1, [&](int i, int end) {
-        for (; i < end; ++i) {
-            const Chunk& c = chunks_[static_cast<std::size_t>(i)];
-            if (!c.placed->isInView) continue;
-            const AlignedRows<float>& mesh = c.placed->part->corners;
-            AlignedRows<float>& seen = c.placed->seen;
-            projectCorners({mesh[0] + c.first, mesh[1] + c.first, mesh[2] + c.first}, c.count,
-                           c.placed->view, lens_,
-                           {seen[0] + c.first, seen[1] + c.first, seen[2] + c.first});
-        }
+    forRows(workers_.get(), 0, static_cast<int>(chunks_.size()), 1, [&](int i) {
+        const Chunk& c = chunks_[static_cast<std::size_t>(i)];
+        if (!c.placed->isInView) return;
+        const AlignedRows<float>& mesh = c.placed->part->corners;
+        AlignedRows<float>& seen = c.placed->seen;
+        projectCorners({mesh[0] + c.first, mesh[1] + c.first, mesh[2] + c.first}, c.count,
+                       c.placed->view, lens_,
+                       {seen[0] + c.first, seen[1] + c.first, seen[2] + c.first});
     });
-    forRange(static_cast<int>(batches_.size()), 1, [&](int i, int end) {
-        for (; i < end; ++i)
-            makeReady(batches_[static_cast<std::size_t>(i)]);
-    });
+    forRows(workers_.get(), 0, static_cast<int>(batches_.size()), 1,
+            [&](int i) { makeReady(batches_[static_cast<std::size_t>(i)]); });
     const int rows = grid_.y1 - grid_.y0, threads = workers_ ? workers_->count() : 1;
     const int bands = std::clamp(rows / kLeastBand, 1, kBandsPerThread * threads);
-    forRange(bands, 1, [&](int i, int end) {
-        for (; i < end; ++i)
-            drawBand({words_.rows(),
-                      indices_.rows(),
-                      {grid_.x0, grid_.y0 + rows * i / bands, grid_.x1,
-                       grid_.y0 + rows * (i + 1) / bands}});
+    forRows(workers_.get(), 0, bands, 1, [&](int i) {
+        drawBand(
+            {words_.rows(),
+             indices_.rows(),
+             {grid_.x0, grid_.y0 + rows * i / bands, grid_.x1, grid_.y0 + rows * (i + 1) / bands}});
     });
 }
 

@@ -9,7 +9,6 @@
 #include <array>
 #include <cstdint>
 #include <deque>
-#include <functional>
 #include <map>
 #include <memory>
 #include <span>
@@ -79,7 +78,6 @@ private:
     bool addTriangle(Batch& batch, const RasterCorner (&corners)[3], std::uint32_t index) const;
     void setPaint(const Placed& placed, const RasterCorner (&corners)[3], std::uint32_t index);
     void drawBand(const RasterBand& band) const;
-    void forRange(int end, int grain, const std::function<void(int, int)>& body) const;
 
     SilhouetteModels models_;
     PointLens lens_;

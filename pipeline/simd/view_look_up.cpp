@@ -106,10 +106,7 @@ void ViewLookUp::run(const Input& input, const RigidTransform& T_world_camera,
                 runRow(input, plain, rest, where, where.y0 + y, scratch);
         });
     };
-    if (workers_)
-        workers_->forRange(where.y1 - where.y0, kRowsAtATime, rows);
-    else
-        rows(0, where.y1 - where.y0);
+    forRange(workers_.get(), where.y1 - where.y0, kRowsAtATime, rows);
     holes_.clear();
     for (int y = where.y0; y < where.y1; ++y)
         holes_.insert(holes_.end(), rowHoles_[y].begin(), rowHoles_[y].end());

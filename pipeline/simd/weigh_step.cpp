@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <functional>
 #include <utility>
 
 namespace mfar::simd {
@@ -32,20 +31,10 @@ WeighStep::WeighStep(const StereoRig& stillRig, std::shared_ptr<Workers> workers
 void WeighStep::run(const WeighInput& in) {
     assert(in.forward.size == cells_);
     if (in.work.changed == 0) return;
-    forRows(in.work.tiles.height, 1, [&](int tileRow) { assessTiles(in, tileRow); });
+    forRows(workers_.get(), 0, in.work.tiles.height, 1,
+            [&](int tileRow) { assessTiles(in, tileRow); });
     const auto noise = static_cast<float>(in.work.noise);
-    forRows(cells_.height, kCellsPerTile, [&](int row) { weigh(row, noise); });
-}
-
-void WeighStep::forRows(int rows, int grain, const std::function<void(int)>& body) {
-    const auto part = [&](int first, int last) {
-        for (int row = first; row < last; ++row)
-            body(row);
-    };
-    if (workers_)
-        workers_->forRange(rows, grain, part);
-    else
-        part(0, rows);
+    forRows(workers_.get(), 0, cells_.height, kCellsPerTile, [&](int row) { weigh(row, noise); });
 }
 
 void WeighStep::assessTiles(const WeighInput& in, int tileRow) {
@@ -124,7 +113,7 @@ void WeighStep::measureGain(const WeighInput& in, int row) {
 }
 
 void WeighStep::confirm(Rows<const float> shares) {
-    forRows(cells_.height, kCellsPerTile, [&](int row) {
+    forRows(workers_.get(), 0, cells_.height, kCellsPerTile, [&](int row) {
         const float* share = shares[row];
         for (int x = 0; x < cells_.width; ++x) {
             float& weight = weighed_[row][x].weight;

@@ -11,7 +11,6 @@
 #include "pipeline/simd/still_look_up.h"
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -73,7 +72,6 @@ private:
     void measureGain(const WeighInput& in, int row);
     void weigh(int row, float noise);
     [[nodiscard]] BackwardCells backwardOf(const WeighInput& in, int row) const;
-    void forRows(int rows, int grain, const std::function<void(int)>& body);
 
     LookUpParams params_;
     std::shared_ptr<Workers> workers_;
