@@ -66,7 +66,7 @@ Config parseConfig(std::string_view toml, const std::string& fileName) {
     file.text("source", config.source, sourceFault);
     std::string recording;
     file.text("recording", recording);
-    config.recording = recording;
+    if (!recording.empty()) config.recording = besides(fileName, recording);
     file.text("display", config.display, displayFault);
     std::string size;
     file.text("size", size, pictureSizeFault);

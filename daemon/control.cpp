@@ -96,10 +96,16 @@ ControlAnswer learn(const ControlActions& actions, const json& request) {
     return line(with());
 }
 
+std::string_view deedOf(std::string_view command) {
+    if (command == "snapshot") return "take a snapshot";
+    if (command == "trigger") return "request a still";
+    return command == "learn" ? "reset what was learned" : command;
+}
+
 void requireRole(const std::string& command, ControlRole role) {
     if (role == ControlRole::Operator || command == "status" || command == "stats") return;
-    throw BadRequest(fmt::format("only root and members of group {} may {}", kOperatorsGroup,
-                                 command == "snapshot" ? "take a snapshot" : command));
+    throw BadRequest(
+        fmt::format("only root and members of group {} may {}", kOperatorsGroup, deedOf(command)));
 }
 
 ControlAnswer done(const ControlActions& actions, const json& request, ControlRole role) {

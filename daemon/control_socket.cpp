@@ -193,8 +193,9 @@ void ControlSocket::answer(Answering& one) {
         const int client = one.client.fd.get();
         ControlAnswer answer = handler_(one.client.request, one.client.role);
         answer.line += '\n';
-        send(client, answer.line.data(), answer.line.size());
-        send(client, answer.data.data(), answer.data.size());
+        const Timestamp end = Timestamp::now() + std::chrono::milliseconds(kAnswerMs);
+        send(client, answer.line.data(), answer.line.size(), end);
+        send(client, answer.data.data(), answer.data.size(), end);
         one.client.fd = OwnedFd();
     }
     one.isOver = true;
@@ -202,8 +203,7 @@ void ControlSocket::answer(Answering& one) {
     [[maybe_unused]] const ssize_t n = write(answered_.get(), &kOne, sizeof kOne);
 }
 
-void ControlSocket::send(int client, const void* data, std::size_t bytes) const {
-    const Timestamp end = Timestamp::now() + std::chrono::milliseconds(kAnswerMs);
+void ControlSocket::send(int client, const void* data, std::size_t bytes, Timestamp end) const {
     const auto* at = static_cast<const std::uint8_t*>(data);
     while (bytes > 0) {
         const int left = millisecondsTo(end);

@@ -70,7 +70,7 @@ private:
     static void read(Client& client);
     void answer(Answering& one);
     [[nodiscard]] bool isReady(int fd, short events, int timeoutMs) const;
-    void send(int client, const void* data, std::size_t bytes) const;
+    void send(int client, const void* data, std::size_t bytes, Timestamp end) const;
 
     std::filesystem::path path_;
     Handler handler_;

@@ -237,7 +237,7 @@ constexpr Option kGovernor[] = {
 constexpr Option kRecord[] = {
     text("directory", R"("")",
          "Folder in which each start of mfard creates a recording, a folder named by the time "
-         "(UTC). Empty: nothing is recorded."),
+         "(UTC), relative to mfard's working directory. Empty: nothing is recorded."),
     number("least_free_mb", kMegabytes, "512",
            "When less disk space than this would be free, the recording ends, and mfard goes on "
            "without it. 0: no limit."),

@@ -45,6 +45,8 @@ bool isNamed(const V4l2Device& device, const std::string& name) {
 
 V4l2Device anyOf(Captures captures, const CameraWish& wish) {
     std::vector<V4l2Device>& devices = captures.devices;
+    if (devices.empty())
+        throw std::runtime_error("no camera was found; available:" + captures.listed);
     if (wish.except.empty() && wish.largest && devices.size() == 1) devices.clear();
     if (!wish.except.empty())
         std::erase_if(devices, [&](const V4l2Device& one) { return isNamed(one, wish.except); });

@@ -263,7 +263,7 @@ std::unique_ptr<Display> openFileDisplay(std::string_view spec, double rateHz,
     if (spec.starts_with("png:"))
         return std::make_unique<PngDisplay>(spec.substr(4), std::move(cancel), policy);
     if (spec.starts_with("y4m:")) {
-        if (!(rateHz >= 0.001 && rateHz < 1e6))
+        if (!(rateHz >= 0.001 && rateHz <= 1e6))
             throw std::runtime_error(fmt::format(
                 "y4m: the frame rate must be from 0.001 to 1000000 Hz, not {} Hz", rateHz));
         return std::make_unique<Y4mDisplay>(spec.substr(4), rateHz, std::move(cancel), policy);

@@ -53,6 +53,7 @@ void DepthFilter::forget() {
     points_ = Points(field_.inverseDepth.size());
     known_ = {};
     fieldPose_.reset();
+    moving_ = 0;
 }
 
 void DepthFilter::predict(const RigidTransform& told, double seconds) {

@@ -102,7 +102,8 @@ void TextureCopy::download(void* data, std::ptrdiff_t pitch) {
                            [](std::uint8_t v) { return static_cast<float>(v) / 255; });
         else
             for (int x = 0; x < width; ++x)
-                row(y)[x] = static_cast<std::byte>(from[4UL * x]);
+                for (int c = 0; c < layout.bytes; ++c)
+                    row(y)[x * layout.bytes + c] = static_cast<std::byte>(from[4 * x + c]);
     }
 }
 

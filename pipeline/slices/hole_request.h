@@ -11,14 +11,16 @@
 
 namespace mfar {
 
+inline constexpr int kMostHoleSamples = 256;
+
 /// Request to render single pixels that the warp cannot take from finished pictures, or can only
 /// show blurred.
 struct HoleRequest {
     RenderView view;
     std::vector<std::uint32_t> pixels;  ///< row-major indices, in any order
-    int samples = 4;
-    std::uint64_t scene = 0;  ///< chosen by the caller, copied to the answer
-    bool edges = false;       ///< true: the warp blurs these pixels; false: no picture shows them
+    int samples = 4;                    ///< samples per pixel, [1, kMostHoleSamples]
+    std::uint64_t scene = 0;            ///< chosen by the caller, copied to the answer
+    bool edges = false;  ///< true: the warp blurs these pixels; false: no picture shows them
     /// Scene of the traced picture in which the pixels are missing or blurred. The request is
     /// dropped if this scene is neither shown nor traced any more. Null: the scene that is traced
     /// now.

@@ -15,7 +15,7 @@ void HoleTracer::take(HoleRequest& request) {
 void HoleTracer::prepare() {
     std::vector<std::uint32_t>& pixels = request_.pixels;
     const RenderView& view = request_.view;
-    request_.samples = std::clamp(request_.samples, 1, kMostSamples);
+    request_.samples = std::clamp(request_.samples, 1, kMostHoleSamples);
     if (!isUsable(view)) pixels.clear();
     if (pixels.size() > mostPixels_) pixels.resize(mostPixels_);
     std::ranges::sort(pixels);

@@ -16,8 +16,6 @@ namespace mfar {
 /// time may call it. No other function may run during prepare() or answer().
 class HoleTracer {
 public:
-    static constexpr int kMostSamples = 256;
-
     /// Pixels of a request beyond `mostPixels` are dropped. `memory` is for the film.
     explicit HoleTracer(std::size_t mostPixels,
                         std::shared_ptr<FilmMemory> memory = Film::makeMemory())

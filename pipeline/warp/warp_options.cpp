@@ -1,5 +1,7 @@
 #include "pipeline/warp/warp_options.h"
 
+#include "pipeline/slices/hole_request.h"
+
 #include <stdexcept>
 #include <string>
 
@@ -19,9 +21,9 @@ void validate(const WarpOptions& options) {
     constexpr double kMostPixels = 16384.0 * 16384;
     requireOption("filling", static_cast<int>(options.filling), 0, 3);
     requireOption("mostRequested", options.mostRequested, 1, kMostPixels);
-    requireOption("holeSamples", options.holeSamples, 1, 4096);
+    requireOption("holeSamples", options.holeSamples, 1, kMostHoleSamples);
     requireOption("sharpenShare", options.sharpenShare, 0, 1);
-    requireOption("sharpenSamples", options.sharpenSamples, 1, 4096);
+    requireOption("sharpenSamples", options.sharpenSamples, 1, kMostHoleSamples);
     requireOption("fadeFrames", options.fadeFrames, 0, 100);
     requireOption("leastMotion", options.leastMotion, 0, 10);
 }

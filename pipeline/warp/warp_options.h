@@ -16,12 +16,12 @@ struct WarpOptions {
     HoleFilling filling = HoleFilling::Both;
     /// Upper limit of the pixels in one request, at least 1. The default is 5 % of 640x480.
     int mostRequested = 15360;
-    int holeSamples = 4;  ///< samples per pixel, [1, 4096]
+    int holeSamples = 4;  ///< samples per pixel, [1, 256]
     /// The warp blurs edges. While the camera rests, edge pixels are rendered individually and
     /// replace the warped ones. This is the upper limit of their number, as a share of the objects'
     /// pixels, [0, 1]; 0: none.
     double sharpenShare = 0.4;
-    int sharpenSamples = 40;  ///< samples per edge pixel, [1, 4096]
+    int sharpenSamples = 40;  ///< samples per edge pixel, [1, 256]
     /// Number of frames over which rendered pixels fade in, [0, 100]. Used only with
     /// HoleFilling::Both.
     int fadeFrames = 4;

@@ -238,6 +238,14 @@ TEST(Config, DevicesAndPipesAreRefused) {
     }
 }
 
+TEST(Config, RecordingsAreRelativeToTheConfiguration) {
+    const char* text = "recording = \"walk\"\n";
+    EXPECT_EQ(parseConfig(text, "/etc/mfar/mfard.toml").recording, "/etc/mfar/walk");
+    EXPECT_EQ(parseConfig("recording = \"/data/walk\"\n", "/etc/mfar/mfard.toml").recording,
+              "/data/walk");
+    EXPECT_EQ(parseConfig("", "/etc/mfar/mfard.toml").recording, "") << "there is no recording";
+}
+
 TEST(Config, TagMapPathsAreRelativeToTheConfiguration) {
     const char* text = "[pose]\ntags = \"maps/tags.toml\"\n";
     EXPECT_EQ(parseConfig(text, "/etc/mfar/mfard.toml").pose.tags, "/etc/mfar/maps/tags.toml");

@@ -151,6 +151,16 @@ TEST(CameraV4l2, WithoutANameTheExcludedCameraIsNotChosen) {
     EXPECT_EQ(CameraV4l2(options, fake).info().name, "Fake Camera (/dev/video2)");
 }
 
+TEST(CameraV4l2, WithoutAnyCameraTheErrorListsWhyDevicesCannotBeOpened) {
+    FakeV4l2 fake;
+    fake.unplug();
+    CameraV4l2Options options = wanted();
+    options.device = {};
+    EXPECT_EQ(errorOf([&] { CameraV4l2(options, fake); }),
+              "no camera was found; available:\n  /dev/video0: No such file or directory\n"
+              "  /dev/video1: No such file or directory");
+}
+
 TEST(CameraV4l2, ControlsAreSetBeforeStreamingStarts) {
     FakeV4l2 fake;
     fake.controls = {{0x980900, "Brightness", V4L2_CTRL_TYPE_INTEGER, 0, 255, 1, 100}};

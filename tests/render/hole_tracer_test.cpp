@@ -81,8 +81,7 @@ TEST(HoleTracer, TooLargeRequestsAreReducedToTheLimits) {
     const PathTracer tracer(render_scenes::stillLife());
     HoleTracer holes(5);
     EXPECT_EQ(answered(holes, tracer, requestFor({1, 2, 3, 4, 5, 6, 7}, 1), 10).pixels.size(), 5U);
-    EXPECT_EQ(answered(holes, tracer, requestFor({1}, 100000), 10).samples,
-              HoleTracer::kMostSamples);
+    EXPECT_EQ(answered(holes, tracer, requestFor({1}, 100000), 10).samples, kMostHoleSamples);
     EXPECT_EQ(answered(holes, tracer, requestFor({1}, -3), 10).samples, 1);
 }
 

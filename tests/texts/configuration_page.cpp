@@ -15,7 +15,8 @@ constexpr std::string_view kIntroduction =
 `mfard --print-config` prints a file with all keys and defaults, `mfard --check-config --config FILE` checks one:
 an unknown key, a wrong type, a value out of range or the name of an unusable file is refused with file, line and
 column. A key without effect is reported. Options of the command line, in brackets behind the key, override the file.
-Names of files are relative to the configuration file.
+Names of files that are read are relative to the configuration file, names of files and folders that are written to
+mfard's working directory (`/var/lib/mfar` for the service).
 
 Changes take effect after a restart. In sections marked *reload*, they also take effect after `systemctl reload mfard`,
 `mfarctl reload` or SIGHUP. If the new file is invalid, mfard keeps the old configuration.

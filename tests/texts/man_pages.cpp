@@ -46,7 +46,8 @@ std::string configManPage() {
     out += ".SH DESCRIPTION\n" +
            troff("A TOML file. Every key is optional. Changes take effect after a restart. "
                  "In sections marked (reload), they also take effect after a reload. Names of "
-                 "files are relative to this file.") +
+                 "files that are read are relative to this file, names of files and folders that "
+                 "are written to mfard's working directory.") +
            "\n";
     for (const OptionSection& section : configOptions()) {
         const bool isList = section.kind == OptionSection::Kind::List;

@@ -4,6 +4,7 @@
 
 #include <limits>
 #include <memory>
+#include <numbers>
 
 namespace mfar {
 namespace {
@@ -126,11 +127,14 @@ TEST_F(WarpGl, HugeMotionAndOddPosesAreHarmless) {
     RigidTransform away = test::orbit(0);
     away.rotation = away.rotation * Eigen::Quaterniond(0, 0, 1, 0);  // the camera looks away
     EXPECT_TRUE(s.warp.run(away).bounds.empty());
-    // The camera is inside a ball, on its surface, near the plane and far away; upright, turned by
+    // The camera is inside a ball, on its surface, near the plane and far away; upright, rolled by
     // 90 degrees and upside down.
     for (const double distance : {0.001, 0.05, 0.09, 0.1001, 0.14, 50.0, 1e5})
         for (const double degrees : {0.0, 90.0, 180.0}) {
-            const LayerPicture& layer = s.warp.run(test::orbit(degrees, distance, 1));
+            RigidTransform rolled = test::orbit(30, distance, 1);
+            rolled.rotation = rolled.rotation * Eigen::AngleAxisd(degrees * std::numbers::pi / 180,
+                                                                  Eigen::Vector3d::UnitZ());
+            const LayerPicture& layer = s.warp.run(rolled);
             for (const float z : test::valuesOf(layer.depth))
                 ASSERT_TRUE(std::isfinite(z) && z >= 0) << distance << " " << degrees;
         }

@@ -170,6 +170,7 @@ TracedLayerOptions optionsOf(const TracedRequest& request, const std::string& me
     TracedLayerOptions out = tracedLayerOptions(options, 1);
     out.size = request.size;
     out.renderer.tracer.independentSamples = method == "independent";
+    out.renderer.policy.history = method != "independent";
     return out;
 }
 
@@ -379,10 +380,9 @@ Report evaluateTraced(const TracedRequest& request) {
             fmt::format("--hdrvdp needs --width and --height of at least {} px", kLeastSide));
     const int firstScored = (kFirstFrames + request.every - 1) / request.every * request.every;
     if (firstScored >= request.frames)
-        throw EvalError(
-            fmt::format("no frame is scored: with --every {}, the first scored frame is "
-                        "{}; --frames must be at least {}",
-                        request.every, firstScored, firstScored + 1));
+        throw EvalError(fmt::format("no frame is scored: with --every {}, the first scored frame "
+                                    "is {}; --frames must be at least {}",
+                                    request.every, firstScored, firstScored + 1));
     Report report(tracedColumns(request.hdrVdp));
     const std::vector<std::string> labels = sceneLabels(request.scenes);
     const std::size_t scenes = request.scenes.size(), paths = request.paths.size();
