@@ -10,7 +10,7 @@ namespace mfar {
 namespace {
 
 constexpr std::array<const char*, kTileClasses> kTileNames = {"unchanged", "upscaled", "trusted",
-                                                              "blended", "hidden"};
+                                                              "blended"};
 
 std::optional<double> progress(const Counted& counted, const RunDescription& run, double elapsedS) {
     std::optional<double> done;

@@ -14,18 +14,16 @@ inline constexpr int kTileSize = 16;  ///< width and height of a tile [video px]
             (pixels.height + kTileSize - 1) / kTileSize};
 }
 
-/// Work that a tile needs. The classes Unchanged to Blended are in ascending order of cost.
-/// Unchanged: video and still did not change, and the pixels stay. Upscaled: only the video is
-/// enlarged, because no detail of the still fits. Trusted: detail is drawn with a smooth flow and
-/// one weight. Blended: detail is drawn with flow and weight that vary within the tile. Hidden: an
-/// opaque virtual object covers the tile.
+/// Work that a tile needs. The classes are in ascending order of cost. Unchanged: video and still
+/// did not change, and the pixels stay. Upscaled: only the video is enlarged, because no detail of
+/// the still fits. Trusted: detail is drawn with a smooth flow and one weight. Blended: detail is
+/// drawn with flow and weight that vary within the tile.
 enum class TileClass : unsigned {
     Unchanged = params::kTileUnchanged,
     Upscaled = params::kTileUpscaled,
     Trusted = params::kTileTrusted,
     Blended = params::kTileBlended,
-    Hidden,
 };
-inline constexpr std::size_t kTileClasses = 5;
+inline constexpr std::size_t kTileClasses = 4;
 
 }  // namespace mfar

@@ -18,7 +18,7 @@ const std::vector<StageTime> kStages = {{"flow", 30}, {"superres", 10}};
 void showPictures(Stats& stats, int count) {
     for (int i = 0; i < count; ++i) {
         FrameStats frame;
-        frame.tiles = {100, 0, 50, 50, 0};
+        frame.tiles = {100, 0, 50, 50};
         frame.meanConfidence = 0.8;
         frame.usedStill = i >= count / 2;
         frame.usedPose = frame.usedStill;

@@ -14,7 +14,7 @@ namespace {
 
 const std::array<cv::Scalar, kTileClasses> kClassColours{
     cv::Scalar(170, 170, 170), cv::Scalar(200, 130, 60), cv::Scalar(100, 180, 80),
-    cv::Scalar(60, 170, 240), cv::Scalar(60, 60, 60)};
+    cv::Scalar(60, 170, 240)};
 
 cv::Rect mostDetailed(const Shown& shown, cv::Size window) {
     cv::Mat lacking, energy;
@@ -52,7 +52,6 @@ std::string_view name(TileClass tileClass) {
     case TileClass::Upscaled: return "upscaled";
     case TileClass::Trusted: return "trusted";
     case TileClass::Blended: return "blended";
-    case TileClass::Hidden: return "hidden";
     }
     return "unknown";
 }

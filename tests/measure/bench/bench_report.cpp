@@ -8,7 +8,7 @@ namespace mfar::bench {
 namespace {
 
 constexpr std::array<const char*, kTileClasses> kClassNames{"unchanged", "upscaled", "trusted",
-                                                            "blended", "hidden"};
+                                                            "blended"};
 
 nlohmann::json json(const Summary& s) {
     return {{"median_ms", s.median}, {"p99_ms", s.p99}, {"min_ms", s.min}, {"runs", s.runs}};
