@@ -37,9 +37,9 @@ minutes=$(sed -n 's/^StartLimitIntervalSec=\([0-9]*\)min$/\1/p' "$reboot")
 starts=$(sed -n 's/^StartLimitBurst=//p' "$reboot")
 wait=$(sed -n 's/^constexpr std::chrono::seconds kLongestWait{\([0-9]*\)};$/\1/p' \
     "$sources/../daemon/restart_pause.cpp")
-# If mfard hangs, the time between two starts is its longest wait plus 20 s: the watchdog's and the
-# start's timeouts.
-((60 * minutes > starts * (wait + 20))) ||
+# A start takes up to 60 s (TimeoutStartSec=), then mfard waits, and ends after at most 5 s
+# (TimeoutStopSec=). systemd waits for 1 s more (RestartSec=) before the next start.
+((60 * minutes > starts * (60 + wait + 5 + 1))) ||
     fault "reboot.conf can never count $starts starts within $minutes min"
 rm -r "$work/mfard.service.d"
 
