@@ -43,8 +43,8 @@ public:
         std::string what;
         std::chrono::nanoseconds since{0};
     };
-    /// Returns the thread that has waited longest since restFor(), or nothing. Threads that called
-    /// rest() are not reported.
+    /// Returns the thread that has waited longest since it called restFor(), or nothing if no
+    /// thread waits after such a call. Threads that called rest() are not reported.
     [[nodiscard]] std::optional<Waiting> waiting() const;
 
 private:

@@ -4,8 +4,8 @@
 
 namespace mfar {
 
-/// Asks the kernel for large pages, because it takes milliseconds to provide thousands of small
-/// ones. Must be called before the memory is used. The kernel may ignore the request.
+/// Asks the kernel for large pages, because providing thousands of small pages takes milliseconds.
+/// Must be called before the memory is used. The kernel may ignore the request.
 void preferLargePages(void* memory, std::size_t bytes);
 
 /// Zeroed memory in large pages, if the kernel has some. The kernel provides a page when it is
@@ -14,7 +14,7 @@ class LargePages {
 public:
     static constexpr std::size_t kPage = std::size_t{2} << 20;  ///< bytes of a large page
 
-    /// Memory of at least `bytes`, which starts at a large page. Throws std::bad_alloc.
+    /// Allocates at least `bytes` bytes, aligned to a large page. Throws std::bad_alloc.
     explicit LargePages(std::size_t bytes);
     ~LargePages();
     LargePages(LargePages&& other) noexcept;

@@ -7,9 +7,9 @@
 
 namespace mfar {
 
-/// Limits for TOML files, because a parser's recursion and memory grow with the depth and length of
-/// a text. kDeepestToml limits nested brackets, and parts of a dotted key. No file of this project
-/// reaches these limits.
+/// TOML files are limited, because a parser's recursion and memory grow with the depth and length
+/// of a text. kDeepestToml limits nested brackets, and parts of a dotted key. No file of this
+/// project reaches these limits.
 inline constexpr std::size_t kDeepestToml = 32;
 inline constexpr std::size_t kMostTomlValues = 100'000;
 

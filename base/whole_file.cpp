@@ -44,8 +44,8 @@ void syncFolder(const std::filesystem::path& folder) {
 
 void writeWholeFile(const std::filesystem::path& file, std::span<const std::uint8_t> bytes,
                     Durability durability) {
-    // The name contains the thread id, because two threads may write the same file at a time. Each
-    // needs its own temporary file.
+    // The name contains the thread id, because two threads may write the same file at the same
+    // time, and each needs its own temporary file.
     const std::string part = fmt::format("{}.{}.part", file.string(), gettid());
     int error = 0;
     const int fd = open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);

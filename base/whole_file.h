@@ -24,7 +24,7 @@ void syncFileSystem(const std::filesystem::path& folder);
 
 /// Appends the text to a file, completely or not at all. A missing file is created. A power cut
 /// before the next syncFileSystem() may leave a part of the text. Two threads must not write the
-/// same file at a time. Throws like writeWholeFile().
+/// same file at the same time. Throws like writeWholeFile().
 void appendToFile(const std::filesystem::path& file, std::string_view text);
 
 }  // namespace mfar

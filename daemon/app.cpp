@@ -106,7 +106,8 @@ ExitCode App::run() {
 }
 
 std::string App::runSession(const Config& config) {
-    // Not checked in the constructor, so that the summary and the report contain the fault.
+    // The files are checked here, not in the constructor, so that the summary and the report
+    // contain the fault.
     requireFiles(config, RecordingCheck::Folder);
     Session session(config, stats_, changes_, sessionCalls_,
                     {input_.get_token(), cancel_.get_token()});

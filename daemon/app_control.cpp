@@ -1,4 +1,4 @@
-// The commands of mfarctl. Only the thread that owns some data may use it. So a command may have
+// The commands of mfarctl. Only the thread that owns data may use the data. So a command may have
 // several parts that run on different threads.
 
 #include "daemon/app.h"

@@ -17,7 +17,7 @@ struct ArgumentText {
 };
 
 /// Returns the arguments of a parser, without those of its subcommands. ArgumentText::meaning also
-/// tells the valid values, range and default, if the parser knows them.
+/// contains the valid values, range and default, if they are set in the parser.
 [[nodiscard]] std::vector<ArgumentText> argumentTexts(const CLI::App& app);
 
 }  // namespace mfar

@@ -12,8 +12,8 @@ namespace budget {
 
 using std::chrono::milliseconds;
 
-/// Video capture thread: one frame of a camera and the search for tags in it. On a PC, this takes
-/// 50 ms of waiting and 20 ms of work.
+/// Each capture thread: fetching one frame of its camera, and searching it for tags. On a PC, this
+/// takes 50 ms of waiting and 20 ms of work.
 constexpr milliseconds kCapture{1500};
 constexpr milliseconds kPicture{2000};
 /// Thread of the control socket: reading one request of mfarctl, without the time for its answer.

@@ -17,7 +17,8 @@ namespace mfar {
 struct CameraState {
     double configuredHz = 0;  ///< 0: triggered or free-running
     double rateHz = 0;        ///< measured over the last frames; 0: unknown
-    /// The camera's own counters; if it has none, computed from its frames.
+    /// The camera's own counters. If the camera does not count missed frames, CameraWatch counts
+    /// delivered and missed frames instead.
     CameraCounters counters{};
     std::uint64_t repeated = 0;  ///< number of pictures equal to the previous one
     std::optional<Timestamp> lastFrame{};
@@ -25,7 +26,7 @@ struct CameraState {
     /// are not detected.
     std::optional<Timestamp> lastDistinct{};
     std::optional<double> distinctAgeS{};
-    bool repeats = false;  ///< true: one picture was repeated for more than kRepeatTime
+    bool repeats = false;  ///< true: the camera has repeated a picture for more than kRepeatTime
 };
 
 /// The type of a camera, which decides which checks apply to its frames.

@@ -53,7 +53,7 @@ struct RecordConfig {
 };
 
 /// All settings of the daemon, from the configuration file and the command line. The defaults here
-/// are those of option_table.h; a test compares both.
+/// are equal to those in configOptions(); a test compares them.
 struct Config {
     std::string source = "cameras";  ///< not used when `recording` is set
     std::filesystem::path recording;

@@ -34,7 +34,7 @@ struct ControlAnswer {
 /// roleOfPeer() decides which clients are operators.
 class ControlSocket {
 public:
-    static constexpr std::size_t kLongestRequest = 4096;  ///< [bytes], including the newline
+    static constexpr std::size_t kLongestRequest = 4096;  ///< [bytes], without the newline
 
     /// Answers a request, which is passed without its newline. Must not throw. Several threads may
     /// call it at the same time.

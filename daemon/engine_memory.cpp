@@ -16,7 +16,7 @@
 namespace mfar {
 namespace {
 
-// Size limit of the file. Choices for hundreds of drivers are smaller, so a larger file was not
+// Size limit of the file. The choices for hundreds of drivers fit into it, so a larger file was not
 // written by mfard.
 constexpr std::uintmax_t kMostBytes = 65536;
 

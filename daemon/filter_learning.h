@@ -26,9 +26,8 @@ struct FilterLearningOptions {
     /// Names and picture sizes of the sensors. Learned filters are valid for these sensors only.
     std::string sensors;
     /// True: learns from every still, and finish() waits until this is done. So the same pictures
-    /// always give the same filters. False: the learning thread has a low priority and skips some
-    /// stills. These are stills that come while it works, and stills for which it would need more
-    /// than a tenth of a CPU.
+    /// always give the same filters. False: the learning thread has a low priority. It skips stills
+    /// that arrive while it works, and stills for which it would need more than a tenth of a CPU.
     bool waits = false;
     /// If the rig is set, guidance is learned, too, see enlarge::GuidanceLearner.
     std::optional<StereoRig> rig = std::nullopt;

@@ -24,8 +24,8 @@ constexpr std::uint64_t kSettle = 8;
 // doubles with each further failure of the level, up to kLongestWait.
 constexpr std::uint64_t kFirstWait = 20, kLongestWait = 960;
 // If a level misses the deadline only after at least kHeld counted frames, the scene has changed.
-// The level is then not used for the next kFirstWait frames, as after its first failure. A level
-// that has kept the deadline for kHeld counted frames may be left for a trial of the next one.
+// The level is then not used for the next kFirstWait frames, as after its first failure. If a level
+// has kept the deadline for kHeld counted frames, the next better level may be tried.
 constexpr std::uint64_t kHeld = 100;
 constexpr int kAtRest = 3;
 constexpr std::uint64_t kStillEvery = 40;
@@ -93,9 +93,9 @@ void Governor::goUp() {
         goTo(level_ + 1);
 }
 
-// A part of the measured time may be the same at all levels, e.g. the wait for the display. The
-// factor of a fast level, applied to a better one, then makes the better one look too slow, and
-// without a trial no measurement would ever correct this.
+// A part of the measured time may be the same at all levels, e.g. the wait for the display. Then
+// the factor that was measured at a fast level makes a better level look too slow. Without a trial
+// of the better level, no measurement would ever correct this.
 bool Governor::mayTry(std::size_t level) const {
     if (level >= levels_.size() || frame_ < trials_[level].notBefore) return false;
     if (frame_ - changedAt_ < kHeld || !lateAt_.empty()) return false;

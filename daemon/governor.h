@@ -11,7 +11,7 @@
 namespace mfar {
 
 /// Chooses a level of a quality table for each frame: the most accurate level that keeps a
-/// deadline. It uses nothing but the times of frames. Only one thread may use it.
+/// deadline. It uses the measured times of frames, see Frame. Only one thread may use it.
 ///
 /// The expected time of a level is its time in the table, multiplied by a factor for this machine
 /// and scene. The factor comes from the ratios of measured time to table time of the last 20
@@ -23,9 +23,11 @@ namespace mfar {
 /// deadline, it changes to the best of them. A level that missed the deadline is not used again for
 /// some frames. The number of these frames doubles each time.
 ///
-/// The factor is too large for better levels if a part of the time is the same at all levels. So
-/// after 100 frames at a level, none of the last 40 of them late, the governor tries the next
-/// better level if that level would meet the 85 % with only the table's difference added.
+/// If a part of the time is the same at all levels, the expected time of a better level is too
+/// long. So after 100 counted frames at a level, of which none of the last 40 was late, another
+/// estimate of the next better level's time is used: the expected time of the current level, plus
+/// the difference between both levels' times in the table. If this is at most 85 % of the deadline,
+/// the governor tries the better level.
 ///
 /// Three types of frames are not counted: frames in which nothing changed, frames with a new still,
 /// and frames without a still at a level that uses one. When the picture comes to rest, it is drawn

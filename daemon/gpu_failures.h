@@ -27,8 +27,8 @@ public:
     /// Returns a message if the GPU was lost within the last kWindow, otherwise nothing. After
     /// mfard has stopped using the GPU, always returns a message.
     [[nodiscard]] std::optional<std::string> fault(Timestamp now);
-    /// Returns the text for a banner. It is fault() for the time kWindow after mfard has stopped
-    /// using the GPU. Before and after that time, returns nothing.
+    /// Returns the text for a banner: for the time kWindow after mfard has stopped using the GPU,
+    /// the message of fault(). Before and after that time, returns nothing.
     [[nodiscard]] std::optional<std::string> banner(Timestamp now);
 
 private:

@@ -38,7 +38,7 @@ struct Health {
 [[nodiscard]] Subject subjectOf(const Health& health);
 [[nodiscard]] nlohmann::ordered_json healthJson(const Health& health);
 
-/// The observations from which the health is judged, all of the same time.
+/// The observations from which the health is judged, all made at the same time.
 struct Observed {
     Timestamp now;
     std::vector<Heartbeats::Late> late{};

@@ -23,9 +23,9 @@ void readObjects(TomlReader& file, const std::filesystem::path& folder, FileMemo
                  std::vector<PlacedObject>& objects, std::vector<std::string>& notes);
 
 /// Returns the pose of an object's anchor in the world. The object's position and orientation are
-/// relative to this anchor. For an object on a tag, the anchor is the tag's frame, whose z axis
-/// points out of the print. For other objects, it is the world frame. Returns nothing if the tag is
-/// not in the map.
+/// relative to this anchor. For an object on a tag, the anchor is at the tag: x points right and y
+/// up in the tag's print, z out of it. For other objects, the anchor is the world frame. Returns
+/// nothing if the tag is not in the map.
 [[nodiscard]] std::optional<RigidTransform> worldAnchor(const PlacedObject& object,
                                                         const TagMap& tags);
 [[nodiscard]] std::optional<RigidTransform> worldPlace(const PlacedObject& object,

@@ -51,8 +51,8 @@ constexpr Option kTop[] = {
              text("source", R"("cameras")",
                   "Where pictures come from: \"cameras\" (section [cameras]), or a simulated "
                   "board: \"synthetic\", \"synthetic:SCENE\" or \"synthetic:SCENE,PATH\". SCENE is "
-                  "one of: office shelf outdoor flat moving still calibration. PATH is how the "
-                  "camera moves, one of: handheld pan orbit forward rotate rest survey.")),
+                  "one of: office, shelf, outdoor, flat, moving, still, calibration. PATH is the "
+                  "camera's motion: handheld, pan, orbit, forward, rotate, rest, survey.")),
     argument("--recording",
              text("recording", R"("")",
                   "Recording (folder in EuRoC layout) to play instead of `source`. Empty: none.")),

@@ -11,7 +11,7 @@ namespace mfar {
 
 /// Counters of poses since the start, and the pose of the latest frame.
 struct PoseCounts {
-    std::uint64_t frames = 0;    ///< video frames in which a pose was searched
+    std::uint64_t frames = 0;    ///< video frames for which a pose was requested
     std::uint64_t tracked = 0;   ///< frames that have a pose
     std::uint64_t measured = 0;  ///< frames with a pose from tags in the frame itself
     std::uint64_t stills = 0;
@@ -19,11 +19,11 @@ struct PoseCounts {
     std::uint64_t stillsMeasured = 0;
     double tagSum = 0;    ///< sum of the numbers of tags in the measured frames
     double errorSum = 0;  ///< sum of the reprojection errors in the measured frames [px]
-    /// Times that the search for tags and pose took [ms]: `ms` for video frames, `stillMs` for
-    /// stills.
+    /// Durations of the search for tags and of the computation of the pose [ms]: `ms` for video
+    /// frames, `stillMs` for stills.
     Histogram ms;
     Histogram stillMs;
-    TrackStats tracker;  ///< zero if poses do not come from tags
+    TrackStats tracker;  ///< all 0 if poses do not come from tags
     std::optional<Pose> last{};
 
     void addFrame(const std::optional<Pose>& pose, const std::optional<TrackStats>& stats);

@@ -112,8 +112,8 @@ std::string columns(const ordered_json& object) {
     return out;
 }
 
-/// Returns the object with its outer and inner keys swapped. This is for a few inner objects with
-/// many keys: the table becomes narrow.
+/// Returns the object with its outer and inner keys swapped. If there are few inner objects with
+/// many keys, this makes the table narrow.
 ordered_json transposed(const ordered_json& object) {
     ordered_json out = ordered_json::object();
     for (const auto& [name, inner] : object.items())

@@ -38,7 +38,7 @@ struct Recorded {
     std::uint64_t dropped = 0;
 };
 
-/// The devices of one run. Only this class knows which implementations of the devices exist.
+/// The devices of one run. Only this class chooses the implementations of the devices.
 class Rig {
 public:
     /// Opens the configured source. Its threads register at `hearts`, which must outlive this
@@ -57,7 +57,7 @@ public:
     /// clock.
     [[nodiscard]] std::chrono::nanoseconds stillTimeOffset() const;
     [[nodiscard]] std::optional<std::uint64_t> videoFrames() const;
-    /// Returns the tags and poses that the source knows: those of a recording, or the tags of the
+    /// Returns the tags and poses that the source has: those of a recording, or the tags of the
     /// simulated board. The result is valid as long as the rig exists.
     [[nodiscard]] PoseInputs poseInputs() const;
     /// Returns e.g. "synthetic office: video 640x480 at 30 Hz, still 2304x1728".

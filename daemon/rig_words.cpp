@@ -23,7 +23,7 @@ template <class Kinds>
 std::string names(const Kinds& kinds) {
     std::string all;
     for (const auto kind : kinds)
-        all.append(all.empty() ? "" : " ").append(synthetic::name(kind));
+        all.append(all.empty() ? "" : ", ").append(synthetic::name(kind));
     return all;
 }
 

@@ -144,7 +144,7 @@ private:
     void show(Timestamp time, bool unchanged);
 
     Stats& stats_;
-    Heartbeat* heart_ = nullptr;  ///< of the picture thread; null: it makes no pictures now
+    Heartbeat* heart_ = nullptr;  ///< the picture thread's heartbeat; null: no pictures are made
     Mailbox<Tunables>& changes_;
     CallQueue<Session>& calls_;
     StopTokens stop_;

@@ -10,8 +10,9 @@
 namespace mfar {
 
 // If the folder of --record cannot be created, mfard does not start. If a folder in the directory
-// of [record] cannot be created, mfard runs without a recording. Another thread creates that
-// folder. mfard waits for it only with a lossless source, so that all pictures are recorded.
+// of [record] cannot be created, mfard runs without a recording. Another thread creates the folder
+// in that directory. The picture thread waits for the other thread only with a lossless source, so
+// that all pictures are recorded.
 void Session::beginRecording(const Config& config) {
     if (!config.recordTo.empty()) return startRecording(makeRecording(config.recordTo)());
     if (config.record.directory.empty()) return;

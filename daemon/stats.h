@@ -77,7 +77,7 @@ struct Counted {
     std::uint64_t predictedFrames = 0;
     /// Frames that were matched along epipolar lines and whose pose was refined from the pictures.
     std::uint64_t refinedFrames = 0;
-    /// Mean of FrameStats::epipolarError over the frames with patches [video px].
+    /// Mean of FrameStats::epipolarError over the frames whose posePatches is not 0 [video px].
     double meanEpipolarError = 0;
     std::uint64_t depthTiles = 0;  ///< tiles with measured depth, summed over all frames
     /// Tiles that show a virtual object, and whose depth was not measured, because the real surface
@@ -177,7 +177,8 @@ public:
     /// framePose() counts the pose of a frame, stillPose() the pose of a still, see PoseCounts.
     void framePose(const std::optional<Pose>& pose, const std::optional<TrackStats>& tracker);
     void stillPose(const std::optional<Pose>& pose, const std::optional<double>& ms);
-    /// Sets the governor's level and the deadline [ms] of the following pictures. Deadline 0: none.
+    /// Sets the governor's level and the deadline [ms] of the following pictures. `deadlineMs` is 0
+    /// if there is no deadline.
     void quality(const std::string& level, double deadlineMs);
     void triggers(std::uint64_t fired, std::uint64_t lost);
     void matching(const StillCounters& counters);

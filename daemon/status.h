@@ -30,10 +30,11 @@ struct RunDescription {
 
 [[nodiscard]] std::string firstPictureLine(const ProcessUse& use);
 
-/// Returns the states of the cameras as JSON, with the cameras' names as keys.
+/// Returns the states of the cameras as JSON, with the keys "video" and "still".
 [[nodiscard]] nlohmann::ordered_json cameraStatus(const Counted& counted);
 
-/// Returns the results of the run as JSON. Shares and confidences are in [0, 1], times in ms.
+/// Returns the results of the run as JSON. Shares and confidences are in [0, 1]. The key of each
+/// time names its unit.
 [[nodiscard]] nlohmann::ordered_json summary(const Counted& counted, const RunDescription& run,
                                              const std::string& exitReason, int exitCode);
 

@@ -21,7 +21,8 @@ struct TriggerConfig {
     double explainedBelow = 0.6;
     double maxAgeS = 10;        ///< mode demand: an older still is replaced if the scene has moved
     double minIntervalS = 0.3;  ///< mode demand: shortest time between two triggers
-    double timeoutS = 3;        ///< a still that arrives later than this counts as lost
+    /// A still that arrives more than this time after its trigger counts as lost.
+    double timeoutS = 3;
 
     bool operator==(const TriggerConfig&) const = default;
 };
@@ -58,8 +59,8 @@ public:
     [[nodiscard]] bool pending() const { return firedAt_ && !arrived_; }
     [[nodiscard]] int fired() const { return fired_; }
     [[nodiscard]] int lost() const { return lost_; }
-    /// Returns how many triggers were repetitions, because the still of the trigger before was
-    /// lost. fired() includes the repetitions.
+    /// Returns the number of triggers that were repetitions, because the previous trigger's still
+    /// was lost. fired() includes the repetitions.
     [[nodiscard]] int repetitions() const { return repetitions_; }
 
 private:

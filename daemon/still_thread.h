@@ -21,7 +21,7 @@ namespace mfar {
 struct CapturedStill {
     Frame frame;
     std::optional<Pose> pose{};
-    std::optional<StillMeasurement> measured{};  ///< not set: tags were not searched yet
+    std::optional<StillMeasurement> measured{};  ///< not set: not searched for tags yet
 };
 
 /// Returns the next still of a rig, or nothing after `timeout`. Counts and records the still. Its

@@ -39,7 +39,7 @@ public:
     void number(std::string_view key, double& out, const NumberCheck& check = nullptr);
     void integer(std::string_view key, std::uint64_t& out);
     void integer(std::string_view key, int& out);
-    /// Reads an integer of at most `most`, which is lower than the limit in the table of keys.
+    /// Reads an integer of at most `most`, which replaces the upper limit in the table of keys.
     void integer(std::string_view key, int& out, int most);
     void boolean(std::string_view key, bool& out);
     void text(std::string_view key, std::string& out, const Check& check = nullptr);

@@ -22,8 +22,8 @@ public:
     /// tracer may use twice this time per frame.
     explicit TracingWatch(double budgetMs) : budgetMs_(budgetMs) {}
 
-    /// Must be called after each frame. `inView`: objects that nothing hides are in view. Returns a
-    /// warning, at most once.
+    /// Must be called after each frame. `inView`: objects are in view, and not all of them are
+    /// hidden. Returns a warning, at most once.
     [[nodiscard]] std::optional<std::string> add(bool inView, const RenderCounters& counters,
                                                  Timestamp frame);
     /// Must be called after the last frame. Returns a warning if objects were in view but never
@@ -38,9 +38,9 @@ private:
 
     double budgetMs_;
     std::optional<Wait> wait_;
-    std::uint64_t frames_ = 0;  ///< number of frames in `wait_`
+    std::uint64_t frames_ = 0;  ///< number of frames with `inView` since wait_->since
     double usedMs_ = 0;
-    bool done_ = false;  ///< there was a picture or a warning
+    bool done_ = false;  ///< true: there was a picture or a warning
 };
 
 }  // namespace mfar

@@ -1,5 +1,5 @@
-// Mode Blend, the paper's method: blends the enlarged video with the warped still. The weight of
-// the still is the confidence of the match (eq. 2).
+// Mode Blend, the method of the paper in docs/paper.md: blends the enlarged video with the warped
+// still. The weight of the still is the confidence of the match (eq. 2).
 // Variant: #define PLAIN_TILE
 #include "tile_params.glsl"
 #include "look_up.glsl"

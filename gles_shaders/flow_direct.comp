@@ -1,9 +1,10 @@
 // The search compares the video with a still that is reduced to the video's resolution. This shader
 // compares doubtful cells with the still itself; see kPatchSamples.
-// If the still fits clearly better at the flow along a cell's epipolar line, this flow replaces the
-// cell's flow. If the correlation exceeds 1 - cost of the search, the cell's ErrorCell gets the
-// sums of the new comparison. The ErrorCell's two-way error is then reduced to the error that
-// kErrorPerCost gives for the cost 1 - correlation, unless it is smaller already.
+// If the still fits clearly better at the flow that the search along epipolar lines found, that
+// flow replaces the cell's flow. If the correlation exceeds 1 - c, where c is the search's cost,
+// the cell's ErrorCell gets the sums of the new comparison. The ErrorCell's two-way error is then
+// reduced to the error that kErrorPerCost gives for the cost 1 - correlation, unless it is smaller
+// already.
 // In: states of the tiles, video, luma of the still with amplified finest detail; in cells[], the
 // flow along epipolar lines. In, out: cells[], the filtered forward field and its ErrorCells.
 // One workgroup per tile, one invocation per cell. Most loops count from cell.x or cell.y, so that

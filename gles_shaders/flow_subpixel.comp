@@ -27,7 +27,7 @@ void main() {
     int index = cell.y * params.columns + cell.x;
     vec2 u = sums[4 * index + 2].zw;
     vec4 slopes = sums[4 * index + 3], products = vec4(0.0), derivatives = vec4(0.0);
-    vec2 squares = vec2(0.0), away = vec2(0.0);  // away: neighbours' derivatives times distance
+    vec2 squares = vec2(0.0), away = vec2(0.0);  // away: derivative products times the difference d
     for (int k = cell.x; k < cell.x + 9; ++k) {
         ivec2 by = ivec2((k - cell.x) % 3, (k - cell.x) / 3) - 1;
         ivec2 c = cell + by;

@@ -60,9 +60,11 @@ Place placeOf(ivec2 cell, vec2 u, vec2 dx, vec2 dy) {
     return Place(at, 0.25 * (right - at), 0.25 * (below - at));
 }
 
-// Returns the still's luma at pixel `p` of the cell and its derivatives along x and y [grey levels].
-// The still is sampled at 4x4 positions around the pixel, half a pixel apart. The middle 2x2 samples
-// give the luma. The same half a pixel further on each side gives the derivatives.
+// Returns the still's luma at pixel `p` of the cell and its derivatives along x and y [grey
+// levels]. The still is sampled at 4x4 positions around the pixel, half a pixel apart. The mean of
+// the middle 2x2 samples is the luma. The derivative along x is the mean of the 2x2 samples half a
+// pixel to the right minus the mean of the 2x2 samples half a pixel to the left. The derivative
+// along y is computed in the same way.
 vec3 seenAt(ivec2 cell, ivec2 p, Place place, vec2 size) {
     vec3 seen = vec3(0.0);
     for (int j = cell.x; j < cell.x + 16; ++j) {

@@ -1,5 +1,6 @@
-// The learned enlarger's residual at an output pixel. superres_vertical.frag (variant LEARNED)
-// interpolates along columns, this code along rows. Needs tile_params.glsl.
+// Computes the learned enlarger's residual at an output pixel. superres_vertical.frag (variant
+// LEARNED) has interpolated along columns; this code interpolates along rows. Needs
+// tile_params.glsl.
 #include "pipeline/engine/params/enlarge.h"
 
 layout(binding = 0) uniform isampler2D columns;

@@ -1,5 +1,5 @@
-// Projects points to pixels, also from outside the lens's field of view and from behind the camera.
-// Must give the same results as pipeline/composite/lens_projection.h.
+// Projects points to pixels, including points outside the lens's field of view and behind the
+// camera. Must give the same results as pipeline/composite/lens_projection.h.
 #include "camera.glsl"
 #include "pipeline/composite/pass_params.h"
 

@@ -8,7 +8,8 @@ layout(binding = 2) uniform sampler2D lookupField;
 #endif
 
 // Returns a look-up as superres_weigh.comp defines it: offset (x, y) [still px], weight of the
-// detail, and confidence (eq. 2). `uv` becomes the position in the still, in texture coordinates.
+// detail, and confidence (eq. 2 of the paper). `uv` becomes the position in the still, in
+// texture coordinates.
 vec4 lookUp(out vec2 uv) {
 #ifdef PLAIN_TILE
     vec4 l = plainLookUp;

@@ -1,5 +1,6 @@
-// Computes the finest pyramid level of the still, in the geometry and resolution of the video. Each
-// value is the still's luma with its tone curve, averaged over the area of a video pixel.
+// Computes the finest pyramid level of the still, in the geometry and resolution of the video. The
+// tone curve is applied to the still's luma, which is then averaged over the area of each video
+// pixel.
 // In: still, RGBA8; tone curve. Out: words of luma. One invocation per word.
 #include "luma.glsl"
 #include "rig.glsl"

@@ -1,5 +1,5 @@
-// Reads patches of 8x8 pixels of a luma pyramid level, row by row. The patch of a cell has the same
-// centre, except at the border; see patch_start.glsl. Needs `uint luma[]` and the functions of
+// Reads patches of 8x8 pixels of a luma pyramid level, row by row. A cell's patch has the centre of
+// the cell, except at the border; see patch_start.glsl. Needs `uint luma[]` and the functions of
 // luma.glsl.
 #include "patch_start.glsl"
 

@@ -6,8 +6,8 @@
 // with the pixels to the left and right of these. Nine floats follow: mean, variance (sum of
 // squared deviations), sum of the gradient (x, y), sum of the gradient times the deviation of the
 // pixel from the mean (x, y), inverse Hessian (xx, xy, yy). The next five floats belong to
-// patch_refine.glsl. Two more are the patch's first pixel (x, y) without displacement: registers
-// for it would be missing in comparisons. The words after them are not used.
+// patch_refine.glsl. Two more are the position (x, y) of the patch's first pixel without
+// displacement; a comparison has no free registers for it. The words after them are not used.
 // No GPU has enough registers for the template and a comparison. Indexing by variables makes the
 // compiler keep the array in memory; Mali's compiler does so only for more than 64 words. Here and
 // in the files that include this file, the compiler does not know the length of loops over the

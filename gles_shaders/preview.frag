@@ -1,4 +1,4 @@
-// Colour and depth of a virtual object with a checkerboard, in diffuse and ambient light.
+// Computes colour and depth of a virtual object with a checkerboard, in diffuse and ambient light.
 // In: outputs of preview.vert. Out: colour, RGBA8, premultiplied by the coverage (0 or 1); z [m].
 // Range: depth 0..4e5
 #include "preview_params.glsl"

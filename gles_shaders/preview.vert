@@ -1,4 +1,4 @@
-// Vertices of a virtual object, seen through the video camera's lens.
+// Projects the vertices of a virtual object through the video camera's lens.
 // In: vertices of the unit shape. Out: position in camera coordinates [m], normal, position on the
 // checkerboard [squares], position on the unit shape.
 #include "preview_params.glsl"

@@ -1,5 +1,5 @@
-// Linear interpolation of the still's luma in single precision, because texture filters may have
-// only 8 bits of precision.
+// Interpolates the still's luma linearly in single precision, because texture filters may have only
+// 8 bits of precision.
 
 float linearly(sampler2D still, vec2 uv) {
     vec2 size = vec2(textureSize(still, 0)), p = uv * size;

@@ -13,15 +13,6 @@ layout(std140, binding = 0) uniform Params {
 layout(binding = 0) uniform sampler2D still;
 layout(location = 0) out vec4 raised;
 
-// The weight of each neighbour is params.neighbours. It is 0.08 if the still is not reduced. A
-// least-squares fit over all sub-pixel positions and over the frequencies that the video lacks
-// gives 0.11 for the power spectrum of natural pictures (f^-2 to f^-3). The smaller weight
-// amplifies less where matches are slightly off. Compared with no amplification, a weight of 0.08
-// gains 0.5 dB on synthetic scenes, loses 0.1 dB on photographs, and recovers half of the missing
-// sharpness (measured as LPC-SI).
-// A reduced still is not amplified (weight 0), because its highest frequencies are strong enough.
-// On a photograph reduced from 2304 to 1067 pixels across, a weight of 0 is 2.5 dB better than
-// 0.08.
 float stillAt(ivec2 p) {
     vec4 texel = texelFetch(still, clamp(p, ivec2(0), textureSize(still, 0) - 1), 0);
 #ifdef LUMA
@@ -31,6 +22,15 @@ float stillAt(ivec2 p) {
 #endif
 }
 
+// Each of the four neighbours is subtracted with the weight params.neighbours. This weight is 0.08
+// if the still is not reduced. A least-squares fit over all sub-pixel positions and over the
+// frequencies that the video lacks gives 0.11 for the power spectrum of natural pictures (f^-2 to
+// f^-3). The smaller weight amplifies less where matches are slightly off. Compared with no
+// amplification, a weight of 0.08 gains 0.5 dB on synthetic scenes, loses 0.1 dB on photographs,
+// and recovers half of the missing sharpness (measured as LPC-SI).
+// A reduced still is not amplified (weight 0), because its highest frequencies are strong enough.
+// On a photograph reduced from 2304 to 1067 pixels across, a weight of 0 is 2.5 dB better than
+// 0.08.
 void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
     float beside = stillAt(at - ivec2(1, 0)) + stillAt(at + ivec2(1, 0)) + stillAt(at - ivec2(0, 1)) +

@@ -6,7 +6,7 @@
 // video, variance of the still, confidence. The first three are sums over the patch. They are 0 in
 // tiles that are not matched. Where the cell was compared with the still itself, they are copied
 // from its ErrorCell.
-// Source: paper, eq. 2 with lambda(x) = min(x, 1).
+// Source: eq. 2 of the paper (docs/paper.md), with lambda(x) = min(x, 1).
 // Range: displacement -2e4..2e4, -2e4..2e4, -4e3..4e3, -4e3..4e3
 // Range: statistics -4.2e6..4.2e6, 0..4.2e6, 0..4.2e6, 0..1
 #include "luma.glsl"

@@ -1,7 +1,7 @@
-// Residual of the learned enlarger relative to Keys' cubic, on a grid of 4x4 sub-pixels per pixel.
-// A pixel has two classes with a filter each; the result is the mean of both residuals. A residual
-// is the weighted sum of the differences between the pixel's neighbours and the pixel. Only drawn
-// tiles with learned filters and the pixels around these tiles are computed.
+// Computes the residual of the learned enlarger relative to Keys' cubic, for 4x4 sub-pixels per
+// pixel. A pixel has two classes with a filter each; the result is the mean of both residuals. A
+// residual is the weighted sum of the differences between the pixel's neighbours and the pixel.
+// Only drawn tiles with learned filters and the pixels around these tiles are computed.
 // In: video, states of the tiles, filters of all classes. Out: residual image [1/32 grey level]. A
 // pixel has four texels, one below the other, with a row of four sub-pixels each.
 // Method: see pipeline/enlarge/filter_layout.h. One workgroup per upper or lower half of a tile.

@@ -71,9 +71,10 @@ float lookUp(bool ofTraced, int firstRow, vec3 at, float id, Paint paint, out ve
     return weights > kLeastLookUpWeight ? weights : 0.0;
 }
 
-// Looks up the colour of surface `id` at `point` in the traced picture or, if that does not show it
-// and it is an object, in the re-rendered pictures. Returns it in `found`. `paint` is used for
-// objects only. Returns the share of the colour that is known, [0, 1].
+// Looks up the colour of surface `id` at `point` in the traced picture. If the traced picture does
+// not show the point and the surface is an object, looks it up in the re-rendered pictures. Returns
+// the colour in `found`. `paint` is used for objects only. Returns the share of the colour that is
+// known, [0, 1].
 float known(vec3 point, float id, Paint paint, out vec4 found) {
     vec3 at = inView(0, uint(id), point);
     if (lookUp(true, 0, at, id, paint, found) > 0.0) return 1.0;

@@ -5,7 +5,7 @@
 // In: silhouette and paint at twice the resolution.
 // Out: colour, RGBA8 premultiplied; z [m], 0 without a surface; state = (0, 1 if the pixel is left
 // to warp_rest.comp, 0, number of the surface that fills the pixel).
-// Source: paper, eq. 5.
+// Source: eq. 5 of the paper (docs/paper.md).
 // Range: depth 0..1e6
 // Variant: #define MOVING
 #include "warp_view_params.glsl"

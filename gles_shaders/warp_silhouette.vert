@@ -1,4 +1,5 @@
-// Vertices of the virtual scene at the current pose. In: positions in the model's coordinates [m].
+// Projects the vertices of the virtual scene for the current pose. In: positions in the model's
+// coordinates [m].
 #include "warp_silhouette_params.glsl"
 #include "lens_projection.glsl"
 

@@ -12,8 +12,8 @@ constexpr std::size_t kNeeded = 8;
 /// counted: the camera was probably stopped.
 constexpr double kMostMissing = 1000;
 /// Limits for the jump from one of the driver's frame numbers to the next. The numbers count as
-/// restarted if the jump is above kMostNumbers. They also do if it is above about kDoubtful times
-/// the number of frame periods that passed.
+/// restarted if the jump is above kMostNumbers, or above about kDoubtful times the number of frame
+/// periods that have passed.
 constexpr std::uint32_t kMostNumbers = 10000;
 constexpr int kDoubtful = 8;
 

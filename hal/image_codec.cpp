@@ -182,7 +182,7 @@ void encodePng(const std::uint8_t* pixels, std::size_t stride, Size size, PixelB
                std::vector<std::uint8_t>& out) {
     out.clear();
     // Reserves enough memory for any picture, because a growing vector would copy the data several
-    // times. Unused pages of memory cost nothing.
+    // times. Pages that stay unused occupy no memory.
     out.reserve(std::size_t{4} * size.width * size.height + kMostHeader);
     PngWriter writer;
     std::vector<png_bytep> rows = rowsOf(pixels, stride, size.height);

@@ -23,8 +23,8 @@ struct ReopeningOptions {
     /// If the camera sends no frame for this time, it is closed and opened again.
     std::chrono::milliseconds stalled{2000};
     /// Pause between two attempts to open the device. It doubles with each attempt, from firstPause
-    /// to longestPause. A camera must work within 3 s after it is plugged in, and some libraries
-    /// need 2 s of these to find it.
+    /// to longestPause. A camera must work within 3 s after it is plugged in, although some
+    /// libraries find it only after 2 s.
     std::chrono::milliseconds firstPause{100}, longestPause{500};
     /// Returns true while frames may be late for a reason outside this device. Then `excused` is
     /// used instead of `stalled`. Example: libcamera probes a new device in the thread that

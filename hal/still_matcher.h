@@ -44,11 +44,12 @@ struct StillCounters {
 /// Matches stills to trigger pulses by their times, because stills may be late, out of order or
 /// missing. Only one thread at a time may use it.
 ///
-/// A still is expected a constant delay after its pulse. The first delay is `guess`; then it is the
-/// median over the first `learnFrom` matched pulses. A still matches the nearest pulse if its time
-/// is within the window. The window is never larger than half the distance to a neighbouring pulse.
-/// If five consecutive stills miss the window by about the same time, the camera's clock or its
-/// automatic exposure has stepped. Then the median of the five becomes the delay.
+/// The expected time of a pulse's still is the pulse's time plus a delay. The delay is `guess` at
+/// first, later the median of the delays of the first `learnFrom` matched stills. A still matches
+/// the pulse whose expected time is nearest to the still's time, if the difference is at most the
+/// window. The window is never larger than half the time between two pulses. If five consecutive
+/// stills miss the window by about the same time, the camera's clock or its automatic exposure has
+/// stepped. Then the median of their delays becomes the delay.
 class StillMatcher {
 public:
     enum class Pulse : std::uint8_t { Asked, Repetition };

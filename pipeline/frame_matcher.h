@@ -9,9 +9,9 @@
 
 namespace mfar {
 
-/// Matches a video frame with a still. It does not use the state of the pipeline that processes
-/// frames, and no predictions from earlier frames. It searches in both dimensions on the CPU, in
-/// the caller's thread. Memory is allocated only in the constructor.
+/// Matches a video frame with a still. It uses neither the state of the pipeline that processes
+/// frames nor predictions from earlier frames. It searches in both dimensions on the CPU, in the
+/// caller's thread. Memory is allocated only in the constructor.
 class FrameMatcher {
 public:
     explicit FrameMatcher(const StereoRig& rig);

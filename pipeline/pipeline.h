@@ -105,7 +105,7 @@ public:
     /// Returns a rectangle of video pixels that contains the virtual objects and their shadows in
     /// the last frame, with a margin. It is empty if no object is in view.
     [[nodiscard]] PixelRect objectsRegion() const;
-    /// Counters of the path tracer and the warp. Empty without a path tracer.
+    /// Counters of the path tracer and the warp. Empty if no path-traced scene was set.
     [[nodiscard]] std::optional<TracedLayerCounters> tracedCounters() const;
     [[nodiscard]] std::optional<std::string> takeSceneError();
     /// Waits until the path tracer has finished the work that the last run() allowed, but at most
@@ -133,9 +133,9 @@ public:
     // returns the statistics of the last run.
     [[nodiscard]] FrameStats readStats() const;
     /// Flow of every video pixel (x, y interleaved), interpolated between cells. If the flow was
-    /// searched along epipolar lines, each pixel also has its own vector from this search. It
-    /// replaces the interpolated vector if the two differ by at least half a pixel, unless a moving
-    /// object is at the pixel. Without a still, the result is empty.
+    /// searched along epipolar lines, each pixel also has its own vector from this search.
+    /// This vector replaces the interpolated one if the two differ by at least half a pixel, unless
+    /// a moving object is at the pixel. Without a still, the result is empty.
     [[nodiscard]] std::vector<float> readFlow() const;
     /// Confidence of every video pixel (eq. 2 of the paper in docs/paper.md), [0, 1]. Without a
     /// still, the result is empty.

@@ -16,7 +16,7 @@
 
 namespace mfar {
 
-/// A flow vector that ends at least this far from its epipolar line [px] cannot belong to a static
+/// A flow vector that ends farther than this from its epipolar line [px] cannot belong to a static
 /// point.
 inline constexpr float kOffLine = 3;
 
@@ -32,10 +32,10 @@ struct Pipeline::State {
         EpipolarFlow::Cells vectors;
         std::vector<bool> searched2d;
     };
-    /// Plan for the depth of one frame. If `measures` is false: nothing. If `measures` is
-    /// true but `isDue` is false: the last depth is moved to this frame. If both are true: depth is
-    /// measured in `where` [video px]. `matches` is empty if the flow was not searched along
-    /// epipolar lines.
+    /// Work on the depth of one frame. If `measures` is false, nothing is done. If `measures` is
+    /// true but `isDue` is false, the last depth is moved to this frame. If both are true, depth is
+    /// measured in `where` [video px]. `matches` is empty if `isDue` is false or if the flow was
+    /// not searched along epipolar lines.
     struct DepthTask {
         PixelRect where;
         bool measures = false;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kFollows = 1.0 / 8;
 // Two stills count as taken from the same position if the cells have moved by less than this in the
-// mean [video px]. The stills then miss the same areas, except for parts of a tile.
+// mean [video px]. The areas that the two stills miss then differ by less than a tile.
 constexpr double kSameView = 0.5 * kTileSize;
 
 }  // namespace

@@ -36,7 +36,7 @@ struct Reference {
 };
 
 /// When a third still arrives, only one of the two stills before it is kept as the second still.
-/// Returns true if this is `older`, and false if it is `newest`. The still that was shown in the
+/// Returns true if `older` is kept, and false if `newest` is kept. The still that was shown in the
 /// larger share of its matched tiles is preferred. `older` is also preferred if the camera has
 /// hardly moved since `newest`, because `newest` then misses the same areas as the third still.
 [[nodiscard]] bool keepsOlder(const Reference& older, const Reference& newest);

@@ -15,7 +15,7 @@ namespace mfar {
 /// they are 0.
 struct FrameStats {
     std::array<int, kTileClasses> tiles{};
-    double meanConfidence = 0;  ///< mean of the confidence (eq. 2 in docs/paper.md), [0, 1]
+    double meanConfidence = 0;  ///< mean of the confidence (eq. 2 of the paper), [0, 1]
     double explained = 0;       ///< share of tiles that are flat or match a still, [0, 1]
     /// Share of tiles whose video has changed since they were last drawn.
     double changed = 0;

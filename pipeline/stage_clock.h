@@ -30,7 +30,7 @@ public:
 
 private:
     using Clock = std::chrono::steady_clock;
-    // Memory for this number of stages is allocated at the start, so that frames allocate none.
+    // The constructor allocates memory for this number of stages, so that frames allocate none.
     static constexpr std::size_t kMostStages = 12;
 
     std::vector<StageTime> times_;

@@ -13,8 +13,8 @@
 namespace mfar::plausible {
 namespace {
 
-// Largest difference between an element of R R^T and of the identity matrix, for a rotation R. Some
-// files round R to four digits.
+// R counts as a rotation if no element of R R^T differs from that of the identity matrix by this or
+// more. Some files round R to four digits.
 constexpr double kRotationTolerance = 1e-3;
 // Largest error of project(unproject(pixel)) [px]. A larger error shows that the lens model folds
 // over inside the picture.

@@ -22,8 +22,8 @@ inline constexpr Range kSide{"width and height", "px", 1, 16384};
 inline constexpr Range kFocal{"focal length", "picture widths", 0.05, 100};
 inline constexpr Range kPrincipal{"principal point", "picture widths and heights", -1, 2};
 inline constexpr Range kCoefficient{"distortion coefficient", "1", -1000, 1000};
-/// For comparison: a lens with barrel distortion and a field of view of 150 degrees has the factor
-/// 0.35.
+/// For comparison: an equidistant fisheye lens with a field of view of 150 degrees from corner to
+/// corner has the factor 0.35.
 inline constexpr Range kCorner{
     "factor by which distortion changes the distance of a corner from the principal point", "1",
     0.25, 1.5};

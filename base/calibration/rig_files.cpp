@@ -126,7 +126,7 @@ RigCalibration loadRig(std::span<const fs::path> paths, const WantedSizes& wante
         if (fs::is_regular_file(path)) refuseXml(path);
     if (paths.size() == 2) return readTwo(paths[0], paths[1], wanted);
     if (paths.size() != 1)
-        throw CalibrationError("a calibration consists of one or two files or folders");
+        throw CalibrationError("a calibration consists of one or two files, or of one folder");
     if (fs::is_directory(paths[0])) return readFolder(paths[0], wanted);
     RigCalibration out;
     readYaml(paths[0], [&](const YamlReader& in) { out = readOne(in, wanted); });

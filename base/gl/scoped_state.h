@@ -41,8 +41,8 @@ private:
     Enabled<GL_DEPTH_TEST> test_;
 };
 
-/// Skips triangles whose corners run counter-clockwise in a picture with row 0 on top. These are
-/// the faces of a solid that are seen from the inside.
+/// While this object exists, triangles whose corners run clockwise in the picture (row 0 is on top)
+/// are not drawn. These are the faces of a solid that are seen from the inside.
 class InsidesCulled {
 public:
     InsidesCulled() {

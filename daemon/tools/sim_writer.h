@@ -23,7 +23,7 @@ struct SimCounts {
 };
 
 /// Runs a simulated board until its video ends, and writes a recording with ground truth. The
-/// recording's folder has the files of recording.h, and also:
+/// recording has the layout that recording.h describes, and also these files:
 ///   truth/highres/<t>.png         the video frame at time t, with the still's resolution
 ///   truth/inverse_depth/<t>.pfm   1 / z [1/m] of each video pixel; 0: there is no surface
 ///   truth/flow/<t0>_<t1>.flo      flow from the video frame at t0 to the next one at t1

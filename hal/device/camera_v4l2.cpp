@@ -22,12 +22,14 @@ using std::chrono::nanoseconds;
 using std::chrono::steady_clock;
 
 // A frame's timestamp may be at most kAhead in the future, because the clocks of CPU cores differ.
-// It may be at most kOldest in the past: next() may not have been called for a while.
+// It may be at most kOldest in the past, because some time may have passed since the last call of
+// next().
 constexpr nanoseconds kAhead = std::chrono::milliseconds(50), kOldest = std::chrono::seconds(10);
 constexpr std::chrono::milliseconds kTroublePause{5};
 
-/// If the driver has fewer buffers than this, every picture is copied, and its buffer is given back
-/// at once. Without the copy, users could hold all buffers, and the driver would have none to fill.
+/// If the driver grants fewer buffers than this and fewer than requested, every picture is copied,
+/// and its buffer is given back at once. Without the copy, users could hold all buffers, and the
+/// driver would have none to fill.
 constexpr int kEnoughBuffers = 4;
 
 class Loan {

@@ -45,7 +45,7 @@ std::string nameOf(const drmModeConnector& connector) {
 std::string cardFault(const std::string& path) {
     if (errno == EACCES)
         return path +
-               ": no permission, the user must be in group video, for the GPU also in render";
+               ": no permission, the user must be in group video, and in render to use the GPU";
     return path + ": " + std::strerror(errno);
 }
 

@@ -60,10 +60,10 @@ public:
 
     [[nodiscard]] int fd() const { return fd_.get(); }
     [[nodiscard]] const std::string& path() const { return path_; }
-    /// Returns the wanted connector, or the first connected one. Returns nothing if no monitor is
-    /// connected. With `probe`, the driver queries the monitor, which may take tens of
-    /// milliseconds; otherwise it reports the last known state. Throws std::runtime_error if the
-    /// device is lost.
+    /// Returns the connector that `spec` names, or the first connected one if `spec` names none.
+    /// Returns nothing if no monitor is connected there. With `probe`, the driver queries the
+    /// monitor, which may take tens of milliseconds; otherwise it reports the last known state.
+    /// Throws std::runtime_error if the device is lost.
     [[nodiscard]] std::optional<DrmOutput> findOutput(const ScreenSpec& spec, bool probe) const;
     [[nodiscard]] std::string connectors() const;
 

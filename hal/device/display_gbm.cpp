@@ -91,8 +91,8 @@ private:
     PFNEGLDUPNATIVEFENCEFDANDROIDPROC dup_ = nullptr;
 };
 
-/// Allocates a buffer for the screen. Its layout is linear, because the card that drives the screen
-/// and the GPU may be different devices, and both support this layout.
+/// Allocates a buffer for the screen. Its layout is linear, because the GPU and the card that
+/// drives the screen may be different devices, and both support this layout.
 GbmBuffer allocate(gbm_device* device, Size size) {
     GbmBuffer buffer(gbm_bo_create(device, static_cast<std::uint32_t>(size.width),
                                    static_cast<std::uint32_t>(size.height), GBM_FORMAT_XRGB8888,

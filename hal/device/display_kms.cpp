@@ -204,7 +204,7 @@ void KmsScreen::leaveOutput() {
         try {
             waitForLastFlip();
         } catch (const std::runtime_error&) {
-            // The device is lost, so there is nothing to wait for.
+            // The device is lost or did not report the flip in time. Waiting longer would not help.
         }
         if (saved_ && saved_->mode_valid != 0 && saved_->buffer_id != 0)
             drmModeSetCrtc(card_->fd(), saved_->crtc_id, saved_->buffer_id, saved_->x, saved_->y,

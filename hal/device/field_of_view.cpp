@@ -5,8 +5,9 @@
 namespace mfar {
 namespace {
 
-/// Smallest share of the pixels along each side that a crop must show. Even full sensor modes leave
-/// out a few pixels, because sizes must be multiples of some number.
+/// A crop shows the whole field if each of its sides has at least this share of the pixels of the
+/// largest possible crop. Even full sensor modes leave out a few pixels, because sizes must be
+/// multiples of some number.
 constexpr double kAlike = 0.98;
 
 bool isPositive(Size size) {

@@ -49,7 +49,7 @@ if(functions STREQUAL "")
 endif()
 
 if(NOT VISIBILITY)
-    set(VISIBILITY hidden) # visible only in this program: libraries loaded later use their own
+    set(VISIBILITY hidden) # so that libraries loaded later do not use these functions
 endif()
 file(WRITE "${OUT}" "// Made by forwarders.cmake. NOLINTBEGIN
 #define ${MACRO} __attribute__((visibility(\"${VISIBILITY}\")))

@@ -61,7 +61,7 @@ std::string tooOld(EGLDisplay display) {
 }
 
 // The context reports resets of the GPU if the driver supports that. The EGL extension and EGL 1.5
-// have different attributes for this, and some drivers know only one of them.
+// have different attributes for this, and some drivers accept only one of them.
 EGLContext createContext(EGLDisplay display, EGLConfig config) {
     const auto create = [&](EGLint attribute, EGLint value) {
         const std::array<EGLint, 7> wanted{
@@ -78,8 +78,9 @@ EGLContext createContext(EGLDisplay display, EGLConfig config) {
     return context != EGL_NO_CONTEXT ? context : create(EGL_NONE, EGL_NONE);
 }
 
-// Opens the first EGL device that is a GPU (without EGL_MESA_device_software). If there is none,
-// opens the surfaceless platform. It may use a GPU, too, if this EGL cannot list devices.
+// Opens the first EGL device that is a GPU (without EGL_MESA_device_software). If there is none or
+// `software` is set, opens the surfaceless platform. That platform may use a GPU, too, if this EGL
+// library cannot list devices.
 OpenedDisplay openDisplay(bool software) {
     const char* client = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
     const auto platformDisplay =

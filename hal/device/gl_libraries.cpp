@@ -38,7 +38,7 @@ void loadGlLibraries(const GlLibraryNames& names) {
     if (findIn(egl, "eglGetProcAddress") == nullptr)
         throw std::runtime_error(names.egl + " has no eglGetProcAddress" + kAdvice);
     // Functions are looked up in two ways, because neither finds all of them. Before EGL 1.5,
-    // eglGetProcAddress need not know GLES functions. The GLES libraries of some vendors export
+    // eglGetProcAddress need not find GLES functions. The GLES libraries of some vendors export
     // only the functions of version 2.0.
     const std::string missing = gl_libraries::connectGles([gles](const char* name) {
         const Function function = findIn(gles, name);

@@ -48,7 +48,7 @@ PulseTrigger::~PulseTrigger() {
     try {
         line_->set(false);
     } catch (const std::runtime_error&) {
-        // The GPIO chip is lost. Nothing is thrown, because a destructor calls this function.
+        // The GPIO chip is lost. Nothing is thrown, because this is a destructor.
     }
 }
 

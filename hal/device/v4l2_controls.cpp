@@ -20,7 +20,7 @@ namespace {
 
 using Kind = V4l2Control::Kind;
 
-constexpr int kMostControls = 4096;  // limits the list of a faulty driver, which may never end
+constexpr int kMostControls = 4096;  // the list of a faulty driver may never end
 constexpr std::int64_t kMostEntries = 1024;
 constexpr int kTries = 3;
 constexpr std::chrono::milliseconds kBetweenTries{20};

@@ -53,8 +53,8 @@ public:
     /// Sets an integer, a boolean, or a menu (by the index of its entry). Returns the value that
     /// the device then reports.
     std::int64_t set(std::string_view name, std::int64_t value) const;
-    /// The text is a number; true, on, yes, false, off or no; or a menu entry. For a button, any
-    /// text presses it.
+    /// `text` may be a number, a boolean (true, on, yes, false, off, no) or the name of a menu
+    /// entry. A button is pressed, whatever the text is.
     std::int64_t set(std::string_view name, std::string_view text) const;
     void press(std::string_view name) const;
 

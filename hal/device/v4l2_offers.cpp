@@ -11,7 +11,7 @@ namespace mfar {
 namespace {
 
 constexpr std::uint32_t kMostSide = 65535;  // [px]; larger reported widths and heights are clamped
-constexpr int kMostOffers = 512;  // limits the list of a faulty driver, which may never end
+constexpr int kMostOffers = 512;            // the list of a faulty driver may never end
 
 constexpr std::array kUsable{
     V4l2PixelFormat{V4L2_PIX_FMT_NV12, PixelFormat::Nv12},

@@ -32,7 +32,8 @@ public:
         description_ = std::string("OSMesa: ") +
                        reinterpret_cast<const char*>(glGetString(GL_RENDERER)) + ", OpenGL " +
                        reinterpret_cast<const char*>(glGetString(GL_VERSION)) + ", software";
-        // Converts values that are drawn into sRGB textures, as OpenGL ES always does.
+        // Makes OpenGL convert the values that are drawn into sRGB textures, as OpenGL ES always
+        // does.
         constexpr GLenum kFramebufferSrgb = 0x8DB9;
         glEnable(kFramebufferSrgb);
         glGenVertexArrays(1, &vertexArray_);

@@ -14,7 +14,7 @@
 namespace mfar {
 
 enum class Pace {
-    Realtime,  ///< pictures are delivered in the intervals in which they were recorded
+    Realtime,  ///< pictures are delivered at the intervals at which they were recorded
     Consumer,  ///< a picture is delivered as soon as it is requested; none is skipped
 };
 
@@ -65,8 +65,8 @@ private:
 /// frame that video().next() returned. This suits a thread that requests a frame and then the
 /// stills up to it.
 ///
-/// With Pace::Consumer, the timeout of next() applies only while the consumer holds all buffers.
-/// next() waits for the decoder without a limit.
+/// With Pace::Consumer, next() waits for the decoder without a limit. Its timeout applies only
+/// while the consumer holds all buffers, or while the next still must not be returned yet.
 class RecordingPlayer {
 public:
     RecordingPlayer(Recording recording, const PlayerOptions& options);

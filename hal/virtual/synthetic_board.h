@@ -55,9 +55,9 @@ class SyntheticStudio;
 /// As with a real sensor, a pulse is lost if the previous exposure has not ended, if
 /// stillBuffers - 1 stills are pending, or if the still camera is not started.
 ///
-/// The program must link a createGlContext(); the board's thread has its own GL context. The
-/// cameras and the trigger live as long as the board; frames may outlive it. All functions are
-/// thread-safe.
+/// The program must link a definition of createGlContext(), because the board's thread has its own
+/// GL context. The cameras and the trigger live as long as the board; frames may outlive it. All
+/// functions are thread-safe.
 class SyntheticBoard {
 public:
     enum class View {
@@ -84,8 +84,8 @@ public:
     [[nodiscard]] Pose pose(Timestamp t) const;
     /// Returns the inverse depth 1 / z [1/m] of each video pixel; 0: background.
     [[nodiscard]] FloatImage inverseDepth(Timestamp t) const;
-    /// Returns, for each pixel of `from`, the offset [px] to the same point in `to`. NaN: the point
-    /// is occluded in `to` or outside of the picture.
+    /// Returns, for each pixel of `from`, the offset [px] to the same point in `to`. NaN: the pixel
+    /// shows the background, or the point is occluded in `to` or outside of that picture.
     [[nodiscard]] FlowImage flow(View from, Timestamp fromTime, View to, Timestamp toTime) const;
     /// Returns the picture of the video camera at the still's resolution: same lens, gain and
     /// gamma, without noise and blur. Takes as long as rendering a still.

@@ -11,7 +11,8 @@
 namespace mfar::synthetic {
 
 /// The light that arrives at every surface: the key light with soft shadows, the ambient light with
-/// occlusion, and the light of one reflection. It is ray traced for the world at time 0.
+/// occlusion, and the light of one reflection. It is ray traced once, with every primitive in the
+/// pose T_world_prim.
 struct LightMap {
     /// Irradiance / kFullScale * 255, per channel. The 3 x 2 faces (axis, sign) of a primitive are
     /// side by side. Moving objects cast no shadow.

@@ -78,8 +78,8 @@ SensorView::SensorView(WorldGl& world, const CameraModel& camera, const SensorLo
 }
 
 void SensorView::findTiles() {
-    // Margin around a tile [px]. A pixel's rays lie up to half a pixel from its centre, and lens
-    // distortion bends the tile's edges between the sampled points.
+    // Margin around a tile [px]. A pixel's rays lie a quarter of a pixel from its centre along each
+    // axis, and lens distortion bends the tile's edges between the sampled points.
     constexpr double kMargin = 2;
     constexpr int kSamples = 4;
     for (int ty = 0; ty < tilesY_; ++ty) {

@@ -63,7 +63,8 @@ struct Material {
 enum class Shape : std::uint8_t { Box, Cylinder, Ellipsoid };
 
 /// A convex solid. Its centre is the origin of its frame. The axis of a cylinder is z. `half` is
-/// half of the extent along each axis [m]. T_world_prim is the pose at time 0.
+/// half of the extent along each axis [m]. T_world_prim is its pose; if `moves` is set,
+/// World::moverPose() is applied to that pose.
 struct Primitive {
     Shape shape = Shape::Box;
     RigidTransform T_world_prim;
@@ -112,14 +113,14 @@ struct World {
     Lighting light;
     Eigen::Vector3d eye;
     Eigen::Vector3d target;
-    /// Centre of the moving object at time 0, and its radius [m]. Radius 0: there is no moving
-    /// object.
+    /// Centre of the moving object before moverPose() is applied, and its radius [m]. Radius 0:
+    /// there is no moving object.
     Eigen::Vector3d moverPivot = Eigen::Vector3d::Zero();
     double moverRadius = 0;
 
     [[nodiscard]] RigidTransform primitivePose(int index, double t) const;
-    /// Returns the motion of the moving object from time 0 to time t [s]. Its pose at time t is
-    /// moverPose(t) * T_world_prim.
+    /// Returns the motion of the moving object at time t [s]. The object's primitives then have the
+    /// pose moverPose(t) * T_world_prim.
     [[nodiscard]] RigidTransform moverPose(double t) const;
 };
 

@@ -96,7 +96,7 @@ void store(const fs::path& file, std::uint64_t key, const cv::Mat4b& texels) {
     try {
         fs::create_directories(file.parent_path());
         removeOldest(file.parent_path(), TexelStore::kMostFiles - 1);
-        // A file that a power cut truncates is found by its size or checksum.
+        // A file that a power cut truncates is detected by its size or checksum.
         writeWholeFile(file, bytes, Durability::WithSync);
     } catch (const std::exception&) {  // Errors are ignored, because the store only saves time.
     }

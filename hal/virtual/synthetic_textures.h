@@ -12,7 +12,7 @@ namespace mfar::synthetic {
 inline constexpr int kLayerSize = 1024;
 
 /// Generates one texture layer. RGB is the linear reflectance, A the strength of highlights. All
-/// layers except Paper, Article, Cover, Label, Forest and Tags repeat without a seam.
+/// layers except Paper, Article, Cover, Spine, Label, Forest and Tags repeat without a seam.
 [[nodiscard]] cv::Mat4b makeLayer(Layer layer, std::uint64_t seed);
 
 /// Calls paint(pixel, {row, column}) for every pixel. OpenCV's forEach() is not used, because race
@@ -41,7 +41,7 @@ void eachPixel(cv::Mat_<T>& image, const Paint& paint) {
 
 inline constexpr int kTagCells = 8;
 /// True for the white cells of a tag of family 36h11, as [row][column]. The outermost cells are the
-/// black border. tagCells() knows the ids 0 to 35.
+/// black border. tagCells() supports the ids 0 to 35.
 using TagCells = std::array<std::array<bool, kTagCells>, kTagCells>;
 [[nodiscard]] TagCells tagCells(int id);
 

@@ -19,7 +19,8 @@ struct Viewpoint {
 [[nodiscard]] FloatImage inverseDepth(const World& world, const Viewpoint& view);
 
 /// Returns, for each pixel of `from`, the offset [px] to the same point in `to`. If an object has
-/// moved, its points are followed. NaN: the point is occluded in `to` or outside of the picture.
+/// moved, its points are followed. NaN: the pixel shows the background, or the point is occluded in
+/// `to` or outside of that picture.
 [[nodiscard]] FlowImage flowBetween(const World& world, const Viewpoint& from, const Viewpoint& to);
 
 }  // namespace mfar::synthetic

@@ -31,17 +31,16 @@ struct alignas(16) Colour {
 };
 
 struct alignas(16) PreviewObject {
-    /// `targetWidth` and `targetHeight` are in pixels. All other lengths are in metres.
     Transform object;
     Projection projection;
     Colour colours[2];
-    float width, height, depth;
+    float width, height, depth;  ///< size of the object [m]
     float squares;
     float lightX, lightY, lightZ;  ///< unit vector towards the light, in camera coordinates
     float ambient;
-    float targetWidth, targetHeight;
-    /// Limits of the unit shape: largest coordinate, and squared distance of its corners from the
-    /// centre.
+    float targetWidth, targetHeight;  ///< size of the drawn picture [px]
+    /// Limits of the unit shape (side length 1), with a margin for rounding: largest coordinate,
+    /// and largest squared distance of a point from the centre.
     float reach, squaredRadius;
 };
 

@@ -27,7 +27,8 @@ public:
     PreviewRenderer(const CameraModel& video, Size output, const PreviewLight& light = {});
 
     /// Draws the objects as seen by a camera at this pose. Only the outside of closed shapes is
-    /// drawn. Objects behind the camera, outside the picture or without a finite pose cost no time.
+    /// drawn. Objects behind the camera, outside the picture or without a finite pose cause no work
+    /// on the GPU.
     const VirtualLayer& render(std::span<const VirtualObject> objects,
                                const RigidTransform& T_world_video);
 

@@ -8,8 +8,9 @@
 
 namespace mfar {
 
-/// Boxes around the parts of a scene's surfaces. Projected, they show where a picture can contain
-/// virtual surfaces. The time for projecting them does not depend on the number of triangles.
+/// Boxes around the parts of a scene's surfaces. Their projections cover all places where a picture
+/// can contain virtual surfaces. The time for projecting them does not depend on the number of
+/// triangles.
 class SceneBoxes {
 public:
     SceneBoxes() = default;

@@ -11,7 +11,7 @@
 
 namespace mfar {
 
-/// Says when the shadow catcher (the invisible surface that receives the shadows of virtual
+/// Decides when the shadow catcher (the invisible surface that receives the shadows of virtual
 /// objects) is measured. At first, the catcher consists of the plane of the tag map and of the
 /// planes of other tags on which objects stand. After `settling` frames, a measured surface
 /// replaces these planes as soon as depth is known at a share of at least `leastKnown` of the
@@ -49,7 +49,7 @@ private:
 
     CatcherRule rule_;
     Scene scene_;
-    // As groundPlanes() returns them: first the plane of the tag map, whose bounds contain all
+    // The result of groundPlanes(). The first plane is that of the tag map; its bounds contain all
     // objects.
     std::vector<GroundPlane> planes_;
     int frames_ = 0;

@@ -16,8 +16,8 @@ constexpr int kStep = 4;
 // Two neighbouring vertices are on different surfaces if their depths differ by at least this
 // fraction of the smaller depth.
 constexpr double kJump = 0.04;
-// A surface within this distance of the tags' plane [m] counts as the plane, because the tags'
-// paper has a thickness and waves.
+// A surface within this distance of the tags' plane [m] counts as part of the plane, because the
+// tags' paper is not flat and has a thickness.
 constexpr double kPlaneSlack = 0.004;
 // Tags that lie on the same surface have planes that differ by up to this distance [m], because
 // their poses have errors.

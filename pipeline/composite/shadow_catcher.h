@@ -24,7 +24,7 @@ inline constexpr double kShadowReach = 1;
 struct GroundPlane {
     RigidTransform T_world_plane;
     Eigen::AlignedBox3d objects;  ///< bounds, in the plane's frame, of the objects that shade it
-    double reach = kShadowReach;  ///< extent beyond `objects` [half diagonals of it]
+    double reach = kShadowReach;  ///< extent beyond `objects` [half of its diagonal]
 };
 
 /// Returns the planes that objects are expected to shade. The first plane is that of the tag map;

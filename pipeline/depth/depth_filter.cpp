@@ -15,7 +15,7 @@ namespace {
 // If a camera motion reduces the depth of a point to less than this fraction of its old depth, the
 // point is dropped.
 constexpr float kNearestShare = 0.05F;
-// Relative standard deviation that each second of camera motion adds to inverse depth.
+// Each second of camera motion adds kDrift^2 to the relative variance of inverse depth.
 constexpr double kDrift = 0.02;
 // The variance grows with the time since the points were last moved. This time counts as at most
 // kMostMoving [s]: if it is longer, the camera has rested in between.

@@ -30,8 +30,8 @@ public:
     /// Moves the known depths to a camera at this pose. `seconds` is the time since the last call.
     /// If several points move to one pixel, the nearest is kept (z-test). The variance grows with
     /// the duration of the motion. Motions too small to be visible move nothing until their sum is
-    /// visible, so a camera at rest loses no depth. An invalid pose (soundMotion()) discards all
-    /// depths.
+    /// visible, so a camera at rest loses no depth. An invalid pose (see soundMotion()) discards
+    /// all depths.
     void predict(const RigidTransform& T_world_video, double seconds);
     /// Fuses the depth of a frame, measured within `where` at the pose of the last predict(). If a
     /// measurement agrees with the known depth of its pixel, the two are averaged. If measurements
@@ -39,8 +39,9 @@ public:
     /// a valid inverse depth and variance are ignored.
     void fuse(const InverseDepthField& measured, const PixelRect& where);
     void forget(const PixelRect& where);
-    /// Forgets known depths with which a measurement of `where` disagrees, in blocks in which most
-    /// measurements disagree. Single false measurements thus forget nothing.
+    /// Deletes the known depths that `measured` contradicts inside `where`, but only in blocks in
+    /// which most measurements contradict the known depth. Single false measurements thus delete
+    /// nothing.
     void forgetContradicted(const InverseDepthField& measured, const PixelRect& where);
 
     [[nodiscard]] const InverseDepthField& field() const { return field_; }

@@ -112,8 +112,8 @@ void DepthStage::findNeeds(const Pose& pose, double brightness, double stillBase
     }
 }
 
-// Finds the part with the largest uncertainty. Measures this part with its keyframe, and with it
-// all other parts for which the same keyframe was chosen.
+// Finds the part with the largest uncertainty. Measures this part, and all other parts for which
+// the same keyframe was chosen.
 void DepthStage::searchKeyframe(const Rows<const std::uint8_t>& luma, const Pose& pose) {
     if (needs_.empty()) return;
     const auto knowsMore = [](const Need& a, const Need& b) { return a.share < b.share; };

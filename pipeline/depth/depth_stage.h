@@ -33,9 +33,9 @@ public:
 
     void forget();
     /// Must be called when the still changes. Without this call, depth would be measured with the
-    /// new still only after the next motion of the camera. If the camera has not moved, the next
-    /// measurement is the only one with the new still, so it replaces the known depth wherever it
-    /// contradicts most of a block of pixels.
+    /// new still only after the next motion of the camera. While the camera rests, depth is
+    /// measured only once with each still. This measurement therefore replaces the known depth at
+    /// once, in each block of pixels in which it contradicts most of the known depths.
     void renew() { isRenewed_ = true; }
     /// Moves the known depth to the pose of this frame and measures depth inside `where`, which may
     /// be empty. `still` is empty if the frame was not matched along epipolar lines.

@@ -116,8 +116,8 @@ const InverseDepthField& EdgeSnap::run(const InverseDepthField& in, const ImageV
 }
 
 // Finds the pixels whose depth the votes decide (open_): pixels near a depth edge, and pixels of
-// unknown depth. A depth edge shows in the range of the inverse depths around a pixel. This range
-// is computed first along rows, then along columns.
+// unknown depth. Near a depth edge, the inverse depths around a pixel have a large range. This
+// range is computed first along rows, then along columns.
 void EdgeSnap::findEdges(const InverseDepthField& in, const PixelRect& where) {
     if (where.empty()) return;
     const std::ptrdiff_t pitch = size_.width;

@@ -36,9 +36,9 @@ public:
     };
     /// Chooses a keyframe for the rectangle `part` [px] of a frame at this pose. Empty if no
     /// keyframe shows this part with enough parallax. With KeyframeRule::Score, the keyframe with
-    /// the lowest score is chosen. The score is the expected error of inverse depth, sigma / (f
-    /// sin(parallax)), increased for old keyframes and for a different exposure. The result is
-    /// valid until the next add().
+    /// the lowest score is chosen. The score is proportional to the expected error of inverse
+    /// depth, 1 / sin(parallax), and is increased for old keyframes and for a different exposure.
+    /// The result is valid until the next add().
     [[nodiscard]] std::optional<Choice> choose(const Pose& pose, double brightness,
                                                const PixelRect& part, double inverseDepth) const;
 

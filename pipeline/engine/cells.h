@@ -24,7 +24,8 @@ struct FlowCell {
 struct ErrorCell {
     float error = 0;
     // Sums over the cell's patch from a comparison of the video with the still at its full
-    // resolution, see params::kPatchSamples. They are 0 if the cell was not compared in this way.
+    // resolution, see params::kPatchSamples. They are 0 if the cell was not compared in this way,
+    // or if the correlation was not larger than in the pyramids (1 - FlowCell::cost).
     float covariance = 0, varianceVideo = 0, varianceStill = 0;
 };
 

@@ -125,8 +125,8 @@ public:
     /// pyramids of `pictures`.
     virtual const FlowCells& refine(const Pictures& pictures, const LumaPyramid& luma,
                                     const TileWork& work, const AlongLines& along) = 0;
-    /// Returns a flag for each tile, row-major: true if the last refine() searched the tile. Waits
-    /// for the GPU if necessary.
+    /// Returns a flag for each tile, row-major: true if the last refine() searched the tile in two
+    /// dimensions. Waits for the GPU if necessary.
     [[nodiscard]] virtual std::vector<bool> searchedTiles() const = 0;
     [[nodiscard]] virtual int searchedCount() const = 0;
     /// Returns a searchedCount() without waiting for the GPU. With the SIMD engine, it is that of
@@ -140,7 +140,7 @@ public:
     virtual const CellWeights& run(const LumaPyramid& luma, const FlowCells& flow,
                                    const TileWork& work) = 0;
     /// Raises all weights below 1. Then lowers the weights of cells in which the still shows the
-    /// video's finest detail less well than usual; `match` says what is usual. See
+    /// video's finest detail less well than usual; `match` describes the usual case. See
     /// params::kFineRoom and kRaisedWeight. Must be called after run() for the same frame.
     virtual const CellWeights& confirm(const VideoFrame& frame, const StillPictures& still,
                                        const TileWork& work, const FineMatch& match) = 0;

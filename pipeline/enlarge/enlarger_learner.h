@@ -71,8 +71,8 @@ private:
     };
 
     [[nodiscard]] static Part partOf(int column, int row);
-    /// Finds the tiles that look different from the last time at which filters were learned from
-    /// them. Returns false if these are too few.
+    /// Finds the tiles that have changed since filters were last learned from them. Returns false
+    /// if too few tiles have changed.
     bool findNew(const MatchedPictures& pictures);
     void rememberShown();
     struct StillSums {

@@ -33,8 +33,8 @@ struct Guidance {
 };
 
 /// Variance of the video's finest detail that a correctly matched still usually leaves
-/// unexplained: noise + share * (variance of the finest detail). See params::kFineRoom. If noise is
-/// 0, this is not known yet.
+/// unexplained: noise + share * (variance of the finest detail). See params::kFineRoom. As long as
+/// this is not known, noise is 0.
 struct FineMatch {
     float noise = 0;  ///< constant part [grey levels^2], [0, kMostNoise]
     float share = 0;  ///< share of the variance of the finest detail that is unexplained, [0, 1]

@@ -13,8 +13,9 @@ namespace mfar::enlarge {
 
 /// Sums over sub-pixels from which the two factors of Guidance are fitted by least squares. They
 /// are sums of squares and products of three values. `still` is the detail that the still would
-/// add. `video` is the change if the video's own detail is removed. `missing` is what the drawn
-/// frame lacks. The fit approximates `missing` by a weighted sum of `still` and `video`.
+/// add. `video` is the change if the video's own detail is removed. `missing` is the new still
+/// minus the frame as drawn without guidance. The fit approximates `missing` by a weighted sum of
+/// `still` and `video`.
 struct FactorSums {
     double still2 = 0, video2 = 0, missing2 = 0;
     double stillVideo = 0, stillMissing = 0, videoMissing = 0;
@@ -29,11 +30,11 @@ struct FactorSums {
     [[nodiscard]] Guidance best(double prior) const;
 };
 
-/// Learns FilterBank::guidance(). A frame was drawn with an older still. A new still shows what the
-/// frame should have looked like. Guidance is the pair of factors with which the frame would have
-/// been most similar to the new still. The method is recursive least squares with forgetting, and
-/// its prior is zero guidance. Some tiles are held out: guidance is not learned from them, and it
-/// is used as long as it makes them more similar to the new stills.
+/// Learns FilterBank::guidance(). A new still shows what a frame that was drawn with an older still
+/// should have looked like. Guidance is the pair of factors with which the frame would have been
+/// most similar to the new still. The method is recursive least squares with forgetting, and its
+/// prior is zero guidance. Some tiles are used for a check and not for learning: guidance is used
+/// only while it makes these tiles more similar to the new stills.
 ///
 /// The weight of the whole detail of a still (LookUpCell::weight) is not learned in this way.
 /// Warping removes a part of a still's finest detail, so the warped new still has less detail than

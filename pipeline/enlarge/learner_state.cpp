@@ -17,7 +17,8 @@ constexpr std::array<std::uint64_t, 4> kHeader{7, kUnique, kTaps, kPhases};
 // Older versions of the format, which can still be read. Version 1 has no guidance. Version 2 has
 // one factor of guidance (ten numbers). Version 3 has both factors, but no FineMatch. Version 4 has
 // no tone curve. In versions 4 and 5, FineMatch was measured within blocks of 2x2 pixels; it is
-// skipped and learned again. Versions 5 and 6 do not say whether the tone curve is in use; it is.
+// skipped and learned again. Versions 5 and 6 do not store whether the tone curve is used; it then
+// counts as used.
 constexpr std::uint64_t kWithoutGuidance = 1, kOneFactor = 2, kTwoFactors = 3, kWithoutTone = 4,
                         kFineInBlocks = 5, kToneInUse = 6;
 constexpr int kOneFactorNumbers = 10;

@@ -17,7 +17,7 @@ constexpr double kWrongTone = 2;
 constexpr double kWrongShare = 0.25;
 constexpr double kMostOfRange = 1e12;
 
-/// Returns the level at which a still showed `level` before its tone curve was applied.
+/// Returns the grey level of a still that its tone curve has changed to `level`.
 double levelBefore(double level, const StillTone& tone) {
     if (tone.isIdentity()) return level;
     const auto& levels = tone.levels;

@@ -22,8 +22,8 @@ public:
     /// Returns the video's level for each level of the still. Ranges with few pixels are not used
     /// for the interpolation.
     [[nodiscard]] Curve curve() const;
-    /// Returns curve(), made non-decreasing and rounded to whole grey levels. A brighter pixel of
-    /// the still stays brighter.
+    /// Returns curve(), made non-decreasing and rounded to whole grey levels. So it never makes the
+    /// brighter of two pixels the darker one.
     [[nodiscard]] StillTone tone() const;
     /// Returns the mean absolute error of `tone` over all summed pairs: the difference between the
     /// video's grey level and tone(still's grey level) [grey levels].

@@ -13,10 +13,10 @@
 namespace mfar::enlarge {
 
 /// A matched still, resampled at the sub-pixels of a video frame, with the brightness of the video.
-/// First, sub-pixel errors of the look-ups are corrected, and the still is warped by them. Then, a
-/// tone curve and a local mean are fitted to the video, so that different gain and gamma of the
-/// sensors cause no offset. Differences in blur and noise remain, because the filters must learn
-/// them.
+/// First, sub-pixel errors of the look-ups are corrected, and the still is warped with the
+/// corrected look-ups. Then, a tone curve and a local mean are fitted to the video, so that
+/// different gain and gamma of the sensors cause no offset. Differences in blur and noise remain,
+/// because the filters must learn them.
 class TrustedPairs {
 public:
     /// If `stop` is requested, the constructor returns soon, and no pixel is trusted.
@@ -75,7 +75,7 @@ private:
     AlignedRows<std::uint8_t> trusted_;
     WarpedGrid still_;
     Plane seen_;  // mean of the still over each pixel, with the video's tone and blur
-    Plane mean_;  // video minus seen_, averaged over a larger area
+    Plane mean_;  // video minus seen_, averaged over the surrounding 17x17 pixels
     ToneSums toneSums_;
     ToneSums::Curve tone_{};  // video grey level for each still grey level
     double trustedShare_ = 0, sharpness_ = 0;

@@ -17,9 +17,9 @@ constexpr float kNowhere = 1e4F;
 // find out, s is changed by the step that moves the fastest pixel of the picture by 1 px. A pixel
 // that moves by at most kLeastWay [px] is near the epipole.
 constexpr float kLeastWay = 0.05F;
-// Two neighbouring cells can match the same cell of the still. They count as one slanted surface if
-// their flow vectors differ by at most this distance [px]. Otherwise, the nearer one occludes the
-// other.
+// Several cells can match the same cell of the still. A cell counts as part of the same slanted
+// surface as the nearest of them if their parallaxes differ by at most this distance [px].
+// Otherwise, the nearest cell occludes it.
 constexpr float kSlope = 1.0F;
 // Width of the margin that is searched around the rectangle that needs depth [px]. It is needed for
 // census windows, for the cost aggregation, and for the motion until the next frame.
@@ -118,8 +118,8 @@ void EpipolarFlow::run(const Rows<const std::uint8_t>& video, const Pose& pose,
     lengthError_ = relative.lengthError;
     search(relative, where);
     // rotation_ rotates rays of the frame into the orientation that the video camera had when the
-    // still was taken. It is computed from the pose of the search, which has resampled the still as
-    // seen in the frame's orientation.
+    // still was taken. It is computed from search_.pose(), because the search used this pose when
+    // it resampled the still in the frame's orientation.
     rotation_ = (rig_.T_still_video.rotation.conjugate() * search_.pose().rotation)
                     .toRotationMatrix()
                     .cast<float>();
@@ -251,8 +251,8 @@ void EpipolarFlow::fillForward() {
     });
 }
 
-// Returns s of a cell from its four central pixels: the mean of the two middle values. If a depth
-// edge separates one of the pixels from the others, it does not distort this mean.
+// Returns s of a cell from its four central pixels: the mean of the two middle values. A pixel that
+// a depth edge separates from the other three does not distort this mean.
 float EpipolarFlow::depthOf(int i, int j) const {
     const Middle x = middleOf(i, rig_.video.size.width), y = middleOf(j, rig_.video.size.height);
     std::array<float, 4> s{sAt(x.first, y.first), sAt(x.last, y.first), sAt(x.first, y.last),

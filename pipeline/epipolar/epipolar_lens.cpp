@@ -3,9 +3,9 @@
 namespace mfar {
 namespace {
 
-// Rays with a larger radius than this are invalid. It is a multiple of the radius of the picture's
-// corners. Some lens models fold rays back from a certain radius on: the distorted radius decreases
-// again. If this radius is smaller, it is the limit.
+// Largest radius of valid rays, as a multiple of the radius of the picture's corners. Some lens
+// models fold rays back from a certain radius on: the distorted radius decreases again. If that
+// radius is smaller, it is the limit.
 constexpr double kBeyondPicture = 2;
 
 }  // namespace

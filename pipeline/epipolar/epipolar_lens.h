@@ -49,7 +49,7 @@ public:
     /// Maps a ray (x / z, y / z) to a pixel of this level, with distortion. A ray outside the valid
     /// radius is first moved to this radius, so that distortion never folds it back.
     [[nodiscard]] Point project(float x, float y) const {
-        // Has no branch, so that the compiler can vectorize loops over pixels.
+        // Has no branch, so that the compiler can vectorise loops over pixels.
         const float r2 = x * x + y * y;
         const float c = std::sqrt(lens_.rim2 / std::max(r2, lens_.rim2));
         x *= c;

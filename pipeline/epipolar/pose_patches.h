@@ -25,7 +25,7 @@ struct PatchPrior {
     /// Standard deviation of a pixel's noise in frame and still [grey levels].
     double noise;
     double pixelsPerUnit;  ///< largest motion of a pixel per unit of s [px]; 0: no parallax
-    /// Returns s at a pixel of the frame. Its error must move the pixel by at most kAlongSlack
+    /// Returns s at a pixel of the frame. The error of s must move the pixel by at most kAlongSlack
     /// pixels along the epipolar line.
     std::function<double(const Eigen::Vector2d&)> sAt;
 };

@@ -21,8 +21,8 @@ constexpr int kFewest = 16;
 constexpr double kFewestShare = 0.4;
 // A match whose error exceeds this number of standard deviations has no weight.
 constexpr double kTukey = 4.685;
-// Standard deviation of a good match [px]. Robust weights assume at least half of it, even if the
-// matches fit better.
+// Standard deviation of a good match [px]. Robust weights assume at least half of this value, even
+// if the matches fit better.
 constexpr double kMatchError = 0.3;
 constexpr double kExplained = 1;
 constexpr double kNotExplained = 1e6;  // error of a match that fits no pose [px]

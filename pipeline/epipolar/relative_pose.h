@@ -48,8 +48,8 @@ struct PoseRefinement {
 [[nodiscard]] PoseRefinement refineRelativePose(std::span<const RayMatch> matches,
                                                 const PosePrior& prior, double focal);
 
-/// A pose is not refined if the refinement removes an error of less than this [px], because the
-/// errors of the matches would add about as much.
+/// A refinement that removes an error of less than this [px] is rejected, because the errors of the
+/// matches would add about as much.
 inline constexpr double kExactEnough = 0.2;
 
 /// Returns the covariance of a point's ray (x/z, y/z) in the still. It follows from the covariance

@@ -15,9 +15,9 @@ static_assert(TurnedPicture::kAlign == simd::kTurnedCell);
 constexpr double kBeside = 0.2;
 constexpr int kSidePoints = 16;
 
-// Rays with a larger radius than this are invalid. It is a multiple of the radius of the picture's
-// corners. Some lens models fold rays back from a certain radius on: the distorted radius decreases
-// again. If this radius is smaller, it is the limit.
+// Largest radius of valid rays, as a multiple of the radius of the picture's corners. Some lens
+// models fold rays back from a certain radius on: the distorted radius decreases again. If that
+// radius is smaller, it is the limit.
 constexpr double kFarthestRay = 4;
 
 double rimOf(const CameraModel& camera) {

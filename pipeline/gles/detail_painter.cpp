@@ -160,8 +160,8 @@ PixelRect DetailPainter::outputOf(const PixelRect& tiles) const {
 void DetailPainter::draw(const gpu::Texture& video, const Matched* matched, const TileBuffer& tiles,
                          const DetailOptions& options) {
     const TileWork& work = tiles.work();
-    // draws_ stores the counters of the last two frames. After two frames without a change, both
-    // counters stay the same, so classify() is not needed.
+    // draws_ stores the counters of the last two frames. After two frames without a change, further
+    // frames would leave them unchanged, so classify() is not needed.
     restingFrames_ = work.changed == 0 ? restingFrames_ + 1 : 0;
     if (restingFrames_ <= 2) classify(matched, tiles, options);
     // Returns before any draw call, because even a call that draws nothing would compile its

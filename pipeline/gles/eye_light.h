@@ -26,8 +26,8 @@ public:
     void run(const Eigen::Vector3d& eye, const gpu::Texture& rays);
 
     /// RGBA16F textures, see struct Light in warp_light.glsl. Their size is that of the traced
-    /// picture, or one texel before the first run(). Outside TracedPicture::bounds, all values are
-    /// finite.
+    /// picture, or one texel before the first run(). Outside TracedPicture::bounds, the values are
+    /// finite, but have no meaning.
     [[nodiscard]] const gpu::Texture& diffuse() const { return diffuse_; }
     [[nodiscard]] const gpu::Texture& specular() const { return specular_; }
 

@@ -39,8 +39,8 @@ public:
 
     /// Computes the forward field by refining `forward`, which has one flow vector per cell. These
     /// vectors must be right to within a pixel. The first number of each entry of `errors` is the
-    /// cell's two-way error (eq. 2 of the paper in docs/paper.md) [px]. Tiles in which the vectors
-    /// match badly are searched again, in two dimensions from coarse to fine.
+    /// cell's two-way error (eq. 2 of the paper, see docs/paper.md) [px]. Tiles in which the
+    /// vectors match badly are searched again, in two dimensions from coarse to fine.
     using Cells = std::span<const std::array<float, 4>>;
     void refine(const LumaOnGpu& luma, const TileBuffer& tiles, Cells forward, Cells errors);
 

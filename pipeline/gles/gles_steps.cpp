@@ -37,7 +37,8 @@ public:
         assert(!"a still's luma cannot be uploaded, because it is computed from its colours");
     }
     [[nodiscard]] const ToneTexture& tone() const { return tone_; }
-    /// Sets the still's format, which tells the order of the channels that download() reads back.
+    /// Sets the still's format, which determines the order of the channels that download() reads
+    /// back.
     void setFormat(PixelFormat format) { format_ = format; }
     void download(void* data, std::ptrdiff_t pitch) override {
         const std::vector<std::uint8_t> rgba = texture().readRgba8();

@@ -14,8 +14,9 @@
 
 namespace mfar::gles {
 
-/// The video frame and its TileWork on the GPU, uploaded when the first step of a frame needs them.
-/// All steps of the engine share this object. It needs a current GL context for its whole lifetime.
+/// The video frame and its TileWork, stored on the GPU. They are uploaded when the first step of a
+/// frame needs them. All steps of the engine share this object. It needs a current GL context for
+/// its whole lifetime.
 class FrameOnGpu {
 public:
     explicit FrameOnGpu(Size video) : tiles_{TileBuffer(video), TileBuffer(video)} {}

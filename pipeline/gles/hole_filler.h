@@ -17,16 +17,16 @@ namespace mfar {
 
 /// Lists pixels that the warp left without a known colour, and fills them from their surroundings.
 /// The CPU can read the list one or two frames later. Pixels in cracks of one pixel width are
-/// always filled, because most of their neighbours show the same surface. HoleFilling says which
-/// larger areas are filled, by push-pull.
+/// always filled, because most of their neighbours show the same surface. HoleFilling selects which
+/// larger areas are also filled, by push-pull.
 class HoleFiller {
 public:
     static constexpr int kLevels = 6;
 
     explicit HoleFiller(Size layer);
 
-    /// Begins an empty list of pixels in `where`. `filling` says which pixels are filled besides
-    /// cracks.
+    /// Begins an empty list of pixels in `where`. `filling` selects the pixels that are filled
+    /// besides cracks.
     void begin(const PixelRect& where, HoleFilling filling);
     /// Dispatch commands and length of the list; see warp_rest.comp.
     [[nodiscard]] const gpu::Buffer& commands() const { return lists_[current_].commands; }
@@ -42,8 +42,8 @@ public:
     /// reading back an older list.
     void fill(const gpu::Texture& colour, const gpu::Texture& state, bool wantList);
 
-    /// Returns the listed pixels of the last frame with `wantList`. Empty until the GPU has
-    /// finished that frame. Never waits.
+    /// Returns the listed pixels of the last frame for which fill() got `wantList`, or nullopt
+    /// until the GPU has finished that frame. Never waits.
     std::optional<WarpHoles> poll();
     [[nodiscard]] bool isPending() const { return fence_.has_value(); }
     void drop() { fence_.reset(); }

@@ -60,8 +60,8 @@ LearnedEnlarger::LearnedEnlarger(Size video, Size output)
                             "#define AROUND\n#define LEARNED\n"),
       second_("tile_rect.vert", "composite_detail.frag", "#define SECOND\n") {}
 
-// Uploads the filters as half floats, because shaders unpack two half floats in one instruction. Of
-// the 14 bits of a weight near 1, a half float keeps only 11.
+// Uploads the filters as half floats, because shaders unpack two half floats in one instruction. A
+// half float keeps only 11 of the 14 bits of a weight near 1.
 void LearnedEnlarger::takeFilters(const FilterBank& filters) {
     if (number_ == filters.number()) return;
     std::vector<std::uint32_t> words;

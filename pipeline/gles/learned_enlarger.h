@@ -50,7 +50,8 @@ private:
     Size video_, tiles_;
     std::uint64_t number_ = 0;
     std::vector<std::uint8_t> mask_;
-    // True if columns_, seen_ or guided_ was not computed in the last frame.
+    // Each flag is true if its texture (columns_, seen_ or guided_) was not computed in the last
+    // frame.
     bool columnsAreOld_ = true, seenIsOld_ = true;
     bool guidedIsOld_ = true;
     gpu::Texture filters_, learned_, grid_, seen_, guided_, columns_, residuals_;

@@ -25,9 +25,10 @@ class LumaPyramids {
 public:
     explicit LumaPyramids(Size video);
 
-    /// `video` is an RGBA8 texture of the video's size.
+    /// `video` is an RGBA8 or R8 texture of the video's size.
     void buildVideo(const gpu::Texture& video);
-    /// `still` is an RGBA8 texture with a linear filter. Must be called once for each new still.
+    /// `still` is an RGBA8 or R8 texture with a linear filter. Must be called once for each new
+    /// still.
     void buildStill(const gpu::Texture& still, const ToneTexture& tone, const StereoRig& rig);
     /// Makes the still's pyramid from a picture in the video's geometry. Used for the flow between
     /// two frames.

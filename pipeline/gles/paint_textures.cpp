@@ -14,7 +14,7 @@ namespace {
 
 using Texel = std::array<std::uint8_t, 4>;
 
-/// Returns a table from the bytes of PaintPicture, which are square roots of linear values, to sRGB
+/// Returns a table that converts bytes of PaintPicture (square roots of linear values) to sRGB
 /// bytes.
 const std::array<std::uint8_t, 256>& srgbOfRoot() {
     static const auto kBytes = [] {

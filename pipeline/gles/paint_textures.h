@@ -9,8 +9,8 @@
 namespace mfar::gles {
 
 /// The paint of one part of a model (see PaintWords): repeating sRGB textures with all mipmap
-/// levels. A texture has only one texel if its paint is the same everywhere: `facing` without
-/// metal, `diffuse` of pure metal.
+/// levels. A texture has only one texel if its paint is the same everywhere. For example, `facing`
+/// is uniform for a part without metal, and `diffuse` for a part of pure metal.
 struct PaintTextures {
     /// Pictures that are larger than the GPU's largest texture are reduced to that size.
     explicit PaintTextures(const PaintSource& source);

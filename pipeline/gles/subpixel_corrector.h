@@ -14,8 +14,8 @@ public:
     /// The still camera of `stillRig` has the resolution of the still that is compared.
     explicit SubpixelCorrector(const StereoRig& stillRig);
 
-    /// Indices in a buffer of cells: of the flow's first cell, and of the first ErrorCell, or -1
-    /// without ErrorCells.
+    /// Indices in a buffer of cells. `flow`: the first cell of the flow. `errors`: the first
+    /// ErrorCell; -1: there are no ErrorCells.
     struct Fields {
         int flow, errors;
     };

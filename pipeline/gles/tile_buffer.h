@@ -9,7 +9,8 @@
 
 namespace mfar {
 
-/// The TileWork of a frame on the GPU. It needs a current GL context for its whole lifetime.
+/// The TileWork of a frame, stored on the GPU. This object needs a current GL context for its whole
+/// lifetime.
 class TileBuffer {
 public:
     /// Until the first set(), every tile counts as changed and matched.

@@ -51,8 +51,9 @@ void TileLists::find(const Field& field, const TileBuffer& tiles) {
               {gpu::storage(1, field.cells), gpu::storage(2, flags_)}, groupsOf(tiles_));
     for (int l = 0; l < static_cast<int>(levels_.size()); ++l) {
         const Level& level = levels_[l];
-        // The search in a group reads the adjacent groups of the next coarser pyramid level, so the
-        // margin grows from level to level [tiles].
+        // A group is listed if a flagged tile is within this margin around it [tiles]. The search
+        // in a group reads the adjacent groups of the next coarser pyramid level, so the margin
+        // grows from level to level.
         const int margin = (2 << l) - 2;
         list_.run({.tileColumns = tiles_.width,
                    .tileRows = tiles_.height,

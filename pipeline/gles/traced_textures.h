@@ -24,7 +24,8 @@ public:
     [[nodiscard]] const gpu::Texture& colour() const { return colour_; }
     [[nodiscard]] const gpu::Texture& surface() const { return surface_; }
     [[nodiscard]] const gpu::Texture& packed() const { return packed_; }
-    /// Valid only if TracedPicture::light, or TracedPicture::gloss, is not empty.
+    /// light() is valid only if TracedPicture::light is not empty, and gloss() only if
+    /// TracedPicture::gloss is not empty.
     [[nodiscard]] const gpu::Texture& light() const { return light_; }
     [[nodiscard]] const gpu::Texture& gloss() const { return gloss_; }
 

@@ -17,12 +17,12 @@
 
 namespace mfar {
 
-/// Looks up the colours of a warped picture (eq. 5 of the paper in docs/paper.md). ModelSilhouette
-/// has drawn the surfaces that are visible at the current pose. The light on a surface comes from
-/// the traced picture. If the traced picture does not show an object's surface, the light comes
-/// from the re-rendered pictures. Pictures without light give finished colours instead. A draw call
-/// processes simple pixels. A compute shader processes a list of all other pixels, for example at
-/// edges.
+/// Looks up the colours of a warped picture (eq. 5 of the paper, see docs/paper.md).
+/// ModelSilhouette has drawn the surfaces that are visible at the current pose. The light on a
+/// surface comes from the traced picture. If the traced picture does not show an object's surface,
+/// the light comes from the re-rendered pictures. Pictures without light give finished colours
+/// instead. A draw call processes simple pixels. A compute shader processes a list of all other
+/// pixels, for example at edges.
 class ViewLookUp {
 public:
     explicit ViewLookUp(const LensProjection& layer);

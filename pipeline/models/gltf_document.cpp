@@ -139,7 +139,8 @@ void GltfDocument::refuse(std::string_view place, std::string_view what) const {
 std::span<const std::uint8_t> GltfDocument::view(int bufferView, std::string_view place) const {
     const tinygltf::BufferView& view = at(gltf.bufferViews, bufferView, place);
     const std::span<const std::uint8_t> buffer = at(gltf.buffers, view.buffer, place).data;
-    // The sizes in the JSON are valid, but tinygltf may have made a smaller buffer.
+    // The sizes in the JSON agree (see requireSoundJson()), but tinygltf may have made a smaller
+    // buffer.
     if (view.byteOffset > buffer.size() || view.byteLength > buffer.size() - view.byteOffset)
         refuse(place, fmt::format("bufferView {} reaches beyond its buffer", bufferView));
     return buffer.subspan(view.byteOffset, view.byteLength);

@@ -11,8 +11,8 @@
 
 namespace mfar {
 
-/// The content of a glTF file. All bufferViews are inside their buffers. Other indices and numbers
-/// are not validated.
+/// The content of a glTF file. According to its JSON, all bufferViews are inside their buffers (see
+/// requireSoundJson()). Other indices and numbers are not validated.
 struct GltfDocument {
     tinygltf::Model gltf;
     std::string name;
@@ -41,9 +41,9 @@ struct GltfDocument {
                                         const std::filesystem::path& folder,
                                         const ModelLimits& limits);
 
-/// Validates the JSON of a document, because tinygltf trusts the ranges of images, copies the bytes
-/// of a buffer for each reference to it, and follows `extras` to any depth. Throws
-/// std::runtime_error with the message "place: fault".
+/// Validates the JSON of a document before tinygltf reads it. tinygltf does not check the ranges of
+/// images in buffers, copies the bytes of a buffer for each reference to it, and follows `extras`
+/// to any depth. Throws std::runtime_error with the message "place: fault".
 void requireSoundJson(std::string_view text, const ModelLimits& limits);
 
 }  // namespace mfar

@@ -9,8 +9,8 @@
 
 namespace mfar {
 
-/// The motion of a document's nodes: translations and rotations of its first animation. All other
-/// motion is left out, with a sentence in notes(). Invalid keyframes are refused.
+/// The motion of a document's nodes: translations and rotations of its first animation. Other
+/// motion is not played, and notes() contains a sentence about it. Invalid keyframes are refused.
 class GltfMotion {
 public:
     explicit GltfMotion(const GltfDocument& document);

@@ -11,8 +11,8 @@ namespace mfar {
 
 struct LightEstimate {
     SphericalLight radiance;  ///< in world coordinates; 1 is the video's white
-    /// Unit vector in the world towards the most light: the direction of the linear part of the
-    /// luminance.
+    /// Unit vector in the world towards the most light, from the luminance's spherical harmonics of
+    /// degree 1.
     Eigen::Vector3f mainDirection{0, 0, 1};
     /// 0 if all directions are equally bright, 1 if all light comes from one direction.
     float directionality = 0;

@@ -140,7 +140,7 @@ void readRow(HdrBytes& in, std::span<Rgbe> row) {
 }
 
 Eigen::Vector3f valueOf(const Rgbe& pixel, float scale) {
-    constexpr float kBrightest = 1e7F;  // 1000 times the sun's radiance if a studio lamp's is 1
+    constexpr float kBrightest = 1e7F;  // for comparison: a studio lamp has 1, the sun 1e4
     if (pixel[3] == 0) return Eigen::Vector3f::Zero();
     const float unit = std::ldexp(scale, pixel[3] - 136);
     const Eigen::Vector3f mantissa(pixel[0], pixel[1], pixel[2]);

@@ -14,17 +14,17 @@ constexpr double kInitialNoise = 0.29;
 // tile, in which texture is measured as noise.
 constexpr double kMaxNoise = 4.0;
 // The whole frame is drawn at once if at least this share of the tiles changed, because drawing
-// tile by tile costs 2.2 times as much per area (measured with llvmpipe).
+// tile by tile takes 2.2 times as long per area (measured with llvmpipe).
 constexpr double kWholeShare = 0.45;
 // When a whole frame is enlarged, detail is drawn tile by tile if at most this share of the tiles
 // in detailTiles has structure. Otherwise, detail is drawn in all tiles of detailTiles at once.
-// Enlarging costs 0.4 times as much as drawing detail.
+// Enlarging takes 0.4 times as long as drawing detail in all tiles at once.
 constexpr double kListedShare = 0.27;
 // Smallest structure of a matched tile, in units of the noise variance of a 2x2 mean. First term:
 // noise alone gives 13, from 16 means minus three degrees of freedom of the plane. Second term: the
-// weakest useful signal. superres_weigh.comp gives its detail a tenth of the weight. The variance
-// of this signal is 0.44 times the noise variance of a pixel, that is, 4 * 0.44 times the noise
-// variance of a 2x2 mean. It is summed over 16 means.
+// weakest useful signal, whose detail gets a tenth of the full weight in superres_weigh.comp. The
+// variance of this signal is 0.44 times the noise variance of a pixel, that is, 4 * 0.44 times the
+// noise variance of a 2x2 mean. It is summed over 16 means.
 constexpr double kStructure = 13 + 16 * 4 * 0.44;
 constexpr double kRoundingVariance = 1.0 / 12;  // variance of 8-bit rounding [grey levels^2]
 // In each frame, the grain estimate moves towards the measured value by a fraction of their

@@ -15,8 +15,8 @@ namespace mfar {
 [[nodiscard]] PixelRect tilesAround(const PixelRect& videoPixels);
 
 /// Decides what a frame has to compute. On the CPU, it compares each tile of the video with the
-/// video from which the tile was last drawn. A frame without any changed tile costs only this
-/// comparison.
+/// video from which the tile was last drawn. For a frame without any changed tile, this comparison
+/// is the only work.
 ///
 /// A tile is drawn again when noise does not explain its difference. In addition, the differences
 /// are summed over the unchanged tiles of each block of 8x8 tiles, and of the whole picture. If a
@@ -34,16 +34,16 @@ public:
     void update(const RgbPlanes& now, const RgbPlanes& drawn, bool force);
     /// Changes of the video that make it necessary to draw an overlay (the virtual objects) again.
     /// WithThem: a change of one of the overlay's tiles or of an adjacent tile. WithOthers: a
-    /// change of any tile. Always: none; the overlay is drawn again in any case.
+    /// change of any tile. Always: the overlay is drawn again even if no tile changed.
     enum class Redraw : std::uint8_t {
         WithThem,
         WithOthers,
         Always,
     };
     /// Must be called after an overlay was drawn over these tiles of the output picture. `redraw`
-    /// says after which changes the overlay must be drawn again, and applies to the next update()
-    /// only. If that update() finds such a change, all of these tiles count as changed. Without a
-    /// new call, WithThem applies.
+    /// determines after which changes the overlay must be drawn again, and applies to the next
+    /// update() only. If that update() finds such a change, all of these tiles count as changed.
+    /// Without a new call, WithThem applies.
     void drawnOver(const PixelRect& tiles, Redraw redraw);
     /// Sets the smallest share of changed tiles, [0, 1], for which the whole frame is drawn at
     /// once. With 0, any changed tile is enough.

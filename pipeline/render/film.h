@@ -68,7 +68,7 @@ public:
     explicit Film(Size size, std::shared_ptr<FilmMemory> memory = makeMemory());
 
     [[nodiscard]] Size size() const { return size_; }
-    /// Clears all pixels, and gives their blocks back to the memory.
+    /// Clears all pixels, and returns their blocks to the FilmMemory.
     void begin();
     void clear(std::size_t pixel) { begun(pixel) = Pixel{}; }
 

@@ -19,8 +19,8 @@ public:
     /// Normalised ray (x/z, y/z) of the pixel position (x, y). The position may be up to 1 px
     /// outside the picture.
     [[nodiscard]] Eigen::Vector2f at(float x, float y) const;
-    /// Returns a rectangle of whole table cells. It contains all pixels whose rays (x/z, y/z) lie
-    /// between `least` and `most`.
+    /// Returns a rectangle that contains all pixels whose rays (x/z, y/z) lie between `least` and
+    /// `most`. It consists of whole table cells, clipped to the picture.
     [[nodiscard]] PixelRect pixelsIn(const Eigen::Vector2f& least,
                                      const Eigen::Vector2f& most) const;
 

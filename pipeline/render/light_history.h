@@ -17,9 +17,9 @@ namespace mfar {
 /// must outlive this object.
 class LightHistory {
 public:
-    /// `film` and `view` are of the earlier picture; `lens` must belong to `view`. `mostSamples`
-    /// limits the weight of the light at a point [samples]. `moved` describes the motion of objects
-    /// since the earlier picture.
+    /// `film` and `view` belong to the earlier picture, `lens` to `view`. `mostSamples` limits the
+    /// weight of the light at a point [samples]. `moved` describes the motion of objects since the
+    /// earlier picture.
     LightHistory(const Film& film, const RenderView& view, std::shared_ptr<const LensRays> lens,
                  float mostSamples, std::optional<MovedLight> moved = {});
 

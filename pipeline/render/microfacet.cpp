@@ -53,7 +53,7 @@ AlbedoTables::AlbedoTables() {
             const float root = static_cast<float>(a) / (kAngles - 1);
             const float mu = std::max(root * root, 1e-4F);
             at[r][a] = albedoBySampling(roughness, mu);
-            // Trapezoidal rule over root = sqrt(mu), because 2 mu dmu = 4 root^3 droot.
+            // Trapezoidal rule over root = sqrt(mu). The mean's weight 2 mu dmu is 4 root^3 droot.
             const float weight = root * root * root * (a + 1 == kAngles ? 0.5F : 1.0F);
             sum.scale += weight * at[r][a].scale;
             sum.offset += weight * at[r][a].offset;

@@ -32,7 +32,7 @@ private:
     float alpha_, alpha2_;
 };
 
-/// Share of light that GGX reflects after one bounce. It is f0 * scale + offset for Schlick's
+/// Share of light that GGX reflects in a single bounce. It is f0 * scale + offset for Schlick's
 /// Fresnel term with reflectance f0 at normal incidence (Karis 2013).
 struct SpecularAlbedo {
     float scale = 1, offset = 0;

@@ -75,7 +75,8 @@ void MovedLight::follow(std::uint8_t id, Eigen::Vector3f& point, Eigen::Vector3f
     eye = moved->T_before_now * eye;
 }
 
-/// Returns the distant light that the ball hides from a surface, divided by pi.
+/// Returns the irradiance that a surface loses because the ball blocks distant light, divided by
+/// pi.
 float MovedLight::blocked(const Sight& sight, const Eigen::Vector3f& normal) const {
     // The result is an upper limit: a ball that is partly below the surface's horizon hides less.
     const float facing = std::clamp(normal.dot(sight.towards) + sight.sine, 0.0F, 1.0F);

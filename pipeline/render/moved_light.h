@@ -23,7 +23,7 @@ public:
         std::uint8_t id = 0;
         ObjectBall own;  ///< bounding ball in the object's frame
         RigidTransform T_world_before, T_world_now;
-        float glow = 0;  ///< luminance of its strongest emission
+        float glow = 0;  ///< luminance of the object's strongest emission
     };
     /// Objects that have not moved may be left out. `sun` and `far` must outlive this object.
     MovedLight(std::span<const Object> objects, const SunLight& sun, const FarLight& far);

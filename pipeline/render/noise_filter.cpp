@@ -25,7 +25,7 @@ constexpr float kTolerance = 2.5F;
 // then underestimate the noise, would not average these pixels, and the penumbra would have spots.
 // So kCatcherTolerance replaces kTolerance on the shadow catcher.
 constexpr float kCatcherTolerance = 4;
-constexpr int kBefore = 2;               // number of stages before the first level
+constexpr int kBefore = 2;               // number of stages before the filter's first level
 constexpr float kLeastVariance = 1e-7F;  // (a tenth of a grey level)^2 at white
 // Upper limit of the relative change of depth per pixel on one surface.
 constexpr float kDepthSlope = 0.01F;
@@ -123,7 +123,8 @@ void NoiseFilter::forNeighbours(int x, int y, int reach, int step, Use use) cons
     }
 }
 
-// The shadow catcher is left out: its light is a change, which is below 0 in a shadow.
+// A pixel of the shadow catcher gets no limits, because its light is the change caused by objects,
+// which is negative in a shadow.
 NoiseFilter::Limits NoiseFilter::limitsAt(int x, int y) const {
     const std::size_t i = static_cast<std::size_t>(y) * size_.width + x;
     const LightPixel& pixel = pixels_[i];

@@ -35,8 +35,9 @@ struct LightPixel {
 /// ignores neighbours across a depth edge or on another surface. Neighbours with another normal
 /// have less weight. Pixels without an id stay unchanged. A pixel without samples gets its
 /// neighbours' light. The samples of a pixel may include a rare bright one. So the light of an
-/// object's pixel is limited to that of its neighbours, but only if noise can explain the excess.
-/// This darkens an evenly lit surface by about a quarter of a pixel's standard error.
+/// object's pixel is limited to the third brightest of its neighbours, but only if noise can
+/// explain the excess. This darkens an evenly lit surface by about a quarter of a pixel's standard
+/// error.
 /// Variances fall with the number of samples, so that the filter finally changes nothing.
 /// The filter runs in stages, one after the other. Several threads may filter rows of the same
 /// stage at the same time.

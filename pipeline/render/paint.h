@@ -60,8 +60,8 @@ struct SurfaceLight {
     return {a.diffuse.cwiseProduct(b.diffuse), a.specular.cwiseProduct(b.specular)};
 }
 
-/// Packs the light of a surface, multiplied by `exposure`. Code that unpacks the words knows
-/// Paint::diffuse and Paint::facing but not Paint::albedo. So the words also contain the albedo.
+/// Packs the light of a surface, multiplied by `exposure`. The words also contain Paint::albedo,
+/// because the code that unpacks them has only Paint::diffuse and Paint::facing.
 [[nodiscard]] inline LightWords packed(const SurfaceLight& light, const Paint& paint,
                                        float exposure) {
     const float full = paint.albedo.full();

@@ -95,7 +95,8 @@ private:
     /// for this point.
     [[nodiscard]] Parts walk(const Vertex& first, Lobes lobes, Lights& lights,
                              const PixelSampler& sampler, World& world) const;
-    /// Adds the light that arrives at a walk's vertex from the lights and from its own emission.
+    /// Adds the light that the lights send to a walk's vertex, and the emission of the vertex
+    /// itself.
     void addDirect(const Vertex& vertex, Lights& lights, Walk& walk) const;
     /// Follows a reflected ray from a walk's vertex, and adds the distant light at its end. Returns
     /// true if it reaches a surface, which is then `walk.reached`.
@@ -104,7 +105,7 @@ private:
     /// an approximation of parts.direct.unblocked that needs no ray.
     [[nodiscard]] static Sent sum(const Parts& parts, const Sent& known, std::uint32_t number);
     /// Weight in multiple importance sampling. `taken` is the density of the strategy that
-    /// generated the sample; `other` is the density of the other strategy for it.
+    /// generated the sample; `other` is the density of the other strategy for this sample.
     using Weight = float (*)(float taken, float other);
     /// A sample of the sun or the environment. `far` is FarLight's approximation of its radiance.
     struct SampledLight {
@@ -118,7 +119,7 @@ private:
                                         World& world);
     [[nodiscard]] static Arrived lit(const Vertex& vertex, Lobes lobes, SampledLight& sampled,
                                      World& world);
-    /// Light of a point on an emissive triangle.
+    /// Samples a point on an emissive triangle, and returns its light.
     [[nodiscard]] Sent emitted(const Vertex& vertex, Lobes lobes, const PixelSampler& sampler,
                                std::uint32_t pair, World& world) const;
     /// Light from a direction in which a ray hits no surface. `far` is FarLight's approximation of

@@ -40,9 +40,8 @@ struct PathIntegrator::World {
     }
 
     /// True if nothing hides the sampled point: the first triangle that the ray hits must be the
-    /// sampled one. Of two triangles that coincide, only one gives light: the one that
-    /// RayScene::first() returns. Rays of next() find the same one. Holes of an alpha mask give no
-    /// light.
+    /// sampled one. If two triangles coincide, only the one that RayScene::first() returns gives
+    /// light, because next() uses the same function. Holes of an alpha mask give no light.
     bool sees(const EmissiveTriangles::Sample& sample) {
         Ray ray = sample.ray;
         const RayHit hit = scene.objects().first(ray);

@@ -110,7 +110,7 @@ struct PathTracer::Parts {
     TracedScene scene;
     std::shared_ptr<const DistantLight> light;
     PathIntegrator integrator;
-    float reach;  ///< half side of the cube in bounds() / half the diagonal of the objects' box
+    float reach;  ///< (side of the cube in bounds()) / (diagonal of the objects' box)
     std::shared_ptr<const MirrorLight> mirrors;
     std::vector<MovedLight::Object> moving;  ///< moving objects; their poses are not set
     mutable std::mutex lensMutex;
@@ -210,8 +210,8 @@ PathTracer::PathTracer(std::shared_ptr<const Scene> scene, const PathTracerOptio
     validate(options);
     if (!scene) throw std::invalid_argument("path tracer: there is no scene");
     validate(*scene);
-    // Computes the albedo tables now. They take as long as the first samples of a picture, and
-    // would otherwise be computed at first use and delay the first picture.
+    // Computes the albedo tables now. This takes as long as the first samples of a picture, and
+    // would delay the first picture if it were done at first use.
     static_cast<void>(meanSpecularAlbedo(1));
     parts_ = std::make_unique<const Parts>(std::move(scene), options);
 }
@@ -248,7 +248,7 @@ void PathTracer::trace(const RenderView& view, std::span<const std::uint32_t> pi
     if (!std::ranges::all_of(pixels, [count](std::uint32_t p) { return p < count; }))
         throw std::invalid_argument("film: a pixel to trace is outside the film");
     Batch batch(*parts_, view, film, history);
-    constexpr std::size_t kAhead = 4;  // see Film::prefetch()
+    constexpr std::size_t kAhead = 4;  // number of pixels by which Film::prefetch() runs ahead
     for (std::size_t p = 0; p < pixels.size(); ++p) {
         if (p + kAhead < pixels.size()) film.prefetch(pixels[p + kAhead]);
         const std::uint32_t pixel = pixels[p];

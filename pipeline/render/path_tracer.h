@@ -57,9 +57,9 @@ public:
     /// Rectangle around the pixels that an object may cover. It may be too large, or empty.
     [[nodiscard]] PixelRect objectBounds(const RenderView& view) const;
     /// Rectangle around the pixels that may show an object, or the shadow catcher near the objects.
-    /// It may be empty. Near is the inside of a cube around the objects. Half the cube's side is
-    /// shadowReach * glowReach() times half the diagonal of the objects' common box. On the catcher
-    /// outside the cube, the light of objects is ignored.
+    /// It may be empty. A point is near the objects if it is inside a cube around them. The cube's
+    /// side is shadowReach * glowReach() times the diagonal of the objects' common box. On the
+    /// catcher outside the cube, the light of objects is ignored.
     [[nodiscard]] PixelRect bounds(const RenderView& view) const;
 
 private:

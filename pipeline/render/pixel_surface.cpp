@@ -16,10 +16,10 @@ constexpr float kLeastMean = 0.1F;
 // A pixel's surface is first examined at three points: the pixel's centre and kFirst. These points
 // send mirrored light to the eye. If this light deviates from its mean by more than kContrast times
 // the brightness of the distant light, the six points of kRest are added. All nine points form a
-// grid of 3 x 3. Measured on the model "showpiece": nine points in every pixel give no better
-// pictures, because less time is left for samples. The alternative of one look-up, with a lobe
-// widened by the spread of the normals, is worse: where normals differ by more than the lobe's
-// width, their mirrored light is no single lobe.
+// grid of 3 x 3. Pictures of the model "showpiece" are not better if all pixels have nine points,
+// because less time is left for samples. They are worse if the distant light is looked up only once
+// per pixel, with a lobe widened by the spread of the normals: where normals differ by more than
+// the lobe's width, their mirrored light is no single lobe.
 constexpr float kContrast = 0.05F;
 constexpr float kThird = 1.0F / 3;
 constexpr std::array<PixelOffset, 2> kFirst = {{{-kThird, -kThird}, {kThird, kThird}}};
@@ -61,7 +61,8 @@ public:
         const float length = normals_.norm();
         if (!(length > kLeastMean * count_)) return;
         point.shading = normals_ / length;
-        // The spread of so few normals is too small on average. count / (count - 1) corrects it.
+        // The spread of a few normals is too small on average. The factor count / (count - 1)
+        // corrects this.
         const float spread = count_ > 1 ? (1 - length / count_) * count_ / (count_ - 1) : 0;
         const float alpha = alphaOf(point.look.roughness);
         point.look.roughness = std::min(1.0F, std::sqrt(std::sqrt(alpha * alpha + 2 * spread)));

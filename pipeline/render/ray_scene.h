@@ -28,7 +28,8 @@ struct RayHit {
     static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 
     float t = std::numeric_limits<float>::infinity();
-    /// `mesh` is RayScene::add()'s result. `triangle` is an index in this mesh.
+    /// `mesh` is the mesh's index in the RayScene, see add() and place(). `triangle` is an index in
+    /// this mesh.
     std::uint32_t mesh = kNone, triangle = 0;
     float u = 0, v = 0;  ///< weights of the second and third corners
 
@@ -42,14 +43,14 @@ struct HoleTest {
     const void* context = nullptr;  ///< argument of isHole(); must outlive the RayScene
 };
 
-/// Triangle meshes in a common coordinate frame, in which Embree finds ray hits. After commit(),
-/// several threads may call const functions at the same time.
+/// Triangle meshes in a common coordinate frame. Embree finds the hits of rays on them. After
+/// commit(), several threads may call const functions at the same time.
 class RayScene {
 public:
     /// Throws std::runtime_error if Embree is unavailable. `buildThreads` must be at least 1.
     explicit RayScene(int buildThreads = 1);
     /// Creates an empty scene on the same Embree device as `other`, so that place() can put one of
-    /// both scenes into the other.
+    /// the two scenes into the other.
     [[nodiscard]] static RayScene beside(const RayScene& other) { return RayScene(other.device_); }
 
     /// Copies the mesh and returns its index. Coordinates must be finite and indices in range.
@@ -68,8 +69,8 @@ public:
 
     [[nodiscard]] RayHit first(const Ray& ray) const;
     [[nodiscard]] bool blocked(const Ray& ray) const;
-    /// Returns the same hits as first() for each ray, bit for bit. It is fast for similar rays.
-    /// `hits` must be as long as `rays`.
+    /// Returns the same hits as first() for each ray, bit for bit. If the rays are similar, it is
+    /// faster than first(). `hits` must be as long as `rays`.
     void firstOfEach(std::span<const Ray> rays, std::span<RayHit> hits) const;
 
 private:

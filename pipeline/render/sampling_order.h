@@ -2,8 +2,8 @@
 
 #include <cstdint>
 
-/// Order of the pixels in a tile. The class Slices lists the pixels to be traced in this order. The
-/// class Film stores pixels in this order.
+/// Order of the pixels in a tile of the path tracer (8x8 pixels). The class Slices lists the pixels
+/// to be traced in this order. The class Film stores pixels in this order.
 namespace mfar::sampling {
 
 inline constexpr int kTileEdge = 8;  ///< [px]

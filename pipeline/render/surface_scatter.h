@@ -41,9 +41,9 @@ struct Reflectance {
 
 /// Reflection of glTF's metallic-roughness material, seen from one direction. It has three parts:
 /// GGX with Schlick's Fresnel term, multiple reflection between microfacets (Kulla and Conty 2017),
-/// and Lambert's law for light that enters and leaves a dielectric.
-/// The reflection is reciprocal, and reflects all light if the base colour is white. Directions
-/// have unit length and are above the surface. z is the normal.
+/// and Lambert's law for light that enters and leaves a dielectric. The model is reciprocal, and
+/// reflects all light if the base colour is white. Directions have unit length and are above the
+/// surface. z is the normal.
 class SurfaceScatter {
 public:
     SurfaceScatter(const SurfaceLook& look, const Eigen::Vector3f& wo);

@@ -46,7 +46,7 @@ public:
     [[nodiscard]] RayHit shown(const Ray& ray, RayHit hit) const;
     [[nodiscard]] std::uint8_t idOf(const RayHit& hit) const { return meshes_[hit.mesh]->id; }
 
-    /// Meshes of objects() and their triangles, numbered as in RayHit.
+    /// Numbers of meshes in objects(), and of triangles in a mesh. Indices are those of RayHit.
     [[nodiscard]] std::uint32_t meshes() const {
         return static_cast<std::uint32_t>(meshes_.size());
     }

@@ -7,8 +7,8 @@
 
 namespace mfar {
 
-/// Returns a rectangle that contains all pixels that see a point of the world-frame `box`. The
-/// rectangle may be larger than necessary. `rays` must belong to `view`.
+/// Returns a rectangle that contains all pixels in which a point of `box` (world frame) appears.
+/// The rectangle may be larger than necessary. `rays` must belong to `view`.
 [[nodiscard]] PixelRect pixelsOfBox(const Eigen::AlignedBox3f& box, const RenderView& view,
                                     const LensRays& rays);
 

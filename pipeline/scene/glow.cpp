@@ -35,7 +35,8 @@ double intensityOf(const SceneObject& object) {
     return sum * object.scale * object.scale;
 }
 
-/// Returns the irradiance that the distant light gives a surface on average.
+/// Returns the irradiance from the sun on a surface that faces it, plus the irradiance from the
+/// environment on a surface of average direction.
 double irradianceOf(const Lighting& lighting) {
     double sum = lighting.sun ? luminanceOf<float>(lighting.sun->irradiance) : 0;
     if (!lighting.environment) return sum;

@@ -43,7 +43,7 @@ struct Material {
 /// attribute is absent.
 struct Mesh {
     std::vector<Eigen::Vector3f> positions;  ///< [m], in the model's coordinates
-    std::vector<Eigen::Vector3f> normals;    ///< unit length; empty: use the triangles'
+    std::vector<Eigen::Vector3f> normals;    ///< unit length; empty: triangle normals are used
     std::vector<Eigen::Vector2f> uvs;
     std::vector<Eigen::Vector4f> tangents;  ///< xyz: unit tangent; w: bitangent's sign (+1, -1)
     std::vector<std::array<std::uint32_t, 3>> triangles;

@@ -20,7 +20,7 @@ using CellVector = std::array<float, 4>;
 struct FlowEnds {
     Lens lens;  ///< lens of the video camera
     Motion motion;
-    float nearPlane;  ///< a point is invalid if z of the changed ray is less than this
+    float nearPlane;  ///< a point is valid if z of its ray in the turned still exceeds this
     /// Largest valid |x| and |y| of a projected point [px]. A point that is invalid or exceeds this
     /// gets the position x = y = nowhere.
     float nowhere;
@@ -49,11 +49,11 @@ void cellFlow(const FlowEnds& ends, const CellRow& row, const float* s, CellVect
 void cellLandings(const CellVector* flow, int j, Size cells, std::int32_t* landing);
 
 /// Parameters of cellsHidden(), which tests if a nearer surface hides a cell in the other picture.
-/// `landing`: cell of the other picture that shows the cell's point; -1: none. `nearest[k]`:
-/// largest s of all cells with landing k. The first entry of `out` is the cell's distance behind
-/// the nearest surface [px of parallax]: (nearest[landing] - s) * pixelsPerUnit - slope, limited to
-/// [0, nowhere]. It is `nowhere` if `landing` is -1. `slope`: largest parallax [px] between two
-/// cells of one slanted surface.
+/// `landing`: cell of the other picture that shows the cell's point; -1: no cell shows it.
+/// `nearest[k]`: largest s of all cells with landing k. The first entry of `out` is the cell's
+/// distance behind the nearest surface [px of parallax]: (nearest[landing] - s) * pixelsPerUnit -
+/// slope, limited to [0, nowhere]. It is `nowhere` if `landing` is -1. `slope`: largest parallax
+/// [px] between two cells of one slanted surface.
 struct HiddenRule {
     float pixelsPerUnit, slope, nowhere;
 };
@@ -62,8 +62,8 @@ void cellsHidden(const std::int32_t* landing, const float* nearest, const float*
 
 /// Adjusts the inverse depth `s` of each cell to its measured `flow`. The new `s` puts the cell's
 /// point on its epipolar line, as near as possible to the end of `flow`. `start`: flow of the old
-/// `s`. `step`: change of `s` that moves a point by about a pixel. A cell keeps its old `s` if this
-/// change moves its point by less than `leastWay` [px].
+/// `s`. `step`: change of `s` that moves a point by about a pixel. A cell keeps its old `s` if a
+/// change by `step` moves its point by at most `leastWay` [px].
 void alignCells(const FlowEnds& ends, const CellRow& row, const CellVector* flow,
                 const CellVector* start, float step, float leastWay, float* s);
 

@@ -22,9 +22,9 @@ struct DirectMatch {
 };
 
 /// Corrects the flow of doubtful cells by comparing the video with the full-resolution still; see
-/// params::kPatchSamples. (The flow search compares it with a still reduced to the video's
-/// resolution.) Processes the cells [first, end) of a row; `flow` and `errors` contain all cells of
-/// the frame. CPU version of flow_direct.comp.
+/// params::kPatchSamples. (The flow search compares the video with a still that is reduced to the
+/// video's resolution.) Processes the cells [first, end) of a row; `flow` and `errors` contain all
+/// cells of the frame. CPU version of flow_direct.comp.
 ///
 /// A cell's flow is replaced by its flow along the epipolar line if the still fits clearly better
 /// there. If the correlation with the still exceeds 1 - FlowCell::cost, the sums of this comparison

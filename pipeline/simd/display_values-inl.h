@@ -27,7 +27,8 @@ template <class D>
 HWY_INLINE hw::Vec<D> SrgbLevel(D d, hw::Vec<D> linear) {
     const auto x = hw::Min(hw::Max(linear, hw::Zero(d)), hw::Set(d, 1));
     const auto s = hw::Sqrt(x);
-    // Approximates 255 (1.055 s^(2 / 2.4) - 0.055) with an error below 0.09 (Remez approximation).
+    // Approximates 255 (1.055 s^(2 / 2.4) - 0.055) with an error below 0.09 display levels (Remez
+    // approximation).
     auto high = hw::MulAdd(s, hw::Set(d, 132.00984F), hw::Set(d, -414.30241F));
     high = hw::MulAdd(s, high, hw::Set(d, 518.32418F));
     high = hw::MulAdd(s, high, hw::Set(d, -357.82060F));

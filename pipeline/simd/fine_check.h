@@ -48,7 +48,8 @@ private:
 
     void sumTiles(const Frame& frame, Scratch& scratch, int tileRow);
     void sum(const Frame& frame, Scratch& scratch, int row);
-    /// Number of pixels from the frame's left border to the first one after `cells` cells.
+    /// Number of pixels in a row of `cells` cells from the frame's left border on, plus one for the
+    /// next pixel, if the frame has one.
     [[nodiscard]] int pixelsOf(int cells) const;
 
     Size video_, cells_;

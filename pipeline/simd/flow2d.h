@@ -20,8 +20,8 @@ namespace mfar::simd {
 ///
 /// Work whose result is not read is skipped. At the two finest pyramid levels, unmatched tiles are
 /// searched only where neighbouring tiles read their vectors. The same applies to unchanged tiles,
-/// if only changed tiles are drawn. Cells of the still are searched only where flow vectors from
-/// the video end.
+/// if only changed tiles are drawn. At the finest level of the backward flow, cells of the still
+/// are searched only around the ends of flow vectors from the video.
 class Flow2d {
 public:
     /// Throws std::invalid_argument if an option is out of range.
@@ -46,8 +46,8 @@ public:
     /// Computes the flow from video to still. The search starts from `forward`, the vectors of the
     /// epipolar search, whose error is a fraction of a pixel. Tiles in which these vectors do not
     /// match (see TileSearch) are searched in two dimensions, from coarse to fine. The first entry
-    /// of each cell's `errors` is the two-way error of its `forward` vector [px], see eq. 2 in
-    /// docs/paper.md.
+    /// of each cell's `errors` is the two-way error of its `forward` vector [px], see eq. 2 of the
+    /// paper (docs/paper.md).
     using Cells = std::span<const std::array<float, 4>>;
     void refine(const Luma& luma, const TileWork& work, Cells forward, Cells errors);
 

@@ -94,9 +94,9 @@ void HolePyramid::markBlocks(const PixelRect& where, std::span<const Hole> holes
     }
 }
 
-/// Merges four texels into one texel of the next coarser pyramid level. The object that covers most
-/// of the new texel gets full weight (255) if it covers at least half of it. The same applies to
-/// the shadow catcher.
+/// Merges four texels into one texel of the next coarser pyramid level. The new texel stores the
+/// object that covers most of it. This object gets full weight (255) if it covers at least half of
+/// the texel. The same applies to the shadow catcher.
 HolePyramid::Area HolePyramid::merged(const std::array<Area, 4>& parts) {
     Area out;
     Mixture best, catcher;

@@ -32,7 +32,7 @@ public:
     };
     /// `holes`: the layer's holes, ascending. A hole is a crack if its isEdge is true, or if at
     /// least five of its eight neighbours show the same surface. Cracks are always filled, and
-    /// their isEdge is set to true. `filling` says which other holes are filled, too.
+    /// their isEdge is set to true. `filling` selects the other holes that are filled.
     void fill(const Layer& layer, std::span<Hole> holes, HoleFilling filling);
 
 private:

@@ -54,8 +54,8 @@ HWY_INLINE V3 Unpacked(VU words) {
             hn::Mul(scale, ByteOf<2 * kLightBits>(words))};
 }
 
-/// Returns `light` as light words (see base/light_word.h) whose free bits are 0. Its components
-/// must not be negative.
+/// Returns `light` as light words (see base/light_word.h) whose free bits are 0. The components of
+/// `light` must not be negative.
 HWY_INLINE VU Packed(const V3& light) {
     const DU du;
     const DI di;

@@ -76,7 +76,7 @@ OcclusionStep::OcclusionStep(Size video, Size output, Size layer, const Composit
       least_({withMargin(video).width, video.height + 1}), visibility_(output) {
     validate(options);
     // Strip's arrays also store the columns of the layer that a strip reads. So a strip must not
-    // read more columns than they can store.
+    // read more columns than these arrays can store.
     const double columnsPerPixel = static_cast<double>(layer.width) / output.width;
     longestStrip_ =
         std::clamp(static_cast<int>((kVisibilityChunk - 2) / columnsPerPixel), 1, kVisibilityChunk);

@@ -24,7 +24,7 @@ struct LayerRowsView {
     PixelRect bounds;  ///< bounds of the covered pixels; empty: nothing is drawn
 };
 
-/// Depth of the real scene at every video pixel, in memory that others own.
+/// Depth of the real scene at every video pixel, in memory that this struct does not own.
 struct RealDepth {
     /// `inverse`: inverse depth [1/m]. `sigma`: standard deviation of the inverse depth [1/m], or
     /// its variance [1/m^2] if `squared` is true.

@@ -62,7 +62,8 @@ HWY_INLINE Bend bendAt(const AlignStep& step, int column, int row) {
     const auto slope = [](Vector2 before, Vector2 here, Vector2 after) {
         return Vector2{slopeOf(before.x, here.x, after.x), slopeOf(before.y, here.y, after.y)};
     };
-    // A cell at the border has the change of the nearest cell with both differences.
+    // A cell at the border gets the change of the nearest cell for which both one-sided differences
+    // exist.
     const int c = std::clamp(column, 2, std::max(step.out.columns - 3, 2));
     const int r = std::clamp(row, 2, std::max(step.out.rows - 3, 2));
     return {
@@ -70,9 +71,9 @@ HWY_INLINE Bend bendAt(const AlignStep& step, int column, int row) {
         slope(seedAt(step, column, r - 2), seedAt(step, column, r), seedAt(step, column, r + 2))};
 }
 
-/// Where the parts of a patch's rows lie in the searched picture. A part is a row if kParts is 1,
-/// or half a row if kParts is 2. `upper`: offset of the pixel at a part's position. `lower`: offset
-/// of the pixel below.
+/// Positions of the parts of a patch's rows in the searched picture. A part is a row if kParts is
+/// 1, or half a row if kParts is 2. `upper`: offset of the pixel at a part's position. `lower`:
+/// offset of the pixel below.
 template <int kParts>
 struct BentPlaces {
     static constexpr int kCount = kPatch * kParts;
@@ -103,7 +104,7 @@ HWY_INLINE void placeParts(const PatchPicture& p, int column, int row, Vector2 u
     constexpr int kSpan = kPatch / kParts, kBeside = (kPatch - kSpan) / 2;
     const auto toX = hn::Set(d, static_cast<float>(patchStart(column, p.width)) + u.x);
     const auto toY = hn::Set(d, static_cast<float>(patchStart(row, p.height)) + u.y);
-    // Distance of the patch from the place around the middle of its cell.
+    // Shift of the patch from the position around the middle of its cell [px], see patchShift().
     const int shiftX = patchShift(column, p.width), shiftY = patchShift(row, p.height);
     const auto last = hn::Set(dInt, p.height - 1), zero = hn::Zero(dInt);
     const auto pitch = hn::Set(dInt, static_cast<std::int32_t>(p.pitch));
@@ -230,7 +231,7 @@ HWY_INLINE void addUpParts(const Patch& patch, const std::uint8_t* pixels,
 }
 
 #if HWY_MAX_BYTES >= 32
-/// addUpParts() for rows with a single position (kParts = 1), two rows at a time.
+/// Like addUpParts(), but for rows with a single part (kParts = 1), and two rows at a time.
 HWY_INLINE void addUpTwoRows(const Patch& patch, const std::uint8_t* pixels,
                              const BentPlaces<1>& places, std::int16_t slopeX, std::int16_t slopeY,
                              int cell, CompareSums& out) {

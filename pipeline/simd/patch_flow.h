@@ -49,10 +49,12 @@ struct SearchStep {
 };
 void searchCells(const SearchStep& step, int row, int first, int end);
 
-/// Parameters of the LISTED variant of flow_search.comp. At the finest pyramid level, a cell's
-/// vector in `search.out` is replaced only if the new cost is clearly smaller (kClearlyLess). The
-/// cell's two-way error, the first of its four floats in `errors`, is then replaced too. At coarser
-/// levels, `errors` is null, and the vectors of all cells are replaced.
+/// Parameters of the LISTED variant of flow_search.comp. At the finest pyramid level, a vector that
+/// ends farther than kOnLine from the end of the cell's vector in `search.out` replaces that vector
+/// only if its cost is clearly smaller (kClearlyLess). The cell's two-way error, the first of its
+/// four floats in `errors`, is then replaced too. A vector that ends closer always replaces it,
+/// without a change of the error. At coarser levels, `errors` is null, and the vectors of all cells
+/// are replaced.
 struct ListedStep {
     SearchStep search;
     float* errors = nullptr;

@@ -234,7 +234,8 @@ private:
 };
 
 /// Computes the path costs along rows in both directions at once. Each pixel of a path needs the
-/// result of the previous one. With two independent paths, the CPU waits less for results.
+/// result of the previous one. The two directions are independent, so the CPU can work on one path
+/// while it waits for the result of the other.
 template <int Blocks>
 HWY_INLINE void blocksAlongRows(const PathVolume& v, int y) {
     static_assert(Blocks == 1 || Blocks == 2 || Blocks == 4);

@@ -5,7 +5,7 @@
 
 namespace mfar::simd {
 
-/// A table that is owned by a RowTaps, as resampleRow() reads it.
+/// The table of a RowTaps, in the form that resampleRow() reads. The RowTaps owns the memory.
 struct TapTable {
     const std::int32_t* first;  ///< see RowTaps::first(); 64 bytes of padding repeat the last entry
     const float* weights;       ///< see RowTaps::weight(); one row per tap

@@ -188,7 +188,8 @@ private:
         for (int y = 0; y < backward.size.height; ++y)
             to = std::copy_n(backward[y], backward.size.width, to);
     }
-    // Must not be called if no tile is matched, because the last frame's flow is then still valid.
+    // Must not be called if no tile is matched: row_ then contains the corrected flow of the last
+    // frame, which is still valid and would be overwritten.
     void takeForward() {
         const Rows<const FlowCell> forward = flow_.forward();
         FlowCell* to = row_[0];

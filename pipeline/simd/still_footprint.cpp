@@ -48,7 +48,8 @@ HWY_INLINE Ray undistorted(const float* distortion, const Ray& target) {
 }
 
 constexpr int kTaps = params::kFootprintTaps;
-// Number of bits of a weight, so that sums of products of a pixel and two weights fit into 32 bits.
+// Number of bits of a weight. With 14 bits, a weight of 1 fits into a signed 16-bit integer, and a
+// footprint's weighted sum into 32 bits.
 constexpr int kShareBits = 14;
 constexpr float kShare = 1 << kShareBits;
 

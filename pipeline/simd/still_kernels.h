@@ -28,9 +28,10 @@ void lumaOfPairs(const std::uint8_t* yAndChroma, const std::int16_t* chroma, con
 void raisedRow(const std::array<const std::uint8_t*, 3>& luma, std::int16_t neighboursShare,
                std::size_t pixels, std::uint8_t* to);
 
-/// Removes noise from a row of luma. A pixel moves towards the mean of its 3x3 neighbourhood: the
-/// more, the less the variance there exceeds `noise` [grey levels^2], which must be positive
-/// (Wiener filter, still_quiet.frag). `luma`: as in raisedRow().
+/// Removes noise from a row of luma. The difference between a pixel and the mean of its 3x3
+/// neighbourhood is reduced by the share noise / max(variance, noise), where `variance` is the
+/// variance in the neighbourhood (Wiener filter, still_quiet.frag). `noise` [grey levels^2] must be
+/// positive. `luma`: as in raisedRow().
 void quietRow(const std::array<const std::uint8_t*, 3>& luma, float noise, std::size_t pixels,
               std::uint8_t* to);
 

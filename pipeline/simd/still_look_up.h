@@ -22,9 +22,9 @@ struct LookUpParams {
     float scaleX, scaleY;  ///< still pixels per video pixel
 };
 
-/// Tells lookUpCells() the two-way errors of a row of cells. If `errors` is not null, it contains
-/// them, from the row's first cell on. Otherwise they are computed from `field`, the flow from
-/// still to video.
+/// The source from which lookUpCells() gets the two-way errors of a row of cells. If `errors` is
+/// not null, it contains the errors, from the row's first cell on. Otherwise they are computed from
+/// `field`, the flow from still to video.
 struct BackwardCells {
     const ErrorCell* errors = nullptr;
     const FlowCell* field = nullptr;
@@ -45,8 +45,8 @@ struct LookUpRow {
     int row, count;
     const float *flowX, *flowY;  ///< [video px]
     float *lookX, *lookY;        ///< LookUpCell::x and y [still px]
-    /// Confidence, as in eq. 2 of docs/paper.md with lambda(x) = min(x, 1). It is 0 if the flow
-    /// ends outside the still or outside the video.
+    /// Confidence, as in eq. 2 of the paper with lambda(x) = min(x, 1), see docs/paper.md. It is 0
+    /// if the flow ends outside the still or outside the video.
     float* confidence;
 };
 

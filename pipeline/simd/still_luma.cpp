@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::array<float, 3> kRec601{params::kLumaRed, params::kLumaGreen, params::kLumaBlue};
 // Chroma is ignored if its coefficients are below this threshold: it then changes luma by less than
-// a tenth of a grey level.
+// 0.3 grey levels.
 constexpr float kLeastChroma = 1e-3F;
 
 bool isYuv(PixelFormat format) {
@@ -62,8 +62,9 @@ void StillLuma::row(int y, Scratch& scratch, std::uint8_t* luma) const {
     }
 }
 
-// Interpolates chroma for row y: along each axis with lower resolution, 3/4 of the nearer sample
-// plus 1/4 of the next one. Returns null if luma does not depend on chroma.
+// Interpolates chroma for row y. Along each axis in which chroma has fewer samples than Y, the
+// result is 3/4 of the nearer sample plus 1/4 of the next one. Returns null if luma does not depend
+// on chroma.
 const std::int16_t* StillLuma::chromaRow(int y, Scratch& scratch) const {
     if (!needsChroma_) return nullptr;
     const int width = picture_.size.width / 2;

@@ -11,7 +11,8 @@
 namespace mfar::simd {
 namespace {
 
-// The halved copy of a band has one row of blocks, with a row above and below.
+// The halved copy of a band has one row of blocks (8 pixel rows), with one more pixel row above and
+// below.
 constexpr int kBands = 24, kBandRows = 20;
 constexpr int kPadding = 64;  // StillLuma::row() writes beyond the end of a row [px]
 

@@ -7,10 +7,9 @@ namespace mfar::simd {
 /// Returns the standard deviation of the noise in the luma of a valid still [grey levels]. Up to
 /// 480 rows are read. If a still is too small to be measured, the result is 0.
 ///
-/// Noise and fine texture differ in what halving the picture leaves of them: half of the standard
-/// deviation of white noise, but about all of the contrast of texture, because natural textures
-/// have as much contrast at twice the scale. So the noise is computed from the difference of
-/// BlockNoise between the still and its halved copy.
+/// Halving the picture halves the standard deviation of white noise, but hardly changes the
+/// contrast of texture, because natural textures have as much contrast at twice the scale. So the
+/// noise is computed from the difference of BlockNoise between the still and its halved copy.
 [[nodiscard]] double noiseOfStill(const ImageView& still);
 
 }  // namespace mfar::simd

@@ -118,8 +118,8 @@ void StillPreparation::applyTone(const StillTone& tone) {
     });
 }
 
-// Returns row y of detailed() without noise and with the tone curve. It stays valid while no row
-// further away than two rows is requested.
+// Returns row y of detailed() without noise and with the tone curve. The result stays valid until a
+// row that is more than two rows away is requested.
 const std::uint8_t* StillPreparation::shownRow(int y, const StillTone& tone, float quiet,
                                                Scratch& scratch) {
     Luma& luma = detailed();

@@ -21,11 +21,11 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using I16 = hn::Rebind<std::int16_t, D>;
 
-constexpr int kSamples = 2 * kCell + 2;  // along each axis of a cell, with one more on each side
+constexpr int kSamples = 2 * kCell + 2;  // samples along an axis of a cell, plus one on each side
 constexpr float kMiddle = 1.5F;          // centre of a cell, from its first pixel
 
-/// Where the still shows a cell: the position of the cell's centre, and its change per video pixel
-/// along x and along y [still px]. `isInside`: the centre is inside the still.
+/// Position of a cell in the still: that of the cell's centre, and its change per video pixel along
+/// x and along y [still px]. `isInside`: the centre is inside the still.
 struct Place {
     Point centre, alongX, alongY;
     hn::Mask<D> isInside;
@@ -169,8 +169,9 @@ void SubpixelSumsRow(const LookUpParams& lookUp, const StillPairs& still,
             SumsOf(lookUp, still, cells, x, to);
 }
 
-/// Sums over a cell and its neighbours. `away` is the sum of the neighbours' squared derivatives
-/// times their distance from the cell's plane.
+/// Weighted sums over a cell and its neighbours. awayX and awayY: sum of the products of each
+/// neighbour's matrix [XX, XY; XY, YY] and the difference between the neighbour's flow and the
+/// plane through the cell's flow.
 struct Around {
     V sum[kSubpixelSums];
     V awayX, awayY;
@@ -208,7 +209,7 @@ HWY_INLINE void AddNeighbour(const SubpixelAround& in, int x, int i, int j, Arou
     to.awayY = hn::MulAdd(of[XY], nearX, hn::MulAdd(of[YY], nearY, to.awayY));
 }
 
-/// Returns the Gauss-Newton step [px]; 0 if it is refused.
+/// Returns the Gauss-Newton step [px]; 0 if the gain is too small or the step too long.
 HWY_INLINE Point StepOf(const Around& in, float noise) {
     const auto& s = in.sum;
     const V gain = hn::Div(s[VS], hn::Add(s[SS], Const(noise)));

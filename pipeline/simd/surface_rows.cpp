@@ -123,7 +123,7 @@ void FinishBand(const RasterBand& band) {
     const auto none = hn::Set(d, kNoSurface), bits = hn::Set(d, ~kBehindObjects);
     for (int y = band.where.y0; y < band.where.y1; ++y) {
         std::uint32_t* words = band.words[y];
-        // Whole vectors are written, because words after the band's columns are not used.
+        // Whole vectors can be written, because words after the band's columns are not used.
         for (int x = band.where.x0; x < band.where.x1; x += static_cast<int>(hn::Lanes(d))) {
             const auto word = hn::LoadU(d, words + x);
             hn::StoreU(hn::IfThenZeroElse(hn::Eq(word, none), hn::And(word, bits)), d, words + x);

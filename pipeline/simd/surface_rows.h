@@ -36,7 +36,7 @@ void projectCorners(const MeshRows& mesh, int count, const PointTransform& view,
 struct RasterCorner {
     float x, y;
     float perZ;
-    float u = 0, v = 0;  ///< texture coordinates in RasterMask, divided by z
+    float u = 0, v = 0;  ///< texture coordinates, divided by z
 };
 
 /// A linear function on the grid: its value at the centre of pixel (0, 0), and its change per
@@ -59,7 +59,8 @@ struct RasterTriangle {
     bool longIsLeft;
 };
 
-/// Alpha mask of a surface with transparent parts: a texture whose alpha decides where it is drawn.
+/// Alpha mask of a surface with transparent parts: a texture whose alpha decides where the surface
+/// is drawn.
 struct RasterMask {
     const std::uint8_t* rgba;
     Size size;

@@ -112,9 +112,9 @@ HWY_INLINE Moments MomentsOf(const Blocks::CellSums& sums, int tile) {
 
 /// Sums of squares over a tile's luma difference (new frame minus the frame drawn last). Four
 /// values a b above c d have the twist a - b - c + d. Each block of 2x2 pixels has a sum and a
-/// twist. `means`: squares of these sums. `noise`: squares of these twists. Each 2x2 blocks also
-/// have a twist, that of their four sums. `bends`: squares of these twists, divided by 256; see
-/// TileMeasure::bends.
+/// twist. `means`: squares of these sums. `noise`: squares of these twists. Each group of 2x2
+/// blocks also has a twist, which is computed from the four sums of its blocks. `bends`: squares of
+/// the twists of groups, divided by 256; see TileMeasure::bends.
 struct LumaDifference {
     V means, bends, noise;
     Moments moments;

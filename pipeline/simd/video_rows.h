@@ -16,7 +16,7 @@ struct VideoTaps {
 };
 
 /// Computes rows of the video, sharpened and enlarged to the output's width, when they are
-/// requested. Keeps the last four. Each thread has its own object.
+/// requested. Keeps the last four rows. Each thread has its own object.
 class VideoRows {
 public:
     VideoRows(Size video, int outputWidth);

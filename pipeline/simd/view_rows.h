@@ -46,13 +46,14 @@ struct ViewLookUpInput {
 struct ViewRow {
     int count;
     const std::uint32_t *upper, *lower;  ///< surfaces of the pixels' upper and lower quarters
-    /// See SurfaceRaster::paintRow(). It is read only if ViewLookUpInput::lights is not null.
+    /// Result of SurfaceRaster::paintRow(). Read only if ViewLookUpInput::lights is not null.
     const PaintWords* paint;
     const float *rayX, *rayY;  ///< rays with z = 1
     std::uint32_t* colour;     ///< RGBA8 premultiplied
     float* depth;              ///< z [m]; 0: empty
     std::uint32_t* state;      ///< see WarpStep::state()
-    /// Indices of the pixels that were not looked up. It must have room for `count` + 16 entries.
+    /// Indices of the pixels that were not looked up. The array must have room for `count` + 16
+    /// entries.
     std::uint32_t* left;
 };
 

@@ -46,8 +46,8 @@ bool Decide(const DecideRow& row, const VisibilityParams& params) {
     return anyOpen;
 }
 
-/// Returns e^x for x <= 0, with an error below 1e-5. It is computed as 2^y. The power of y's
-/// fractional part is approximated by a polynomial.
+/// Returns e^x for x <= 0, with an error below 1e-5. It is computed as 2^y. A polynomial
+/// approximates 2 to the power of y's fractional part.
 HWY_INLINE V Exp(V x) {
     const hn::RebindToSigned<D> di;
     const V power = hn::Max(hn::Mul(x, Const(1.44269504F)), Const(-100));

@@ -17,7 +17,8 @@ constexpr float kMeanScale = 32;  // units of the mean per grey level
 
 /// Returns the weights that average the warped still over a video pixel along one axis, as the mean
 /// of four samples. Each sample is interpolated linearly, which blurs it. To make up for this blur,
-/// the samples are closer together. So the mean is not wider than a video pixel.
+/// the samples are closer together than a quarter of a video pixel. So the mean is not wider than a
+/// video pixel.
 RowTaps meanOf(int output, int video) {
     // Linear interpolation has a tent-shaped kernel; its variance is 1/6 of the squared distance
     // between source entries. The four positions of RowTaps::mean() have a variance of 5/64 of the

@@ -23,7 +23,7 @@ struct WeighInput {
     /// gain between the sensors is measured at the second level.
     const std::vector<LumaLevel>& videoLuma;
     const std::vector<LumaLevel>& stillLuma;
-    std::span<const std::uint32_t> words;  ///< must end with kLumaSpareWords
+    std::span<const std::uint32_t> words;  ///< must end with kLumaSpareWords unused words
     Rows<const FlowCell> forward;          ///< flow from video to still
     /// Flow from still to video, in pixels of pyramid level `backwardLevel`. Read only if
     /// errors.data is null.

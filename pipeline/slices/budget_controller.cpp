@@ -18,9 +18,9 @@ constexpr double kPortionsPerFrame = 16;
 // Upper limit of unused time carried over to the next frame, as a share of the budget. Time remains
 // unused if the threads get too little processor time.
 constexpr double kMostSaved = 0.08;
-// Converting a picture may exceed the budget of a frame. The excess becomes a debt of at most
-// kMostDebt budgets. Each frame repays kRepaid times the budget. If the debt is larger than the
-// budget, the frame repays kRepaid times the debt instead.
+// Work reported to spentElsewhere() may exceed the budget of a frame. The excess becomes a debt of
+// at most kMostDebt budgets. A frame with waiting work repays kRepaid times the budget, or kRepaid
+// times the debt if the debt is larger. A frame without waiting work repays up to the whole budget.
 constexpr double kMostDebt = 10, kRepaid = 0.08;
 
 double valid(double ms) {

@@ -23,8 +23,8 @@ constexpr double kHopeless = 3;
 // The shown picture is converted again when its number of samples has grown by this factor.
 constexpr int kSamplesRatio = 2;
 // The camera rests if it moves by less than kRestPixels in kRestLooks calls of look(). At rest, the
-// shown picture should not need to be warped. So a new picture begins if the shown picture is off
-// by more than kElsewherePixels.
+// shown picture should not need to be warped. So a new picture begins if objects in the shown
+// picture are more than kElsewherePixels away from their present places.
 constexpr double kRestPixels = 0.1, kElsewherePixels = 0.2;
 constexpr int kRestLooks = 10;
 // Upper limits of the weight with which the light of an earlier picture counts in a new one

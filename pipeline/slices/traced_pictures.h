@@ -24,7 +24,7 @@ enum class TracedStep : unsigned char {
 
 /// `sinceShown` is viewChange() from the view of the shown picture to the present view; `sinceNext`
 /// is the same for the next picture. A value is empty if its picture does not exist or shows
-/// another scene. Without a next picture, one begins if `sinceShown` reaches `renewed`.
+/// another scene. Without a next picture, one begins if `sinceShown` is empty or reaches `renewed`.
 [[nodiscard]] TracedStep nextStep(std::optional<double> sinceShown, std::optional<double> sinceNext,
                                   double renewed);
 
@@ -152,7 +152,7 @@ private:
     int restLooks_ = 0;
     Timestamp chosen_, time_;
     std::vector<RigidTransform> posesNow_;  // empty if no object moves
-    double period_ = 0;  // time from the begin of a picture until it is shown [s], smoothed
+    double period_ = 0;  // time from the start of a picture until it is shown [s], smoothed
     std::uint64_t finished_ = 0;
 };
 

@@ -13,8 +13,8 @@ namespace mfar {
 /// Renders traced pictures of a scene in its own low-priority threads. The threads have a budget of
 /// processor time per call of update(). They sleep if this time is used up or no work is left.
 /// Building a scene's search structure is not part of the budget.
-/// All functions must be called by the thread that handles the frames. No function waits or takes a
-/// lock. No function allocates memory after the first pictures.
+/// All functions must be called by the thread that handles the frames. No function except rests()
+/// waits or takes a lock. No function allocates memory after the first pictures.
 class TracedRenderer {
 public:
     /// `memory` is for the films. Throws std::invalid_argument if an option is out of range.

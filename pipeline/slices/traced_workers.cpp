@@ -86,8 +86,8 @@ void TracedWorkers::readMail() {
     if (mail_.ticks.fetch()) takeTick();
 }
 
-// Drops the request if the scene of its picture was replaced. The next picture will cause a new
-// request.
+// Drops the request if its scene is neither shown nor traced any more. The next picture will cause
+// a new request.
 void TracedWorkers::takeHoles(HoleRequest& request) {
     const std::shared_ptr<const Scene> source = std::exchange(request.source, nullptr);
     const std::shared_ptr<const PictureScene>& scene =

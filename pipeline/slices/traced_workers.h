@@ -29,7 +29,7 @@ struct RenderMail {
     TripleBuffer<RenderedPicture> pictures;
     TripleBuffer<RenderCounters> counters;
     TripleBuffer<std::string> errors;
-    std::atomic<std::uint32_t> wakes{0};  ///< number of messages to the workers
+    std::atomic<std::uint32_t> wakes{0};  ///< incremented to wake workers
     std::atomic<bool> stop{false};
 };
 

@@ -7,7 +7,7 @@
 
 namespace mfar {
 
-/// Up to these changes of the view, a warped picture serves as well as a new one.
+/// Largest changes of the view up to which a warped picture is as good as a new one.
 struct ViewLimits {
     /// Angle between the lines from an object's centre to the two camera positions [degrees], above
     /// 0.
@@ -16,11 +16,11 @@ struct ViewLimits {
     bool operator==(const ViewLimits&) const = default;
 };
 
-/// Returns the difference of two views as a multiple of the limits. From 1 on, a picture of the
-/// view `from` must not be warped to the view `to`. The warp can undo a pure rotation of the
-/// camera. Therefore a rotation counts only for objects that `from` shows incompletely. Objects
-/// that are not visible in `to` do not count. Infinite if the cameras differ, or if an object is
-/// visible only in `to`.
+/// Returns the difference of two views as a multiple of the limits. If the result is 1 or more, a
+/// picture of the view `from` must not be warped to the view `to`. The warp can undo a pure
+/// rotation of the camera. Therefore a rotation counts only for objects that `from` shows
+/// incompletely. Objects that are not visible in `to` do not count. Infinite if the cameras differ,
+/// or if an object is visible only in `to`.
 [[nodiscard]] double viewChange(const RenderView& from, const RenderView& to,
                                 std::span<const ObjectBall> objects, const ViewLimits& limits);
 

@@ -14,13 +14,15 @@ constexpr double kFiner = 1.4;
 // a smaller reduction, the blur by resampling would be worse than the aliasing that it prevents.
 constexpr double kWorthReducing = 0.9;
 
-// Less noise than this is not seen, and is not removed [grey levels].
+// Less noise than this [grey levels] is invisible and is not removed.
 constexpr double kSeenNoise = 0.75;
-// No sensor has more noise than this. A still that seems to have more has very fine texture.
+// No sensor has more noise than this [grey levels]. If more is measured in a still, the still has
+// very fine texture.
 constexpr double kMostNoise = 12;
-// This number of noise variances is removed. In flat areas, the variance of 3x3 pixels varies by a
-// half, so a factor of 1 would leave specks. With noise of 3 and 6 grey levels added to the stills
-// of photographs, the factor 4 gains 0.5 and 1.9 dB; factors from 3 to 6 differ by 0.03 dB.
+// The removed variance is this factor times the noise variance. In flat areas, the variance of 3x3
+// pixels varies by a half, so a factor of 1 would leave specks. With noise of 3 and 6 grey levels
+// added to the stills of photographs, the factor 4 gains 0.5 and 1.9 dB; factors from 3 to 6 differ
+// by 0.03 dB.
 constexpr double kRemoved = 4;
 
 }  // namespace

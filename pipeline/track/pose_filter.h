@@ -21,8 +21,8 @@ struct PoseFilterOptions {
     double gate = 50;
     /// The filter restarts after this number of consecutive outliers that agree with each other.
     int jumpFrames = 3;
-    /// Limits of predictions without an accepted pose: this time and bridgeFrames frames. Beyond
-    /// one of them, there is no prediction.
+    /// Limits of predictions without an accepted pose: this time, and bridgeFrames frames. If one
+    /// of them is exceeded, there is no prediction.
     std::chrono::nanoseconds bridge = std::chrono::milliseconds(400);
     int bridgeFrames = 12;
 };

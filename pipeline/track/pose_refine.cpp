@@ -25,7 +25,8 @@ struct Estimate {
     double edgeShift = 0;
 };
 
-// True unless the point is behind the camera or almost in its image plane, where no lens sees it.
+// True unless the point is behind the camera or beside it, at almost 90 degrees from the optical
+// axis, where no lens sees it.
 bool inFront(const Eigen::Vector3d& p) {
     return p.z() > 1e-3 * p.norm();
 }
@@ -40,9 +41,9 @@ double totalError(std::span<const CornerSet> sets, const Estimate& at, const Cam
     return sum;
 }
 
-/// Linearises the reprojection errors at the pose `at`. The variable is the small motion x in
-/// T_world_camera * exp(x). It moves a point p in camera coordinates by cross(p, rotation) -
-/// translation.
+/// Linearises the reprojection errors at the estimate `at`. The variables are the small motion x in
+/// T_world_camera * exp(x), and the edge shift. The motion moves a point p in camera coordinates by
+/// cross(p, rotation) - translation.
 NormalEquations linearise(std::span<const CornerSet> sets, const Estimate& at,
                           const CameraModel& camera, double shiftWeight) {
     const RigidTransform T_camera_world = at.T_world_camera.inverse();

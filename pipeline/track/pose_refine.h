@@ -30,7 +30,8 @@ outwardsOf(const std::array<Eigen::Vector2d, 4>& corners);
 struct RefinedPose {
     RigidTransform T_world_camera;
     /// J^T J, where J is the derivative of the corners' positions [px] with respect to a small
-    /// motion in camera coordinates. It is reduced by what an unknown edge shift could explain.
+    /// motion in camera coordinates. The information that is lost because the edge shift is unknown
+    /// has been subtracted.
     Matrix6 information;
     double squaredError = 0;
     double edgeShift = 0;

@@ -77,7 +77,7 @@ void check(const DetectorOptions& o) {
     require(!o.families.empty(), "no tag family is given");
     const double d = o.decimation;
     require(d == 1.5 || (d >= 1 && d <= 8 && d == std::floor(d)),
-            "decimation must be 1.5 or a whole number up to 8");
+            "decimation must be 1.5 or a whole number from 1 to 8");
     require(o.threads >= 1 && o.threads <= 64, "threads must be from 1 to 64");
     require(o.blur >= 0 && o.blur <= 5, "blur must be from 0 to 5");
     require(o.maxHamming == 0 || o.maxHamming == 1, "maxHamming must be 0 or 1");

@@ -12,8 +12,8 @@
 
 namespace mfar {
 
-/// Thrown if a tag map is invalid. The message is one line. It begins with "file:line: ". If no
-/// single line is to blame, it begins with "file: ".
+/// Thrown if a tag map is invalid. The message is one line. It begins with "file:line: ", or with
+/// "file: " if the fault is not in a particular line.
 class TagMapError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
@@ -63,8 +63,8 @@ private:
 /// coordinates become the world.
 ///
 /// In the file's tag coordinates, y points up and z out of the surface. Poses are converted to the
-/// tag coordinates of MappedTag. The file does not name the tag family, so `family` does. Throws
-/// TagMapError.
+/// tag coordinates of MappedTag. The file does not name the tag family, so it is the argument
+/// `family`. Throws TagMapError.
 [[nodiscard]] TagMap tagMapFromRosYaml(std::string_view text, const std::string& file,
                                        TagFamily family = TagFamily::Tag36h11);
 

@@ -43,7 +43,7 @@ inline std::optional<std::string> wrongWith(const RawTag& raw, std::set<TagKey>&
             return fmt::format("the position must be from {} to {} m, not {}",
                                plausible::kTagPosition.least, plausible::kTagPosition.most,
                                coordinate);
-    // The numbers in files have nine digits. Rounding them cannot change the length by 1e-3.
+    // tomlOf() writes nine decimals. Rounding to them cannot change the length by 1e-3.
     if (!(std::abs(raw.wxyz.norm() - 1) < 1e-3))
         return fmt::format("the quaternion must have length 1, not {}", raw.wxyz.norm());
     if (!seen.insert({raw.family, static_cast<int>(raw.id)}).second)

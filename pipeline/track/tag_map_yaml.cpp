@@ -10,7 +10,7 @@
 namespace mfar {
 namespace {
 
-/// Rotates tag coordinates to the tag coordinates of apriltag_ros (x right, y up, z out of the
+/// Rotates tag coordinates (see MappedTag) to those of apriltag_ros (x right, y up, z out of the
 /// surface). The rotation is half a turn about x.
 const Eigen::Quaterniond kRosTagOfTag(0, 1, 0, 0);
 

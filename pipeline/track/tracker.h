@@ -17,9 +17,9 @@ struct TrackerOptions {
     /// The coordinates of the map are the world, and only tags of the map's families are searched.
     /// If the map is empty, tags of `families` are searched instead. In the first picture that
     /// shows tags, the largest one becomes the world: the origin is its centre, x points right and
-    /// y up in its print, and z out of the print. If the filter stops to predict before it accepted
-    /// this tag's pose in five frames, the tag was a false detection, and another tag becomes the
-    /// world.
+    /// y up in its print, and z out of the print. If the filter stops predicting before it has
+    /// accepted this tag's pose in five frames, the tag was a false detection, and another tag
+    /// becomes the world.
     TagMap map;
     std::vector<TagFamily> families{TagFamily::Tag36h11};
     double tagSize = 0.1;  ///< size of the tag that becomes the world [m]
@@ -27,7 +27,7 @@ struct TrackerOptions {
     double decimation = 2;
     double stillDecimation = 4;
     int threads = 1;              ///< threads of libapriltag for each sensor
-    int fullSearchInterval = 15;  ///< number of frames between two searches of the whole picture
+    int fullSearchInterval = 15;  ///< most frames from one search of the whole picture to the next
     /// Gamma of the video and of stills, see CornerRefiner.
     double gamma = 2;
     double stillGamma = 2;

@@ -8,8 +8,9 @@
 
 namespace mfar {
 
-/// A surface of one roughness as a mirror of distant light. The light is interpolated between the
-/// tables `table` and `table` + 1 of MirrorLight. `share` is the weight of table `table` + 1.
+/// Describes how a surface of one roughness mirrors distant light. The light is interpolated
+/// between the tables `table` and `table` + 1 of MirrorLight. `share` is the weight of table
+/// `table` + 1.
 struct MirrorLook {
     std::size_t table = 0;
     float share = 0;

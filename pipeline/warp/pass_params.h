@@ -19,8 +19,8 @@ inline constexpr float kSameDepth = 0.003F;
 /// A surface's colour is interpolated only between texels that show this surface. The colour is
 /// unreliable if the sum of the texels' weights is below this limit.
 inline constexpr float kLeastLookUpWeight = 0.2F;
-/// Number of pyramid levels from which a crack of one pixel is filled if larger holes of its
-/// surface stay empty.
+/// Cracks of one pixel are filled even if HoleFilling leaves larger holes in the surface empty. In
+/// this case, only this number of pyramid levels is used, the finest ones.
 inline constexpr int kCrackLevels = 2;
 inline constexpr std::uint32_t kContrastLevels = 64U;
 

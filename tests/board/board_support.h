@@ -10,8 +10,8 @@
 
 namespace mfar::test {
 
-/// Returns the simulated board of a scene. It delivers pictures as fast as they are fetched. It
-/// lives until the program ends.
+/// Returns the simulated board that shows this scene. The board delivers pictures as fast as they
+/// are fetched, and it lives until the program ends.
 SyntheticBoard& sharedBoard(synthetic::Scene scene);
 
 cv::Mat1b grey(const ImageView& image);

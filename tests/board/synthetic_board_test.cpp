@@ -32,8 +32,9 @@ struct Delivery {
     std::vector<std::size_t> stillsAfterFrame;  ///< number of video frames before each still
 };
 
-/// Fires pulses at the given frames, in one thread, until the board ends. Fetches stills between
-/// frames, and the remaining stills after the last frame.
+/// Fetches all pictures of a board in one thread. Fires a trigger pulse after each of the frames
+/// `pulses` (counted from 1). Fetches stills between frames, and the remaining stills after the
+/// last frame.
 Delivery runBoard(SyntheticBoard& board, const std::vector<std::size_t>& pulses) {
     Delivery out;
     board.video().start();

@@ -42,8 +42,8 @@ TEST(SyntheticRig, LensesCanBeInvertedOverTheWholePicture) {
                 const Eigen::Vector2d p{u * camera.size.width, v * camera.size.height};
                 const Eigen::Vector2d ray = camera.unproject(p);
                 EXPECT_LT((camera.project(ray) - p).norm(), 1e-6);
-                // unproject() must find the ray even if its initial value is far outside the
-                // picture.
+                // unproject() must find the ray even if the initial value of the search is far
+                // outside the picture.
                 for (const double off : {0.0, 1e-3, 0.2, 2.0})
                     EXPECT_LT((camera.unproject(p, ray - Eigen::Vector2d(off, off)) - ray).norm(),
                               1e-9);

@@ -74,7 +74,7 @@ class RecordedStatistics(unittest.TestCase):
         one = shader_stats.parse(['shader: a.comp #define B', line])['a.comp #define B']
         self.assertEqual((one.spills, one.fills), (73, 123))
 
-    def test_a_name_after_the_start_of_another_line_is_found(self):
+    def test_a_shader_name_in_the_middle_of_a_line_is_found(self):
         all_shaders = shader_stats.parse(['shader: a.comp', '; type: shader: b.comp #define C'])
         self.assertEqual(set(all_shaders), {'a.comp', 'b.comp #define C'})
 
@@ -193,7 +193,7 @@ class Predictions(unittest.TestCase):
         self.assertEqual(predict.error_table({'flow': 2.0, 'x': 1.0}, {'flow': 3.0}),
                          [('flow', 2.0, 3.0, 1.5), ('sum of these steps', 2.0, 3.0, 1.5)])
 
-    def test_every_shader_of_a_frame_has_a_step(self):
+    def test_shaders_are_assigned_to_steps_and_unknown_shaders_are_refused(self):
         for name, step in (('luma_down.comp', 'pyramid'), ('superres_gain.comp', 'weigh'),
                            ('superres_seen.frag', 'detail')):
             self.assertEqual(predict.step_of_shader(name, MODEL['shader_steps']), step)

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Checks that every shader keeps its budget on every board whose drivers are in the cache. Exit
-# status 77: there are no drivers. With "planted": checks that a shader with a large local array is
-# reported on each board. Usage: budget.sh COMPILE-SHADERS [planted]
+# status 77: python3 or all drivers are missing. With "planted": checks that a shader with a large
+# local array is reported on each board. Usage: budget.sh COMPILE-SHADERS [planted]
 set -euo pipefail
 here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
 boards=$here/../../toolchains/boards

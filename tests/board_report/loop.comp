@@ -1,5 +1,5 @@
-// samples/ contains the drivers' statistics of this shader. The shader reads a texture and adds to
-// storage inside a loop, and once more after the loop.
+// samples/ contains the drivers' statistics of this shader. In a loop, the shader reads a texture
+// and a storage buffer. After the loop, it writes the sum to the buffer.
 layout(local_size_x = 4, local_size_y = 4) in;
 layout(std430, binding = 0) buffer Sums {
     int count;

@@ -129,7 +129,7 @@ TEST(RigFiles, EveryFaultIsRefusedWithTheFileAndTheLineIfKnown) {
     }
 }
 
-TEST(RigFiles, DeepOrEndlessFilesAreRefusedBeforeParsing) {
+TEST(RigFiles, DeeplyNestedOrVeryLongFilesAreRefusedBeforeParsing) {
     const TempFolder folder;
     std::string many = "a: [0";
     for (int i = 0; i < 150'000; ++i)

@@ -130,8 +130,8 @@ TEST(Calibrate, AllViewsFromOneDirectionAreRefused) {
 }
 
 TEST(Calibrate, AllViewsFromOneDistanceAreRefused) {
-    // The target is small and is only tilted about its own centre. So its points hardly differ in
-    // depth.
+    // The target is small and is tilted about its own centre. So all its points have nearly the
+    // same depth.
     const Target small = aprilGrid(6, 6, 0.008, 0.25);
     Motion motion;
     motion.distance = 0.02;
@@ -163,7 +163,7 @@ TEST(Calibrate, StillsWithoutVideoAreRefused) {
               std::string::npos);
 }
 
-TEST(Calibrate, TheReportListsEveryViewAndItsPictureIsWritten) {
+TEST(Calibrate, TheReportListsEveryViewAndTheResidualPictureIsWritten) {
     const BothViews views = makeViews(kGrid, {});
     const Calibration found = calibrate(kGrid, views.video, views.still, {});
     const std::string text = viewsText(found);

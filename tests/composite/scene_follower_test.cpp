@@ -10,7 +10,8 @@ namespace {
 const CameraModel kFollowing{{160, 120}, 150, 150, 79.5, 59.5, {}};
 constexpr PixelRect kPicture{0, 0, 160, 120};
 
-/// A camera above the world's origin that looks down and is rotated about x by `angle` [rad].
+/// Pose of a camera that looks at the world's origin from a distance of 0.5: straight down if
+/// `angle` [rad] is 0, else rotated about the world's x axis by `angle`.
 RigidTransform downAt(double angle) {
     const Eigen::Quaterniond turn(Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitX()));
     const Eigen::Quaterniond down(Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitX()));
@@ -29,8 +30,8 @@ Scene cube() {
     return scene;
 }
 
-/// Depth of a table at this height, for a camera above it. `known`: share of pixels with known
-/// depth.
+/// Depth of a table whose top is the plane z = `height`, seen from downAt(0). `known`: share of
+/// pixels with known depth.
 InverseDepthField table(double height, double known = 1) {
     InverseDepthField field(kFollowing.size);
     for (std::size_t i = 0; i < field.inverseDepth.size(); ++i) {

@@ -23,7 +23,7 @@ RigidTransform eyeAbove() {
     return {Eigen::Quaterniond(axes), eye};
 }
 
-/// z of the point at which a pixel's ray meets the plane at this height.
+/// Depth (z in the camera) of the point at which a pixel's ray meets the plane z = `height`.
 double depthOfPlane(int x, int y, double height) {
     const RigidTransform T = eyeAbove();
     const Eigen::Vector3d ray = T.rotation * kLens.unproject({x, y}).homogeneous();
@@ -179,7 +179,8 @@ TEST(ShadowCatcher, TheReachOfAGlowGrowsWithItsShareOfTheLight) {
     double brightest = 1e-4F;
     while (reachAt(static_cast<float>(brightest)) < 2)
         brightest *= 1.01;
-    // The light falls with the square of the distance.
+    // Light decreases with the square of the distance. So the reach grows with the square root of
+    // the emission.
     EXPECT_NEAR(reachAt(static_cast<float>(2.25 * brightest)), 3, 0.05);
     EXPECT_EQ(reachAt(static_cast<float>(1e3 * brightest)), kMostGlowReach);
 }
@@ -192,7 +193,7 @@ TEST(ShadowCatcher, TagsOnTheSameSurfaceGiveOnePlane) {
     Scene scene;
     scene.objects = {standingOn(wall()), standingOn(other)};
     const std::vector<GroundPlane> planes = groundPlanes(scene);
-    ASSERT_EQ(planes.size(), 2U) << "the plane of the tag map and the wall";
+    ASSERT_EQ(planes.size(), 2U) << "expected the tag map's plane and the wall's plane";
     EXPECT_NEAR(planes[1].objects.sizes().x(), 0.4, 1e-3);
     RigidTransform paper;
     paper.translation.z() = 0.003;
@@ -206,7 +207,8 @@ TEST(ShadowCatcher, TagsOnTheSameSurfaceGiveOnePlane) {
 TEST(ShadowCatcher, NoisyDepthOfAWallGivesAFlatShadowCatcher) {
     std::mt19937 random(2);
     std::normal_distribution<double> noise(0, 0.01);
-    // The camera looks at the wall's plane z = 0 in the wall's frame.
+    // In the wall's coordinates, the wall is the plane z = 0, and the camera has the pose
+    // eyeAbove().
     const RigidTransform T_world_video = wall() * eyeAbove();
     const InverseDepthField field = fieldOf(
         [&](int x, int y) { return 1 / (1 / depthOfPlane(x, y, 0) + noise(random)); }, 0.01);

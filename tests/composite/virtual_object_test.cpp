@@ -14,7 +14,7 @@ Eigen::Vector3f cross(const ShapeMesh& mesh, const std::array<std::uint32_t, 3>&
     return (at(1) - at(0)).cross(at(2) - at(0));
 }
 
-TEST(ShapeMesh, TrianglesFaceOutwardsAndHaveTheirVerticesNormals) {
+TEST(ShapeMesh, TrianglesFaceOutwardsAlongTheNormalsOfTheirVertices) {
     for (const VirtualShape shape : {VirtualShape::Box, VirtualShape::Sphere, VirtualShape::Quad}) {
         const ShapeMesh mesh = shapeMesh(shape);
         ASSERT_FALSE(mesh.triangles.empty());

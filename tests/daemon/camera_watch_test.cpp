@@ -82,7 +82,7 @@ TEST(CameraWatch, AFrozenPictureIsReportedOnceEachTime) {
     }
 }
 
-TEST(CameraWatch, RecordingsAndSyntheticCamerasMayRepeatPicturesAndHaveNoRate) {
+TEST(CameraWatch, RecordingsAndSyntheticCamerasMayRepeatPicturesAndHaveAnyRate) {
     for (const CameraKind kind : {CameraKind::Stored, CameraKind::Live}) {
         Watched camera(kind);
         for (int i = 0; i < 300; ++i)

@@ -124,7 +124,7 @@ TEST(CaptureThread, StillsReplacedBeforeAFrameUsedThemAreCounted) {
     EXPECT_EQ(frame->stillsSuperseded, StillBox::kCapacity - 1);
 }
 
-TEST(CaptureThread, ADroppedFrameGivesItsStillAndItsCountOfReplacedStillsToTheNext) {
+TEST(CaptureThread, ADroppedFrameGivesItsStillAndItsCountOfReplacedStillsToTheNextFrame) {
     CapturedFrame older{{ImageView{}, Timestamp{1}, nullptr},
                         CapturedStill{{ImageView{}, Timestamp{1}, nullptr}},
                         {}};

@@ -24,7 +24,7 @@ TEST(CommandFailure, AnUnknownCommandIsNamedWithTheValidOnes) {
               "snapshot, record, learn\nRun with --help for more information.\n");
 }
 
-TEST(CommandFailure, AnUnknownCommandOfACommandIsNamed) {
+TEST(CommandFailure, AnUnknownSubcommandIsNamedWithTheValidOnes) {
     EXPECT_THAT(messageOf("learn much"),
                 HasSubstr("learn: unknown command 'much'; expected one of reset\n"));
 }
@@ -33,7 +33,7 @@ TEST(CommandFailure, AMissingCommandIsReported) {
     EXPECT_THAT(messageOf(""), HasSubstr("mfarctl: a command is missing; expected one of status"));
 }
 
-TEST(CommandFailure, OtherFaultsKeepTheirMessage) {
+TEST(CommandFailure, OtherFaultsKeepTheMessageOfTheParser) {
     EXPECT_THAT(messageOf("snapshot"), HasSubstr("FILE is required"));
     EXPECT_THAT(messageOf("status now"), HasSubstr("not expected: now"));
 }

@@ -171,7 +171,7 @@ TEST(Config, AnUnreadableFileGivesTheExitCodeOfAMissingInput) {
     }
 }
 
-TEST(Config, AnEndlessTextIsRefusedBeforeItIsParsed) {
+TEST(Config, TextsWithTooDeepNestingOrTooManyValuesAreRefused) {
     std::string dots = "seed";
     for (int i = 0; i < 50'000; ++i)
         dots += ".a";

@@ -90,7 +90,7 @@ void replace(FilterLearning& learning, unsigned seed) {
     learning.finish();
 }
 
-TEST_F(FilterLearningTest, GuidanceIsLearnedFromTheOlderStillAndKept) {
+TEST_F(FilterLearningTest, GuidanceIsLearnedFromTheOlderStillAndKeptAfterARestart) {
     options.rig = discsRig();
     {
         FilterLearning learning(options);
@@ -191,7 +191,7 @@ TEST_F(FilterLearningTest, StillsThatArriveTooSoonAreSkipped) {
     EXPECT_GE(learning.counts().leftOut, 1U);
 }
 
-TEST_F(FilterLearningTest, LearningThatTakesTooLongIsOverItsBudget) {
+TEST_F(FilterLearningTest, LearningThatTakesTooLongIsReportedAsLate) {
     std::atomic<std::int64_t> passed{0};
     Heartbeats hearts([&] { return Timestamp::now() + std::chrono::seconds(passed); });
     options.watched = {&hearts, "learning", std::chrono::seconds(60), ThreadRole::Helper};

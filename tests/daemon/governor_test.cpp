@@ -126,7 +126,7 @@ TEST(Governor, DoesNotAlternateBetweenTwoLevels) {
     }
 }
 
-TEST(Governor, ReturnsFromAStallAlthoughAPartOfTheTimeIsTheSameAtAllLevels) {
+TEST(Governor, ReturnsToItsLevelAfterAStallIfPartOfTheTimeIsTheSameAtAllLevels) {
     for (const double constant : {30.0, 35.0}) {
         const auto cost = [&](std::size_t level) { return fourLevels()[level].ms + constant; };
         Machine machine(150, cost);
@@ -151,7 +151,7 @@ TEST(Governor, TrialsOfALevelThatIsTooSlowMakeFewFramesLate) {
     const std::uint64_t before = machine.governor().changes();
     machine.run(5000);
     EXPECT_GT(machine.governor().changes(), before);
-    EXPECT_LE(machine.governor().changes(), before + 12) << "a trial in 960 frames";
+    EXPECT_LE(machine.governor().changes(), before + 12) << "at most one trial in 960 frames";
 }
 
 TEST(Governor, OneLateFrameInFiftyDoesNotChangeTheLevel) {
@@ -175,7 +175,7 @@ TEST(Governor, AStaticPictureIsDrawnOnceMoreAtTheBestLevel) {
         }
     }
     EXPECT_EQ(redrawn, 1);
-    EXPECT_EQ(machine.level(), "a") << "frames at rest must not rate the levels";
+    EXPECT_EQ(machine.level(), "a") << "frames at rest must not change the level";
     machine.run(10);
     EXPECT_EQ(machine.level(), "a");
     EXPECT_EQ(machine.governor().changes(), 0U);
@@ -194,7 +194,7 @@ TEST(Governor, StillsThatMakeFramesLateAreAllowedOnceInFortyFrames) {
     }
     governor.add({80});
     EXPECT_TRUE(governor.mayTakeStill());
-    EXPECT_EQ(governor.level().name, "b") << "a frame with a new still must not rate the level";
+    EXPECT_EQ(governor.level().name, "b") << "frames with a new still must not change the level";
     governor.add({.ms = 90, .newStill = true});
     governor.add({80});
     EXPECT_TRUE(governor.mayTakeStill())
@@ -224,7 +224,7 @@ TEST(Governor, FramesWithoutAStillDoNotCountForLevelsThatUseStills) {
     Governor fast(fourLevels(), 30);
     for (int i = 0; i < 100; ++i)
         fast.add({.ms = 2, .usedStill = false});
-    EXPECT_EQ(fast.level().name, "c") << "frames without a still rate the level \"off\"";
+    EXPECT_EQ(fast.level().name, "c") << "frames without a still must count for level \"off\"";
 }
 
 TEST(Governor, IgnoresInvalidTimes) {

@@ -55,7 +55,7 @@ TEST_F(HealthTest, AFrozenPictureIsReportedAsDegraded) {
     EXPECT_TRUE(health.isAlive());
 }
 
-TEST_F(HealthTest, MfardIsNotAliveWhileADriverHangsAndTheBannerIsDrawn) {
+TEST_F(HealthTest, MfardIsNotAliveWhileADriverHangsEvenIfItDrawsTheBanner) {
     const Heartbeat capture(hearts, "capture", budget::kCapture);
     picture = now;
     pass(seconds(5));
@@ -98,7 +98,7 @@ TEST_F(HealthTest, WithoutPicturesMfardIsAliveOnlyWhileItDrawsABannerForAFault) 
         << "mfard must not count as alive if it no longer draws the banner";
 }
 
-TEST_F(HealthTest, TheFirstPictureIsAllowedMoreTime) {
+TEST_F(HealthTest, TheFirstPictureMayTakeLongerThanLaterPictures) {
     Heartbeat drawing(hearts, "picture", budget::kPicture);
     patience = kFirstPatience;
     pass(5 * budget::kPicture);

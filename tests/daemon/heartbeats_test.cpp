@@ -24,7 +24,7 @@ struct HeartbeatsTest : testing::Test {
     Heartbeats all{[this] { return now; }};
 };
 
-TEST_F(HeartbeatsTest, ThreadThatIsOverItsBudgetIsNamedWithItsTime) {
+TEST_F(HeartbeatsTest, ThreadThatExceedsItsBudgetIsNamedWithTheTimeSinceItsLastBeat) {
     Heartbeat capture(all, "capture", seconds(1));
     Heartbeat picture(all, "picture", seconds(2));
     now = now + milliseconds(900);

@@ -119,7 +119,7 @@ TEST(Limits, AModelThatNeedsTooMuchMemoryIsReportedWithLineAndColumn) {
                       HasSubstr("the textures of the model have more than")));
 }
 
-TEST(Limits, AModelWithSeveralNamesIsReadOnce) {
+TEST(Limits, AModelFileNamedByDifferentPathsIsReadOnce) {
     const test::TempFolder folder;
     const std::vector<std::uint8_t> glb = test::oneTriangle().glb();
     test::writeFile(folder / "a/thing.glb",

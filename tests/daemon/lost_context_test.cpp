@@ -1,6 +1,6 @@
-// A session must create a new GL context after a loss at any GL call of a frame. Later pictures
-// must equal those of a run without a loss. Uses a libGLESv2 that loses contexts, see
-// tests/device/faulty_moments.h.
+// A session must create a new GL context after a loss in any shader or data transfer of a frame.
+// The session's last picture must nearly equal that of a run without a loss. The tests use a
+// libGLESv2 that loses contexts, see tests/device/faulty_moments.h.
 
 #include "daemon/session.h"
 #include "hal/virtual/recorder.h"
@@ -51,7 +51,7 @@ StereoRig rigOf() {
     return rig;
 }
 
-/// Picture that a camera at `x` [m] takes of a wall one metre away.
+/// Returns the picture that a camera at `x` [m] takes of a wall one metre away.
 std::vector<std::uint8_t> wall(const CameraModel& camera, double x) {
     std::vector<std::uint8_t> out;
     for (int v = 0; v < camera.size.height; ++v)
@@ -122,8 +122,8 @@ protected:
     }
 
     /// Runs a session that loses its GL context at the GL call `moment`, or never if `moment` is
-    /// null. The session ends a few pictures after the loss if `early` is true, otherwise with the
-    /// recording.
+    /// null. The session ends a few pictures after the loss if `early` is true, otherwise at the
+    /// end of the recording.
     Ran run(const char* moment, bool early = false) {
         Stats stats;
         Mailbox<Tunables> changes(HandOver::NewestWins);
@@ -148,7 +148,8 @@ protected:
         return {session.snapshot(false), stats.count(), {moments.begin(), moments.end()}};
     }
 
-    /// Loses the GL context once at each GL call (a "moment") for which `isOne` returns true.
+    /// Runs one session for each GL call (a "moment") for which `isOne` returns true. The session
+    /// loses its GL context at this call.
     void loseAtAll(const std::function<bool(std::string_view)>& isOne) {
         play(kFrames, "rendering = \"preview\"");
         const Ran whole = run(nullptr);

@@ -91,7 +91,7 @@ model = "thing.glb"
                                       (folder / "test.toml").string());
     ASSERT_EQ(config.objects.size(), 3U);
     EXPECT_EQ(config.objects[0].model, config.objects[2].model)
-        << "a file with two names must be read once";
+        << "a file that two objects name must be read once";
     const PlacedObject& thing = config.objects[0];
     ASSERT_TRUE(thing.model);
     EXPECT_EQ(thing.model->meshes.size(), 1U);

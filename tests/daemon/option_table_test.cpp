@@ -221,7 +221,7 @@ TEST(OptionDefaults, ObjectDefaultsMatchTheParser) {
     EXPECT_FALSE(given.tag);
     const PlacedObject onTag = read("[[objects]]\ntag = 0\n");
     EXPECT_EQ(read(section("objects", configOptions()) + "tag = 0\n").tag, onTag.tag);
-    // The checkerboard's colours have no default; the table shows these examples.
+    // Without keys for the colours, the parser uses the colours that the table shows.
     const PlacedObject coloured =
         read("[[objects]]\ncolour = [0.9, 0.9, 0.9]\nsecond_colour = [0.8, 0.2, 0.1]\n");
     EXPECT_EQ(coloured.shape.colours, without.shape.colours);
@@ -250,7 +250,7 @@ TEST(OptionDefaults, TheHelpTextOfSourceNamesEverySceneAndCameraPath) {
     const std::string about = describe(overriddenBy("--source"));
     for (const auto& [wrong, start] :
          {std::pair("synthetic:attic", "SCENE is one of: "),
-          std::pair("synthetic:office,jump", "PATH is how the camera moves, one of: ")}) {
+          std::pair("synthetic:office,jump", "PATH is the camera's motion: ")}) {
         const std::string fault = sourceFault(wrong).value();
         EXPECT_THAT(about, HasSubstr(start + fault.substr(fault.find("one of ") + 7) + "."));
     }

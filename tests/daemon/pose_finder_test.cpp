@@ -66,7 +66,7 @@ TEST(PoseFinder, TagsGiveFramesAndStillsTheirPose) {
     EXPECT_EQ(counts.ms.count(), 4U);
 }
 
-TEST(PoseFinder, AStillWithoutTagsIsInterpolatedBetweenFrames) {
+TEST(PoseFinder, ThePoseOfAStillWithoutTagsIsInterpolatedBetweenFrames) {
     Stats stats;
     PoseFinder finder({}, inputs(), stats);
     for (int i = 0; i < 4; ++i)
@@ -162,7 +162,7 @@ TEST(PoseFinder, ASourceWithoutPosesIsReported) {
     }
 }
 
-TEST(PoseFinder, PoseSourceNoneRunsNoTracker) {
+TEST(PoseFinder, WithPoseSourceNoneNoTrackerRuns) {
     Stats stats;
     PoseConfig config;
     config.source = PoseOrigin::None;

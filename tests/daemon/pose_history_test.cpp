@@ -95,7 +95,7 @@ TEST(PoseHistory, AChangeOfVelocityRaisesTheCovariance) {
     EXPECT_EQ(found.covariance(4, 4), 0);
 }
 
-TEST(PoseHistory, OldPosesAreForgottenAndAStepBackInTimeForgetsAll) {
+TEST(PoseHistory, OldPosesAreRemovedAndAStepBackInTimeRemovesAllPoses) {
     PoseHistory history;
     const int many = 3 * PoseHistory::kLength;
     for (int i = 0; i < many; ++i)

@@ -13,7 +13,7 @@ TEST(ProcessUse, ProcessorTimeIncreases) {
     const ProcessUse before = processUse();
     std::this_thread::sleep_for(std::chrono::milliseconds(60));
     const ProcessUse after = processUse();
-    // The kernel counts a process's running time in steps of 10 ms.
+    // The kernel measures the time since a process's start in steps of 10 ms.
     EXPECT_GE(after.ms - before.ms, 40);
     EXPECT_GE(before.ms, 0);
     EXPECT_GT(before.cpuMs, 0);

@@ -82,7 +82,7 @@ TEST_F(RepeatLimitTest, AStormOfEventsIsLoggedEveryTenSeconds) {
     EXPECT_GE(said.size(), 300U);
 }
 
-TEST_F(RepeatLimitTest, StormOfDifferentEventsIsBounded) {
+TEST_F(RepeatLimitTest, AStormOfDifferentEventsCausesABoundedNumberOfLines) {
     for (int i = 0; i < 10'000; ++i)
         happen("event " + std::to_string(i), "error " + std::to_string(i));
     EXPECT_LE(said.size(), RepeatLimit::kMostEvents);

@@ -20,7 +20,8 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-/// Makes frames 1/30 s apart. Every fifth is late, and every tenth is dropped.
+/// Adds `count` pictures 1/30 s apart. Every fifth is late. For every ten pictures, one more frame
+/// is dropped.
 void show(Stats& stats, int count) {
     stats.quality("lines-2", 25);
     for (int i = 0; i < count; ++i) {

@@ -59,7 +59,7 @@ bool becomesTrue(const std::function<bool()>& condition) {
 }
 
 // data.csv is a pipe without a reader; so opening it never returns.
-TEST_F(RigOfCameras, RecorderWhoseDiskHangsIsOverItsBudget) {
+TEST_F(RigOfCameras, ARecorderWhoseDiskHangsIsReportedAsLate) {
     says("video90", "");
     std::atomic<std::int64_t> passed{0};
     Heartbeats hearts([&] { return Timestamp::now() + std::chrono::seconds(passed); });
@@ -133,7 +133,7 @@ TEST_F(RigOfCameras, DriverWithoutBuffersIsReportedUntilItHasSome) {
     EXPECT_EQ(rig.fault(), std::nullopt);
 }
 
-TEST_F(RigOfCameras, DriverWhoseOpenNeverReturnsIsOverItsBudget) {
+TEST_F(RigOfCameras, ThreadsWhoseDriverNeverOpensTheCameraAreReportedAsLate) {
     says("video90", "hang-open");
     says("video91", "hang-open");
     std::atomic<std::int64_t> passed{0};

@@ -83,7 +83,7 @@ TEST_F(RigInputs, ARecordingIsReportedWithItsKeyUnlessTheCommandLineNamesIt) {
     EXPECT_EQ(refusal(toml, options), (Refusal{66, "FOLDER/other: there is no such recording"}));
     test::writeSmallRecording(run);
     std::filesystem::remove(run / "cam1/sensor.yaml");
-    EXPECT_EQ(refusal(toml), Refusal{}) << "at the start, the recording's player reads the lists";
+    EXPECT_EQ(refusal(toml), Refusal{}) << "without --check-config, the lists are not checked";
     options.recording.reset();
     options.checkConfig = true;
     EXPECT_EQ(refusal(toml, options).code, 65);

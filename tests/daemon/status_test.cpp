@@ -163,7 +163,7 @@ TEST(Status, ReportsTheStateOfTheCameras) {
     EXPECT_EQ(json["drops"]["sensor"], 5);
 }
 
-TEST(Status, ASilentCameraHasNoRate) {
+TEST(Status, TheRateOfASilentCameraIsZero) {
     Stats stats;
     CameraState video;
     video.rateHz = 30;

@@ -7,7 +7,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-TEST(StatusText, ValuesStandBehindTheirKeysAndMissingValuesAreShownAsNone) {
+TEST(StatusText, ValuesFollowTheirKeysAndMissingValuesAreShownAsNone) {
     EXPECT_EQ(
         statusText({{"state", "running"}, {"fault", nullptr}, {"frames", 12}, {"fps", 29.9712}}),
         "state      running\n"

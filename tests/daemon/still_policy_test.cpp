@@ -121,7 +121,7 @@ TEST(StillPolicy, AViewThatTheStillDoesNotShowFiresTheTrigger) {
     EXPECT_EQ(board.run(kFrame / 2, kMovingUnexplained), 1);
 }
 
-TEST(StillPolicy, AfterMotionWithinTheViewOfTheStillANewStillWaitsForTheAgeLimit) {
+TEST(StillPolicy, AfterMotionWithinTheViewOfTheStillTheTriggerFiresOnlyAtTheAgeLimit) {
     TriggerConfig config;
     config.maxAgeS = 5;
     Simulation board(config);
@@ -131,7 +131,7 @@ TEST(StillPolicy, AfterMotionWithinTheViewOfTheStillANewStillWaitsForTheAgeLimit
 }
 
 // The first frames appear to change, because the sensor's noise is not yet known.
-TEST(StillPolicy, AStillIsNotTooOldBecauseTheSceneChangedBeforeItsFirstUse) {
+TEST(StillPolicy, ChangesBeforeTheFirstUseOfAStillDoNotMakeTheStillTooOld) {
     TriggerConfig config;
     config.maxAgeS = 5;
     Simulation board(config);
@@ -217,7 +217,7 @@ TEST(StillPolicy, ALateStillIsNotMistakenForTheStillRequestedAgain) {
     EXPECT_FALSE(board.policy.pending());
 }
 
-TEST(StillPolicy, FixedRateFollowsTheTimesOfFrames) {
+TEST(StillPolicy, InModeRateTheTriggerFiresAtTheRateAccordingToTheTimesOfFrames) {
     TriggerConfig config;
     config.mode = TriggerMode::Rate;
     config.rateHz = 4;
@@ -233,7 +233,7 @@ TEST(StillPolicy, InModeOffThePolicyFiresNoTriggerByItself) {
     EXPECT_EQ(board.run(30, kMovingUnexplained), 0);
 }
 
-TEST(StillPolicy, InModeOffALostStillOfACommandIsRequestedOnceMore) {
+TEST(StillPolicy, InModeOffALostStillThatACommandRequestedIsRequestedOnceMore) {
     TriggerConfig config;
     config.mode = TriggerMode::Off;
     Simulation board(config);
@@ -247,7 +247,7 @@ TEST(StillPolicy, InModeOffALostStillOfACommandIsRequestedOnceMore) {
     EXPECT_EQ(board.policy.lost(), 2);
 }
 
-TEST(StillPolicy, AReloadToModeOffForgetsAPendingStill) {
+TEST(StillPolicy, AReloadToModeOffCancelsAPendingStill) {
     Simulation board({});
     board.answers = false;
     board.run(0.1, kRest);

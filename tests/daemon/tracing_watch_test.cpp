@@ -46,7 +46,7 @@ TEST(TracingWatch, APictureEndsTheWatch) {
     EXPECT_EQ(watch.atEnd(), std::nullopt);
 }
 
-TEST(TracingWatch, AShortRunWarnsAtItsEnd) {
+TEST(TracingWatch, AShortRunWithoutAPictureGivesAWarningAtItsEnd) {
     TracingWatch watch(8);
     EXPECT_EQ(watch.atEnd(), std::nullopt);
     TracingWatch seen(8);

@@ -62,7 +62,7 @@ TEST(DepthFilter, OneOutlierIsIgnoredAndALastingChangeIsFollowed) {
     EXPECT_NEAR(filter.field().inverseDepth[middle()], 3, 1e-5);
 }
 
-TEST(DepthFilter, OnlyAContradictionOfMostOfABlockForgetsDepthAtOnce) {
+TEST(DepthFilter, ContradictedDepthIsDroppedAtOnceOnlyInBlocksThatAreMostlyContradicted) {
     DepthFilter filter = filterOf();
     filter.predict({}, 0);
     filter.fuse(evenField(1, 0.02F), kWhole);
@@ -104,7 +104,7 @@ TEST(DepthFilter, ANearerSurfaceOccludesAFartherSurface) {
         << "the uncovered background must be unknown";
 }
 
-TEST(DepthFilter, DepthMovesAndScalesWithTheCamera) {
+TEST(DepthFilter, DepthFollowsTheMotionOfTheCamera) {
     DepthFilter filter = filterOf();
     filter.predict({}, 0);
     filter.fuse(evenField(1, 0.02F), kWhole);
@@ -117,7 +117,7 @@ TEST(DepthFilter, DepthMovesAndScalesWithTheCamera) {
     EXPECT_FALSE(filter.field().isKnown(middle()));
 }
 
-TEST(DepthFilter, DepthIsForgottenOnlyWhenTheCameraMoves) {
+TEST(DepthFilter, TheVarianceGrowsWithTimeOnlyIfTheCameraMoves) {
     DepthFilter filter = filterOf();
     filter.predict({}, 0);
     filter.fuse(evenField(1, 0.02F), kWhole);

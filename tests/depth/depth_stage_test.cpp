@@ -26,7 +26,7 @@ Scene panelScene() {
             100};
 }
 
-/// Runs the depth stage while a camera moves in the scene. World and scene have the same frame.
+/// Runs the depth stage while a camera moves in the scene. The scene is given in world coordinates.
 class Walk {
 public:
     explicit Walk(const DepthOptions& options = {}, const PixelRect& where = kAll)
@@ -36,7 +36,7 @@ public:
         pose_ = T_world_video;
         stage_.run(scene_.render(barrelCamera(), T_world_video.inverse()), nextPose(), {}, where_);
     }
-    /// Runs a frame at the same pose. A still from a camera beside it shows the scene, too.
+    /// Runs a frame at the last pose, with a still that a camera beside the video camera took.
     void rest() {
         const RigidTransform T_still_video = motion({0, 0, 0}, {0.06, 0.02, 0});
         EpipolarSearch search = test::searchWith(barrelCamera(), 2);
@@ -169,7 +169,7 @@ TEST(DepthStage, AtRestOneStillCorrectsTheDepthOfAThingThatIsGone) {
     Scene wall = panelScene();
     wall.surfaces.pop_back();
     walk.change(wall);
-    EXPECT_GT(walk.errors().bad, 0.15) << "the panel is in the known depth";
+    EXPECT_GT(walk.errors().bad, 0.15) << "no frame has shown yet that the panel is gone";
     walk.rest();
     EXPECT_GT(walk.errors().bad, 0.15) << "without a new still, nothing is measured at rest";
     walk.stage().renew();

@@ -105,8 +105,8 @@ TEST(EdgeSnap, SurfacesAreDistinguishedByColourInEveryFormat) {
     }
 }
 
-// The RGB picture is computed from the YUV picture, whose pairs of pixels share their chroma. So
-// the colours differ only by rounding.
+// The RGB picture is computed from the YUV picture, without interpolation of its chroma samples. So
+// the colours of the two pictures differ only by rounding.
 TEST(EdgeSnap, AYuvPictureAndTheEqualRgbPictureGiveTheSameDepth) {
     for (const PixelFormat format : {PixelFormat::Yuyv, PixelFormat::Nv12, PixelFormat::Yuv420}) {
         test::PaddedPicture painted(format, kPicture, 6);

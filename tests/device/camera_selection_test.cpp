@@ -17,7 +17,7 @@ const std::vector<ListedCamera> kBoard{{"/base/i2c@1/imx296@1a", "imx296", "back
                                        {"usb-1.2-046d:0825", "Webcam C270", "external"},
                                        {"usb-1.3-046d:0825", "Webcam C270", "external"}};
 
-TEST(CameraSelection, FindsByIdLocationAndModel) {
+TEST(CameraSelection, CamerasAreFoundByIdLocationOrModel) {
     EXPECT_EQ(chooseCamera(kBoard, {"usb-1.3-046d:0825"}), 3U);
     EXPECT_EQ(chooseCamera(kBoard, {"front"}), 1U);
     EXPECT_EQ(chooseCamera(kBoard, {"imx296"}), 0U);

@@ -187,7 +187,7 @@ TEST(CameraV4l2, BrokenPicturesAreCountedAndNeverDelivered) {
     EXPECT_EQ(camera.cameraCounters().delivered, 1U);
 }
 
-TEST(CameraV4l2, ImpossibleTimesAreCountedAndNeverDelivered) {
+TEST(CameraV4l2, PicturesWithImpossibleTimesAreCountedAndNeverDelivered) {
     FakeV4l2 fake;
     CameraV4l2 camera(wanted(), fake);
     camera.start();
@@ -262,7 +262,7 @@ TEST(CameraV4l2, ACameraCanBeStartedAgainAfterStop) {
     EXPECT_EQ(fake.queued(), 4);
 }
 
-TEST(CameraV4l2, RestartedFrameNumbersAreNotDrops) {
+TEST(CameraV4l2, RestartedFrameNumbersAreNotCountedAsMissed) {
     FakeV4l2 fake;
     CameraV4l2 camera(wanted({}, 30), fake);
     camera.start();
@@ -276,7 +276,7 @@ TEST(CameraV4l2, RestartedFrameNumbersAreNotDrops) {
     EXPECT_EQ(camera.cameraCounters().broken, 1U);
 }
 
-TEST(CameraV4l2, AnUnpluggedDeviceIsLost) {
+TEST(CameraV4l2, AnUnpluggedDeviceIsReportedAsLost) {
     FakeV4l2 fake;
     CameraV4l2 camera(wanted(), fake);
     camera.start();
@@ -293,7 +293,8 @@ TEST(CameraV4l2, AnUnpluggedDeviceIsLost) {
     EXPECT_THROW(camera.start(), DeviceLost);
 }
 
-// With the kernel's vb2, poll() reports an error from the start until a buffer is queued.
+// With the kernel's videobuf2, poll() reports an error after the start of streaming until a buffer
+// is queued.
 TEST(CameraV4l2, APollErrorAloneDoesNotMeanDeviceLost) {
     FakeV4l2 fake;
     CameraV4l2 camera(wanted(), fake);

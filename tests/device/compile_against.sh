@@ -34,7 +34,7 @@ set -eu
 cd "$1"
 version() { pkg-config --modversion "$1"; }
 warnings="-Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Werror"
-objects() { # objects PACKAGES SOURCES...: compiles each source into the folder
+objects() { # objects PACKAGES SOURCES...: compiles each source into the current folder
     # -isystem makes the compiler ignore warnings in headers of the library.
     flags=$(pkg-config --cflags "$1" | sed "s/-I/-isystem /g")
     shift
@@ -64,7 +64,7 @@ objects libcamera hal/frame.cpp base/image_layout.cpp $(printf "hal/device/%s.cp
 parts="frame image_layout $parts"
 link camera-tests libcamera $parts libcamera_test $(printf "%s_test " $tested)
 link probe libcamera $parts libcamera_probe
-# Without this, libcamera logs its version and everything that it misses in a chroot.
+# Without this setting, libcamera logs its version and everything that it misses in a chroot.
 export LIBCAMERA_LOG_LEVELS="*:FATAL"
 ./camera-tests --gtest_brief=1
 ./probe

@@ -63,8 +63,8 @@ protected:
             nullptr, std::move(screens), [this] { return now_; },
             [this] { return std::exchange(changed_, false); });
     }
-    // Shows pictures at 20 Hz for this time. Returns the number of pictures that the two screens
-    // showed.
+    // Shows pictures at 20 Hz for the time `duration`. Returns the number of pictures that the two
+    // screens showed.
     int run(std::chrono::milliseconds duration) {
         const int before = kms_.shown + fbdev_.shown;
         for (const Timestamp end = now_ + duration; now_ < end;
@@ -116,7 +116,7 @@ TEST_F(AutoDisplay, ShowsWithinASecondAfterADeviceAppears) {
     EXPECT_TRUE(display_->lastShown());
 }
 
-TEST_F(AutoDisplay, KernelEventsShowTheScreenAtOnce) {
+TEST_F(AutoDisplay, AScreenIsUsedAtOnceAfterAKernelEvent) {
     run(std::chrono::milliseconds(600));
     kms_.presence = Presence::Ready;
     changed_ = true;

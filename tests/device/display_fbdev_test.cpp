@@ -64,7 +64,7 @@ TEST(FbGeometry, PansOnlyIfDriverAndMemoryAllowIt) {
     EXPECT_EQ(geometry([](Info& i) { i.fix.smem_len -= 1; }).pages, 1);
 }
 
-TEST(FbGeometry, GeometryBeyondTheMemoryIsRefused) {
+TEST(FbGeometry, ImpossibleGeometryIsRefused) {
     const std::vector<std::function<void(Info&)>> lies{
         [](Info& i) { i.var.xres = 0; },
         [](Info& i) { i.var.yres = 0; },

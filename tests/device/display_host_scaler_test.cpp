@@ -45,7 +45,7 @@ double worstError(HostScaler& scaler, const Pixels& picture, Size screen) {
     return worst;
 }
 
-TEST(HostScaler, EqualSizeCopiesThePicture) {
+TEST(HostScaler, APictureOfTheScreensSizeIsReturnedWithoutACopy) {
     const Pixels picture = noisy({321, 97});
     HostScaler scaler({321, 97});
     EXPECT_EQ(scaler.scaled(picture.rows()).data, picture.rows().data);

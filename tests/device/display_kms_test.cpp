@@ -60,7 +60,7 @@ TEST_F(KmsScreenTest, ShowsPicturesAndRestoresTheConsole) {
     show();
     EXPECT_EQ(driver_.modeSets, 1);
     EXPECT_EQ(driver_.flipped, 1) << "the second flip must still be pending";
-    EXPECT_EQ(driver_.shown, first) << "with two buffers, the third picture reuses the first";
+    EXPECT_EQ(driver_.shown, first) << "the third picture must reuse the first one's buffer";
     for (const std::uint32_t pixel : test::shownPixels())
         ASSERT_EQ(pixel & 0xffffffU, 0x102030U);
     EXPECT_NE(screen_.status().find("HDMI-A-1,64x48@60"), std::string::npos) << screen_.status();

@@ -24,7 +24,8 @@ namespace {
 constexpr Size kSize{640, 480};
 constexpr int kBarWidth = 16;
 
-// A picture with fine stripes and a bar. Its colours distinguish channels, rows and columns.
+// A picture with fine stripes and a bar. Its colours show if channels, rows or columns are
+// exchanged.
 std::vector<std::uint8_t> testPicture(int bar) {
     std::vector<std::uint8_t> rgba;
     for (int y = 0; y < kSize.height; ++y)

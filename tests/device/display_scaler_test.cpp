@@ -109,8 +109,9 @@ TEST_F(DisplayScaler, ScreenBesideThePictureIsBlack) {
         }
 }
 
-// A zone plate contains all frequencies. Detail finer than the screen's pixels must become grey.
-// Sampling without a filter would show false rings of full contrast.
+// The stripes contain all frequencies, because they become finer from left to right. Detail finer
+// than the screen's pixels must become grey. Sampling without a filter would show false stripes of
+// full contrast.
 TEST_F(DisplayScaler, DetailBeyondTheScreensResolutionBecomesGrey) {
     const Size from{2304, 1728}, screen{1280, 720};
     const auto stripes = [](int x, int) {

@@ -10,7 +10,7 @@ namespace {
 
 using Kind = ScreenSpec::Kind;
 
-TEST(ScreenSpec, ATypeOfScreenAloneSelectsNoDeviceAndNoMode) {
+TEST(ScreenSpec, ASpecWithOnlyATypeLeavesDeviceAndModeOpen) {
     EXPECT_EQ(parseScreenSpec("auto"), (ScreenSpec{Kind::Auto, "", "", {}}));
     EXPECT_EQ(parseScreenSpec("kms"), (ScreenSpec{Kind::Kms, "", "", {}}));
     EXPECT_EQ(parseScreenSpec("fbdev"), (ScreenSpec{Kind::Fbdev, "", "", {}}));

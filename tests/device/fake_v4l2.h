@@ -31,7 +31,7 @@ struct FakeControl {
     std::int64_t minimum, maximum, step, value;
     std::vector<std::string> menu{};
     std::uint32_t flags = 0;
-    int refusals = 0;  ///< number of first attempts to set the control that fail
+    int refusals = 0;  ///< number of attempts to set the control that fail at first
     int error = EBUSY;
 };
 
@@ -44,7 +44,8 @@ struct FakePicture {
     std::span<const std::uint8_t> jpeg{};
 };
 
-/// Writes text into a buffer of fixed size. The text need not end with a zero.
+/// Writes `text` into `field`, which has `bytes` bytes. A longer text is cut. A text that fills the
+/// field does not end with a zero.
 void putText(void* field, std::size_t bytes, const std::string& text);
 
 /// A simulated capture device that follows the kernel's documentation. It has one node that
@@ -62,7 +63,7 @@ public:
     int ioctl(int fd, unsigned long request, void* argument) override;
     [[nodiscard]] void* map(int fd, std::size_t length, std::int64_t offset) override;
 
-    /// Fills a buffer and delivers it. Returns false if the camera has queued no buffer.
+    /// Fills a buffer and delivers it. Returns false if the stream is off or no buffer is queued.
     bool deliver(const FakePicture& picture = {});
     void unplug();
     void hangUp();

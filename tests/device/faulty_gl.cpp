@@ -1,7 +1,7 @@
 // A libGLESv2.so.2 that is found before the real one, through LD_LIBRARY_PATH. It calls the real
-// functions, which it finds through libEGL. Words in the file MFAR_FAULTY_GL select its faults.
-// The words may change at any time:
-//   never      no fence is signalled, and waiting for the GPU does not return
+// functions, which it finds through libEGL. The environment variable MFAR_FAULTY_GL names a file,
+// whose words select the faults. The words may change at any time:
+//   never      no fence is signalled: glClientWaitSync() times out, glFinish() does not return
 //   hang       drawing does not return
 //   lost WORD  each new WORD loses the current context once: its calls do nothing and return zero;
 //              the next context works
@@ -64,7 +64,8 @@ Function workingOr(const char* name);
 Function lostOr(const char* name);
 
 /// Name of a buffer that lose() creates. The current context is the lost one if it has this buffer.
-/// An address would not identify the lost context, because a new context may get the same address.
+/// The address of the lost context would not identify it, because a new context may get the same
+/// address.
 GLuint mark = 0;
 
 void lose() {

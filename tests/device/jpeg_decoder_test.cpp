@@ -54,8 +54,8 @@ Bytes withoutHuffmanTables(const Bytes& jpeg) {
     return out;
 }
 
-/// Expects the colours of the ramp in BT.601, full range. The chroma of each 2x2 pixels must be
-/// that at their centre.
+/// Expects the colours of the ramp in BT.601, full range. The chroma that 2x2 pixels share must be
+/// the ramp's chroma at their centre.
 void expectRamp(const ImageView& view) {
     ASSERT_EQ(view.size, kJpegSize);
     ASSERT_EQ(view.format, PixelFormat::Yuv420);

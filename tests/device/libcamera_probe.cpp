@@ -1,8 +1,8 @@
-// Lists the cameras of libcamera. With arguments, takes frames from one of them and prints a line
-// for each:
+// Lists the cameras of libcamera. With arguments, takes frames from one camera and prints a line
+// for each frame:
 //   libcamera-probe
 //   libcamera-probe CAMERA WIDTHxHEIGHT FRAMES [NAME=VALUE...]
-// CAMERA is an id, location, model or an index into the list. NAME=VALUE sets a control. Exit
+// CAMERA is the id, location, model or list index of a camera. NAME=VALUE sets a control. Exit
 // status: 0 all frames came, 1 a camera failed or a second passed without a frame, 2 wrong usage.
 
 #include "hal/device/camera_libcamera.h"

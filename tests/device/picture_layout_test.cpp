@@ -21,7 +21,7 @@ protected:
     std::vector<std::uint8_t> memory_ = std::vector<std::uint8_t>(100'000);
 };
 
-TEST_F(PictureLayoutTest, PlanesOfOneMemoryFollowEachOther) {
+TEST_F(PictureLayoutTest, PlanesInOneBufferFollowEachOther) {
     const PlaneBytes all{memory_.data(), memory_.size()};
     const ImageView nv12 = layOut({{64, 48}, PixelFormat::Nv12, 80}, {&all, 1});
     EXPECT_EQ(nv12.stride, 80U);

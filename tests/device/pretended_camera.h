@@ -34,8 +34,8 @@ inline void sleepMs(double ms) {
     std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(ms));
 }
 
-/// A simulated V4L2 camera that only one program can open. Words in a file select its faults, see
-/// pretended_v4l2.cpp.
+/// A V4L2 camera that is simulated inside the program that opens it. Words in a file select its
+/// faults, see pretended_v4l2.cpp.
 class Device {
 public:
     Device(std::string file, std::string name)
@@ -219,8 +219,8 @@ private:
                 due - steady_clock::now(), std::chrono::milliseconds(20)));
     }
 
-    /// Waits for a pulse of the trigger line. Returns false after some time, so that the caller can
-    /// read new faults.
+    /// Waits for a pulse of the trigger line. Returns false after 100 ms without a pulse, so that
+    /// the caller can read new faults.
     bool awaitPulse() {
         constexpr int kLooks = 20;
         for (int i = 0; i < kLooks && running_; ++i) {
@@ -257,7 +257,7 @@ private:
         }
     }
 
-    /// Wakes programs that wait for pictures. Their calls fail with this error.
+    /// Wakes a program that waits for pictures. From now on, its calls fail with `error`.
     void lose(int error) {
         lostError_ = error;
         isLost_ = true;

@@ -11,9 +11,9 @@
 
 namespace mfar::pretended {
 
-/// A camera's observations of the program that uses it.
+/// Record of how the program used a simulated camera.
 struct KnownOfCamera {
-    // Numbers of invalid pictures that the program accepted.
+    // Numbers of invalid pictures that the program took.
     std::uint64_t broken = 0;    ///< pictures marked as broken, or too short
     std::uint64_t badTimes = 0;  ///< times in the future, too old, or not after the previous one
     std::int64_t gain = 0;
@@ -30,7 +30,7 @@ inline std::int64_t microseconds(const timeval& t) {
     return t.tv_sec * 1'000'000LL + t.tv_usec;
 }
 
-/// Observations of each camera, by its name. They are kept when the camera is closed. Thread-safe.
+/// The records of all cameras, by name. A record is kept when its camera is closed. Thread-safe.
 class Known {
 public:
     static Known& get() {

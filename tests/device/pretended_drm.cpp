@@ -18,7 +18,7 @@ namespace {
 
 using mfar::test::PretendedDrm;
 
-// Ids of the KMS objects. The id of a property is its index in kProperties.
+// Ids of the KMS objects. The id of a property is kFirstProperty plus its index in kProperties.
 constexpr std::uint32_t kCrtc = 10, kConnector = 20, kPlane = 30, kEncoder = 40;
 constexpr std::uint32_t kConsole = 99, kFirstProperty = 100;
 constexpr std::array<std::string_view, 12> kProperties = {"CRTC_ID", "MODE_ID", "ACTIVE", "FB_ID",
@@ -44,7 +44,7 @@ struct Driver {
 };
 Driver driver;
 
-// libdrm frees these results with free().
+// Callers free the results of libdrm's functions through libdrm, which calls free().
 template <class T>
 T* made(std::size_t count = 1) {
     return static_cast<T*>(std::calloc(count, sizeof(T)));

@@ -6,9 +6,9 @@
 
 namespace mfar::test {
 
-/// A KMS driver without a kernel. A program that links pretended_drm.cpp calls it instead of
-/// libdrm. It has one card with one connector, CRTC and plane. Dumb buffers are in the card's file.
-/// A program has one driver, used by one thread.
+/// A simulated KMS driver. A program that links pretended_drm.cpp calls it instead of libdrm. It
+/// has one card with one connector, CRTC and plane. Dumb buffers are in the card's file. A program
+/// has one driver, used by one thread.
 struct PretendedDrm {
     bool connected = true;
     std::uint16_t width = 64, height = 48;

@@ -31,10 +31,11 @@ inline std::atomic<std::int64_t>& lastPulse() {
     return us;
 }
 
-/// A GPIO chip whose line 5 is "TRIGGER". It has the kernel's first interface, for libgpiod 1. The
-/// chip exists if the folder MFAR_PRETENDED_V4L2 contains a file "gpiochip0". Words in this file
-/// select faults, see pretended_v4l2.cpp. The file "line" in the folder contains the level, 0 or 1.
-/// As on a real line, the level outlives the program. Thread-safe.
+/// A GPIO chip whose line 5 is "TRIGGER". It implements version 1 of the kernel's interface, which
+/// libgpiod 1 uses. The environment variable MFAR_PRETENDED_V4L2 names a folder. The chip exists if
+/// this folder contains a file "gpiochip0". Words in this file select faults, see
+/// pretended_v4l2.cpp. The file "line" in the folder contains the level, 0 or 1. As on a real line,
+/// the level outlives the program. Thread-safe.
 class GpioChip {
 public:
     static constexpr std::string_view kPath = "/dev/gpiochip0",

@@ -1,28 +1,28 @@
-// A library that is loaded before a program (LD_PRELOAD). It simulates V4L2 cameras behind the
-// program's calls of open(), ioctl() and mmap(), and a trigger line. The devices are the files in
-// the folder MFAR_PRETENDED_V4L2: each file NAME makes "/dev/NAME" a camera that offers YUYV of any
-// size. The words in the file select faults; the words change when another file is renamed onto
-// this file, which is allowed at any time:
-//   hang          the calls that move buffers do not return
+// A library that is preloaded into a program (LD_PRELOAD). It simulates V4L2 cameras and a trigger
+// line behind the program's calls of open(), ioctl() and mmap(). The environment variable
+// MFAR_PRETENDED_V4L2 names a folder: each file NAME in it makes "/dev/NAME" a camera that offers
+// YUYV of any size. The words in the file select faults. The words change when another file is
+// renamed onto this file, which is allowed at any time:
+//   hang          calls that queue or dequeue buffers or stop the stream do not return
 //   hang-open     opening does not return
 //   hang-close    closing does not return
-//   slow MS       opening takes this time
+//   slow MS       opening takes MS milliseconds
 //   gone          unplugged: open descriptors fail, nothing can be opened
 //   unplug N      a new N means unplugged and plugged in again: devices opened before are lost
 //   refuse N      the first N settings of its control "gain" after opening are refused
 //   eio           taking a picture fails until the camera is opened again
 //   silent        no further pictures
 //   repeat        always the same picture
-//   rate HZ       this rate instead of the requested one
+//   rate HZ       pictures come at this rate instead of the requested one
 //   buffers N     grants at most N buffers to a request
 //   error N       every N-th picture has the error flag
 //   short N       every N-th picture is truncated
 //   backward N    every N-th picture's time is before the previous one's
 //   future N      every N-th picture's time is one hour ahead
-//   skip N        N numbers are skipped when this word first appears
-//   restart       numbers restart at 0 when this word first appears
+//   skip N        N picture numbers are skipped when this word first appears
+//   restart       picture numbers restart at 0 when this word first appears
 //   plain         no fault, but pictures without time stamp
-//   triggered     no fault; one picture for each pulse of the line
+//   triggered     no fault; one picture for each pulse of the trigger line
 // The file "gpiochip0" is a GPIO chip with the line TRIGGER:
 //   gone          unplugged
 //   busy          another program uses the line
@@ -173,7 +173,7 @@ void* mmap64(void* at, std::size_t length, int protection, int flags, int fd,
     return mapFile(at, length, protection, flags, fd, offset);
 }
 
-// The closed descriptor's number may be reused for another file.
+// Forgets the device, because the descriptor's number may be reused for another file.
 int close(int fd) {
     std::shared_ptr<Device> closed;
     {

@@ -10,7 +10,7 @@
 
 namespace mfar::pretended {
 
-/// The words of a file. Each has the number that follows it, or 1.
+/// The words of a file. Each word maps to the number that follows it, or to 1.
 using Words = std::map<std::string, double>;
 
 /// A file of words, which may be replaced at any time. Thread-safe.

@@ -241,7 +241,7 @@ TEST(PulseTrigger, PulseThatCouldNotBeEndedIsReportedByTheNextFire) {
     while (fault.empty()) {
         try {
             trigger->fire();
-            FAIL() << "fire() must fail while the line could not be deactivated";
+            FAIL() << "fire() must fail until it has reported that the pulse could not be ended";
         } catch (const TriggerBusy&) {
             std::this_thread::sleep_for(1ms);
         } catch (const std::runtime_error& error) {

@@ -1,5 +1,5 @@
-// Plays random sequences of a camera's requests on a simulated clock. Compares them with a model
-// that knows where each request must be. A second camera must not be disturbed.
+// Random sequences of a camera's requests on a simulated clock must agree with a model, which
+// determines where each request must be. The sequences must not disturb a second camera.
 #include "hal/device/request_cycle.h"
 
 #include <gtest/gtest.h>
@@ -24,8 +24,8 @@ constexpr std::uint32_t kSeeds = 200;
 constexpr int kSteps = 200;
 constexpr milliseconds kEarly{500};
 /// Pauses before the camera is restarted. Index: number of failed starts in a row. A start has
-/// failed if all requests are cancelled within kEarly. After five failed starts in a row the camera
-/// is lost.
+/// failed if all requests are cancelled within kEarly after it. After five failed starts in a row
+/// the camera is lost.
 constexpr std::array<milliseconds, 5> kPauses = {milliseconds(0), milliseconds(0), milliseconds(50),
                                                  milliseconds(100), milliseconds(200)};
 
@@ -41,7 +41,7 @@ struct Chance {
     Timestamp now{1'000'000'000};
 };
 
-/// Plays a driver and the user of its pictures. Each call compares the request cycle with the
+/// Simulates a driver and the user of its pictures. Each call compares the request cycle with the
 /// model.
 class ModelledCamera final : public RequestDriver {
 public:
@@ -56,7 +56,7 @@ public:
         EXPECT_FALSE(isLost);
         ++starts_;
         meanwhile();
-        if (std::exchange(startFails, false)) throw std::runtime_error("it does not start");
+        if (std::exchange(startFails, false)) throw std::runtime_error("the camera does not start");
         chance_.now = chance_.now + milliseconds(chance_.below(20));
         begun_ = chance_.now;
         restartAt.reset();
@@ -230,7 +230,7 @@ private:
     Chance& chance_;
     std::thread stopper_;
     std::array<At, kRequests> at_{};
-    std::array<bool, kRequests> isCancelled_{};  ///< true: was cancelled and not completed since
+    std::array<bool, kRequests> isCancelled_{};  ///< true: was cancelled and not queued since
     std::deque<std::size_t> ready_;
     bool running_ = false;
     Timestamp begun_;

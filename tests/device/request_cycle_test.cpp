@@ -19,7 +19,8 @@ using std::chrono::milliseconds;
 constexpr milliseconds kPatience{10'000};
 constexpr std::size_t kRequests = 4;
 
-/// Completes requests in the test's thread when the test calls it. libcamera uses its own thread.
+/// Completes requests in the test's thread, when the test calls fill(). libcamera completes them in
+/// a thread of its own.
 class FakeDriver final : public RequestDriver {
 public:
     explicit FakeDriver(const RestartLimits& limits = {}) : cycle(*this, limits) {

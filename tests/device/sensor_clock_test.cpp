@@ -23,7 +23,7 @@ TEST(SensorClock, MonotonicTimesStayAsTheyAre) {
     }
 }
 
-TEST(SensorClock, FutureMonotonicTimesSelectBoottime) {
+TEST(SensorClock, TimesAheadOfTheMonotonicClockSelectTheBoottimeClock) {
     SensorClock clock;
     for (int i = 0; i < 20; ++i) {
         const Timestamp now = kNow + i * 33ms;

@@ -1,9 +1,9 @@
-// Fires pulses on a GPIO line and prints a line for each still that matches one:
+// Fires pulses on a GPIO line and prints a line of text for each still that matches a pulse:
 //   trigger-probe CAMERA WIDTHxHEIGHT CHIP LINE PULSES PERIOD-MS JITTER-MS
-// A line is "TIME pulse N still M". M is the number in the upper rows of the picture, as the
-// cameras of the test bed show it: 32 blocks side by side, bit 0 first, white for 1. The last line
-// is "fired F matched M unmatched U lost L late T repeated R relearned S". Exit status: 0 done, 1 a
-// device failed, 2 wrong usage.
+// A line is "TIME pulse N still M". N is the number of pulses fired so far. M is the number in the
+// upper rows of the picture, as the cameras of the test bed show it: 32 blocks side by side, bit 0
+// first, white for 1. The last line is "fired F matched M unmatched U lost L late T repeated R
+// relearned S". Exit status: 0 done, 1 a device failed, 2 wrong usage.
 
 #include "hal/device/camera_libcamera.h"
 #include "hal/device/trigger_gpiod.h"

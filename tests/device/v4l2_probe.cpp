@@ -3,8 +3,8 @@
 //
 //   v4l2-probe DEVICE WIDTHxHEIGHT FRAMES [--format FOURCC] [--rate HZ] [NAME=VALUE]...
 //
-// Exit status: 0 all frames arrived, 1 some did not, 2 the device refused or was lost, 64 wrong
-// usage.
+// Exit status: 0 all frames arrived, 1 some did not, 2 the device refused a request or was lost,
+// 64 wrong usage.
 #include "base/image_layout.h"
 #include "hal/device/camera_v4l2.h"
 

@@ -185,9 +185,10 @@ void expectNear(Rows<const std::uint32_t> a, Rows<const std::uint32_t> b, double
     EXPECT_LE(std::sqrt(squares / (3.0 * a.size.width * a.size.height)), rms) << a.size.width;
 }
 
-// Detail is the still minus its mean over each video pixel. The kernels compute this mean from the
-// warped still of the output's size, the shaders from the still itself. The two means are equal
-// only if the output is finer than the video; smaller outputs are left out.
+// Detail is the still minus its mean over each video pixel. The SIMD kernels compute this mean from
+// the warped still of the output's size, the shaders from the still itself. The two means agree
+// only if the output is clearly finer than the video. Therefore, outputs less than 1.5 times as
+// wide as the video are left out.
 void expectTheSamePicture(const FilterBank* filters, double most, double rms) {
     for (const auto& [video, stillSize, output] : simd::kSizes) {
         if (2 * output.width < 3 * video.width) continue;

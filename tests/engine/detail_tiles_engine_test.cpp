@@ -11,8 +11,8 @@ class DetailTilesTest : public DetailEngineTest {};
 INSTANTIATE_TEST_SUITE_P(Engines, DetailTilesTest, DetailTilesTest::everyPair(),
                          DetailTilesTest::nameOfPair);
 
-// A pixel belongs to the tile that contains its centre. At this size, edges of tiles cross pixels
-// before and behind their centres.
+// A pixel belongs to the tile that contains its centre. At this size, edges of tiles cross output
+// pixels on both sides of the pixels' centres.
 TEST_P(DetailTilesTest, DetailEndsExactlyAtTheEdgeOfTheGivenTiles) {
     const Size video{62, 53}, output{223, 190};
     DetailCase frame = withRoom(DetailCase(video, {200, 171}));

@@ -29,7 +29,7 @@ Eigen::Vector2d trueFlow(double x, double y) {
 
 /// A video of fine print that aliases. The flow along epipolar lines (`lines`) is correct except
 /// for small errors and some outliers; the refined flow (`given`) is off by up to a pixel. Some
-/// cells are not doubtful or not matched.
+/// cells are not doubtful, and some are not matched.
 struct Print : SeenStill {
     Print()
         : SeenStill(bentRig(kVideo, kStill), printAt,
@@ -118,9 +118,10 @@ twin::DirectResult wantedOf(const Print& in, const twin::DirectCase& oracle, int
     return {{given.x, given.y}, Eigen::Vector4d::Zero(), in.errors[i].error, false, 1};
 }
 
-/// Compares the results with the oracle's. The oracle maps every sample through both lenses, the
-/// engines only the patch's centre and slopes. So where both flow vectors fit almost equally well,
-/// the oracle and an engine may choose different vectors.
+/// Compares the results with the oracle's. The oracle maps every sample through both lenses. The
+/// engines map only the patch's centre, and use derivatives around it. So where the flow along the
+/// line and the given flow fit almost equally well, the oracle and an engine may choose
+/// differently. Such cells are not compared.
 void expectTheOraclesMatches(const Print& in, const Matched& got) {
     const twin::DirectCase oracle = in.oracle();
     int moved = 0, compared = 0, untouched = 0;

@@ -29,8 +29,8 @@ inline SharedContext* const kSharedContext = [] {
     return out;
 }();
 
-/// Returns how much larger the error of a value in an 8-bit texture can be than with exact
-/// rounding. GPUs may convert what a shader writes to a half float first. For values near 1, this
+/// Returns the factor by which the rounding error of a value in an 8-bit texture can exceed half a
+/// grey level. GPUs may convert what a shader writes to a half float first. For values near 1, this
 /// adds 2^-12, which is 0.06 grey levels, to half a grey level (seen on an NVIDIA H200).
 inline double roundingFactor() {
     return kSharedContext->context().isSoftware() ? 1 : 1 + 2 * 255.0 / 4096;

@@ -293,8 +293,8 @@ TEST_P(ScaledLayer, AtEdgesOfTheLayerTheDepthOfTheCoveredPixelDecides) {
         layer.z = [&](int x, int) { return x == 20 ? 2 : nothing; };
         layer.bounds = {20, 0, 21, kQuarter.height};
         const LaidOver got = runOverBlack(layer);
-        // The centre of layer pixel 20 is at output position 81.5. Linear interpolation spreads it
-        // over four output pixels to each side.
+        // The centre of layer pixel 20 is at output position 81.5. Linear interpolation spreads
+        // this pixel over four output pixels to each side.
         for (int x = 0; x < kOutput.width; ++x) {
             const double tent = std::max(1 - std::abs(x - 81.5) / 4, 0.0);
             ASSERT_NEAR(got.at(x, 60, 0), 200 * tent, 1.01) << x;

@@ -13,8 +13,8 @@
 
 namespace mfar {
 
-/// Defines how a pattern is sampled. Pixel (x, y) is the mean over a square of `footprint` pattern
-/// units around ((x, y) + 0.5) step - 0.5 + shift.
+/// Defines how a pattern is sampled. Pixel (x, y) is the mean over a square with a side of
+/// `footprint` pattern units around ((x, y) + 0.5) step - 0.5 + shift.
 struct Shot {
     double step = 1;
     Eigen::Vector2d shift{0, 0};
@@ -53,7 +53,8 @@ void addNoise(TestPicture& picture, double sigma, unsigned seed);
 
 [[nodiscard]] gpu::Texture uploaded(const TestPicture& p, gpu::Filter f = gpu::Filter::Nearest);
 [[nodiscard]] RgbPlanes planesOf(const TestPicture& p);
-/// The values that a shader gets when it samples the texture, as RGBA8, with its swizzle.
+/// The values that a shader gets when it samples the texture, as RGBA8. The texture's swizzle is
+/// applied.
 [[nodiscard]] std::vector<std::uint8_t> sampled(const gpu::Texture& texture);
 [[nodiscard]] gpu::Texture floatTexture(Size size, gpu::TexelFormat format,
                                         const std::vector<float>& values,

@@ -20,7 +20,7 @@ struct SeenStill {
     SeenStill(const StereoRig& cameras, const std::function<double(const Eigen::Vector2d&)>& luma,
               const std::function<Eigen::Vector2d(const Eigen::Vector2d&)>& flow);
 
-    // The views are valid as long as this object.
+    // The views are valid as long as this object exists.
     [[nodiscard]] simd::StillPairs pairs() const {
         return {words_.data(), rig.still.size.width, rig.still.size};
     }

@@ -8,7 +8,7 @@
 namespace mfar {
 namespace {
 
-// Tolerance: half an 8-bit step, plus single precision for values between two steps.
+// Tolerance: half a grey level, plus rounding errors of single precision.
 constexpr double kToABit = 0.501;
 
 class StepsTest : public GlTest, public testing::WithParamInterface<EngineKind> {

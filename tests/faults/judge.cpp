@@ -23,8 +23,8 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// Limits that mfard promises, see daemon/budgets.h and its systemd unit: age of a stale picture
-// (kStale), time to report a silent camera (kMarked), time to recover after a fault (kBack).
+// Limits that mfard promises, see daemon/budgets.h and systemd/mfard.service.in: age of a stale
+// picture (kStale), time to report a silent camera (kMarked), time to recover from a fault (kBack).
 constexpr Ns kStale = 3 * kSecond, kMarked = 250 * kMs, kBack = 3 * kSecond;
 constexpr Ns kVideoBudget = 1500 * kMs, kWriter = 2500 * kMs;
 constexpr Ns kPicture = 2000 * kMs;
@@ -172,7 +172,7 @@ void Judge::judgeState(const ordered_json& said, Ns asked) {
     const std::string fault = textOf(said, "fault");
     const bool isFine = state == "ok" && fault.empty();
     // If the screen's reader stalls, the pipe still takes some pictures. Then the writing thread
-    // waits. Status reports this wait only after the thread's time budget.
+    // waits. Status reports this wait only after budget::kTaken.
     const Ns stalled = asked - std::max(calm_[Screen].since, calm_[Video].since);
     // mfard recognises a repeated picture only after several pictures.
     const bool repeats = calm_[Video].active > calm_[VideoDevice].active;

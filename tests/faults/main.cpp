@@ -32,7 +32,7 @@ struct Options {
 Options parse(int argc, char** argv) {
     Options o;
     CLI::App app("mfar-faults: runs mfard under random faults on a simulated clock and checks what "
-                 "it promises");
+                 "mfard promises");
     o.run.addOptions(app);
     app.add_option(
            "--episodes", o.trial.episodes,

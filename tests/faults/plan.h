@@ -50,7 +50,7 @@ struct Fault {
     [[nodiscard]] std::string text() const;
 };
 
-/// One fault, or two that overlap. A pause for recovery follows.
+/// One fault, or two that may overlap. A pause for recovery follows.
 using Episode = std::vector<Fault>;
 
 struct Plan {

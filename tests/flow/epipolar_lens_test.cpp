@@ -112,7 +112,8 @@ TEST(EpipolarLens, RaysProjectBackToTheirPixels) {
     }
 }
 
-// Along a ray away from the axis, projected points must never move back towards it.
+// As the angle between a ray and the optical axis grows, the ray's projection must never move back
+// towards the centre of the picture.
 TEST(EpipolarLens, ProjectionNeverFoldsBack) {
     for (const CameraModel& camera :
          {test::oddPlain(), test::oddBarrel(), pincushion(), fisheye()}) {

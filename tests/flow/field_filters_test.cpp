@@ -54,7 +54,7 @@ TEST(Median3x3, TheMedianIsTheFifthOfNineSortedValues) {
     }
 }
 
-// Random orders of nine distinct values, because a wrong sorting network fails only for some
+// Tests random orders of nine distinct values, because a wrong sorting network fails only for some
 // orders.
 TEST(Median3x3, TheMedianDoesNotDependOnTheOrderOfValues) {
     Workers workers(1);

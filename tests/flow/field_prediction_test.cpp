@@ -18,8 +18,8 @@ Scene slantedStep() {
     return {{{normal, 3}, {{0, 0, 1}, 2, {-0.35, -0.4}, {0.45, 0.3}}}, 28, 100};
 }
 
-/// s of the cells of a frame at `T_frame_world`. The still is at the world's origin. The scene is
-/// given in the still's frame.
+/// True s of the cells of a frame at `T_frame_world`. The still's camera is at the world's origin,
+/// so the scene is given in its coordinates.
 std::vector<float> truth(const EpipolarLens& cells, const RigidTransform& T_frame_world,
                          const Scene& scene) {
     const RigidTransform T_still_frame = T_frame_world.inverse();
@@ -95,7 +95,7 @@ TEST(FieldPrediction, TheNearestSurfaceOccludesOthers) {
     EXPECT_EQ(predicted[middle], 0) << "the uncovered cell must show the background";
 }
 
-TEST(FieldPrediction, UnseenCellsHaveNoPrediction) {
+TEST(FieldPrediction, FramesOfPlacesThatWereNotSeenHaveNoPrediction) {
     const EpipolarLens cells(barrelCamera(), 2);
     FieldPrediction prediction(barrelCamera());
     EXPECT_TRUE(prediction.in({}, 1).empty());

@@ -10,8 +10,8 @@
 
 namespace mfar::test {
 
-/// A part of a plane in the video camera's frame: the points p with `normal` . p = `distance` whose
-/// x and y are between `least` and `greatest`. Its texture is a function of p.
+/// A part of a plane in the video camera's coordinates: the points p with `normal` . p = `distance`
+/// whose x and y are between `least` and `greatest`. The texture is a function of p.
 struct Surface {
     Eigen::Vector3d normal{0, 0, 1};
     double distance = 2;
@@ -20,7 +20,7 @@ struct Surface {
 
 struct Scene {
     std::vector<Surface> surfaces;
-    double grain = 20;     ///< cells of the finest texture per unit of length
+    double grain = 20;     ///< lattice points of the finest texture per unit of length
     double contrast = 90;  ///< amplitude around 128 [grey levels]
 
     /// Depth z of the first surface on a pixel's ray, for a camera at T_camera_video. 0 if the ray
@@ -50,7 +50,8 @@ using mfar::viewOf;
 /// Position in the still at which `search` found pixel (x, y) of the frame.
 [[nodiscard]] Eigen::Vector2d landing(const EpipolarSearch& search, const View& view, int x, int y);
 
-/// Errors of the flow that a search found [px], over the pixels that are visible in the still.
+/// Errors of the flow that a search found, over the pixels that are visible in the still: the
+/// median [px], and the share `bad` of pixels with an error above 1 px.
 struct FlowErrors {
     std::size_t pixels = 0;
     double median = 0;

@@ -62,8 +62,8 @@ std::vector<float> solve(const Problem& p, int threads) {
 
 /// Adds the path costs L in direction (dx, dy) to `sums`. For pixel p, label k and the previous
 /// pixel q: L(p, k) = C(p, k) + min(L(q, k), L(q, k +- 1) + step, jump) - c(p). The constant c(p)
-/// makes the least L(p, k) of all k zero. Equal k mean the same label, also if the windows of p and
-/// q begin with different labels.
+/// makes the least L(p, k) of all k zero. The label k is the same at p and q, even if their windows
+/// begin with different labels.
 void addPath(const Problem& p, int dx, int dy, std::vector<int>& sums) {
     const auto [w, h] = p.guide.size;
     const int labels = p.labels();
@@ -128,7 +128,7 @@ void expectTwin(const Problem& p) {
     }
 }
 
-// Paths run along the axes only, for which the row-by-row order of addPath() is right.
+// The paths run only along the two axes. For these, addPath() may process pixels row by row.
 TEST(SemiGlobal, MatchesTheOracleInOneWindow) {
     for (unsigned seed = 1; seed <= 4; ++seed)
         for (const Size size : {Size{1, 1}, Size{1, 9}, Size{11, 1}, Size{2, 3}, Size{37, 29}})
@@ -193,7 +193,8 @@ TEST(SemiGlobal, FollowsASlopeThroughMovingWindows) {
     }
 }
 
-// Costs rise as |k - truth|. A parabola's vertex would be biased towards whole labels.
+// Costs are proportional to |k - truth|. For such costs, the vertex of a fitted parabola would be
+// biased towards whole labels.
 TEST(SemiGlobal, SubLabelPartIsTheVertexOfTwoLines) {
     for (const int quarter : {-2, -1, 0, 1, 2}) {
         Problem p = randomProblem({1, 1}, 1, 0, 3);

@@ -3,8 +3,8 @@
 fuzzPackages() {
     cat <<'EOF'
 clang-19                compiler with libFuzzer
-libclang-rt-19-dev      libFuzzer and its sanitizers
-llvm-19                 names of places, coverage
+libclang-rt-19-dev      libFuzzer and the sanitizers
+llvm-19                 names of functions in reports, coverage
 EOF
 }
 
@@ -32,7 +32,7 @@ fuzzRoom() {
     recording) echo 'hal/virtual/(recording\.|recording_csv|png_header|image_files|float_files)' ;;
     tags) echo 'pipeline/track/tag_map' ;;
     v4l2) echo 'hal/device/(camera_v4l2|v4l2_)' ;;
-    *) die "the folder of the fuzz target $1 is unknown" ;;
+    *) die "the source files of the fuzz target $1 are unknown" ;;
     esac
 }
 

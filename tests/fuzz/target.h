@@ -8,7 +8,7 @@
 
 /// The interface of a fuzz target: it reads one input and returns 0. A fault ends the process: one
 /// that a sanitizer reports, or an exception that the tested header does not document.
-// NOLINTNEXTLINE(readability-identifier-naming): its name for libFuzzer
+// NOLINTNEXTLINE(readability-identifier-naming): libFuzzer requires this name
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
 namespace mfar::test {

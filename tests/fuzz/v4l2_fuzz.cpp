@@ -1,4 +1,5 @@
-// Fuzzes a driver with arbitrary answers. The input is the script of the answers.
+// Fuzzes CameraV4l2 with a driver that gives arbitrary answers. The input is the script of these
+// answers.
 #include "base/image_layout.h"
 #include "hal/device/camera_v4l2.h"
 #include "tests/fuzz/scripted_v4l2.h"

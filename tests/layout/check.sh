@@ -21,9 +21,9 @@ fault() {
     faults=$((faults + 1))
 }
 
-# allowedFrom() and homeOf() return their result in a variable, because printing it would cost a
-# process for each include. `allowed`: regular expression for the project files that a folder may
-# include.
+# allowedFrom() and homeOf() return their result in a variable, because reading a printed result
+# would start a process for each include. `allowed`: regular expression for the project files that a
+# folder may include.
 allowedFrom() {
     case $1 in
     tests/*) allowed='.+' ;;

@@ -34,7 +34,7 @@ soundTree() {
 }
 
 # expectFault MESSAGE FILE LINE...: adds the file to a copy of the valid tree. check.sh must report
-# MESSAGE. Copying takes two processes, and creating the tree anew takes thirty.
+# MESSAGE. The copy saves time: it takes two processes, and creating the tree anew takes thirty.
 expectFault() {
     local message=$1 said
     rm -rf "$work"

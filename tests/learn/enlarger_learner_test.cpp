@@ -110,7 +110,7 @@ TEST(EnlargerLearner, ASingleSoftStillIsRefusedButNotASecondOne) {
     EXPECT_EQ(learner.add(matchedPictures(sharpDiscs(12), kSharp)), Outcome::Replaced);
     EXPECT_EQ(learner.add(matchedPictures(sharpDiscs(13), kSoft)), Outcome::Refused);
     EXPECT_EQ(learner.add(matchedPictures(sharpDiscs(14), kSoft)), Outcome::Replaced)
-        << "the lens has changed";
+        << "a second soft still in a row means that the lens has changed";
 }
 
 TEST(EnlargerLearner, BadStillsNeverGiveFiltersWorseThanTheCubic) {

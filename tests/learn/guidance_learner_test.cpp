@@ -112,7 +112,7 @@ TEST(GuidanceLearner, UnusablePicturesAreIgnored) {
     EXPECT_EQ(learner.stored(), before);
 }
 
-TEST(GuidanceLearner, FewCellsWithInfinitePositionsHaveLittleInfluence) {
+TEST(GuidanceLearner, AFewCellsWithInfinitePositionsHaveLittleInfluence) {
     GuidanceLearner learner;
     for (unsigned i = 1; i <= 3; ++i) {
         Stills of(4, 8, i);

@@ -108,7 +108,7 @@ TEST(LearnerState, StateOfVersionThreeIsReadWithGuidanceButWithoutFineMatch) {
     EXPECT_FALSE(then.filters()->fineMatch().isKnown());
 }
 
-TEST(LearnerState, StatesOfVersionsFourToSixAreReadAsFarAsTheySuit) {
+TEST(LearnerState, StatesOfVersionsFourToSixAreReadWithoutMissingAndOutdatedValues) {
     EnlargerLearner now;
     for (const int scene : {1, 5})
         now.add(matchedPictures(sharpDiscs(scene), {.gain = 0.7, .gamma = 1.3}));

@@ -82,7 +82,7 @@ TEST_P(PipelineLearning, EachMatchedStillIsReportedOnce) {
     (void)picture(pipeline_);
     (void)picture(pipeline_);
     EXPECT_EQ(heard.times, 1);
-    EXPECT_GT(heard.weighed, 1000) << "at least 1000 of 3072 cells must have a weight";
+    EXPECT_GT(heard.weighed, 1000) << "more than 1000 of 3072 cells must have a weight above 0.5";
     setStill(pipeline_);
     (void)picture(pipeline_);
     EXPECT_EQ(heard.times, 2);
@@ -108,7 +108,7 @@ TEST_P(PipelineLearning, ReplacedStillIsReportedWithTheLastFrame) {
     setStill(pipeline_);
     EXPECT_EQ(heard.replacements, 1);
     EXPECT_EQ(heard.lastLuma, video_[0]);
-    EXPECT_GT(heard.weighed, 1000) << "at least 1000 of 3072 cells must have a weight";
+    EXPECT_GT(heard.weighed, 1000) << "more than 1000 of 3072 cells must have a weight above 0.5";
     pipeline_.dropStill();
     setStill(pipeline_);
     pipeline_.setMode(SuperResMode::Off);

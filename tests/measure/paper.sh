@@ -38,7 +38,7 @@ measured() {
 median() { awk -v line="$1" 'index($0, line " ") == 1 { sub(line, ""); print $1; exit }' "$out/times.txt"; }
 perSecond() { awk -v ms="$1" 'BEGIN { if (ms == "") print "not measured"; else printf "%.1f frames/s", 1000 / ms }'; }
 
-# section TITLE NAME [FIGURE]: starts a section of the page.
+# section TITLE NAME [FIGURE]: writes a section of the page, with the table of NAME.txt.
 section() {
     printf '\n## %s\n\n' "$1"
     [[ ! -s $out/${3:-none} ]] || printf '![%s](%s)\n\n' "$1" "$3"

@@ -41,7 +41,7 @@ private:
     std::vector<std::uint8_t> bin_;
 };
 
-[[nodiscard]] Model modelOf(const GltfMaker& maker);  ///< read from a file "test.glb"
+[[nodiscard]] Model modelOf(const GltfMaker& maker);  ///< parsed under the name "test.glb"
 [[nodiscard]] GltfMaker oneTriangle();
 /// A textured quad with normals and all material fields, in a small hierarchy.
 [[nodiscard]] GltfMaker richModel();

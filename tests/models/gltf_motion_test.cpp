@@ -14,7 +14,7 @@ using test::GltfMaker;
 using test::modelOf;
 using test::oneTriangle;
 
-/// Returns where the model's vertex is at a time.
+/// Returns the position of a vertex of the model at `time` [s].
 Eigen::Vector3d vertexAt(const Model& model, std::size_t mesh, std::size_t vertex, double time) {
     const Mesh& m = model.meshes.at(mesh);
     const Eigen::Vector3d p = m.positions.at(vertex).cast<double>();

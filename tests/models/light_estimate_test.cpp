@@ -174,13 +174,13 @@ TEST(LightEstimate, TheEstimateFollowsAChangeOfLight) {
     for (int i = 0; i < 30; ++i)
         watcher.look(lookingDown(), level(0.1F));
     const float dark = watcher.estimate().radiance(0, 0);
-    for (int i = 0; i < 91; ++i)  // 3 s, as long as the estimator smooths
+    for (int i = 0; i < 91; ++i)  // 3 s, the time constant of the estimator
         watcher.look(lookingDown(), level(0.5F));
     const float share = (watcher.estimate().radiance(0, 0) / dark - 1) / 4;
     EXPECT_NEAR(share, 1 - std::exp(-1.0F), 0.02F);
 }
 
-TEST(LightEstimate, CoveredAndImpossibleFramesAreSkipped) {
+TEST(LightEstimate, FramesOfACoveredLensOrWithInvalidPoseOrTimeAreSkipped) {
     Watcher watcher;
     EXPECT_FALSE(watcher.estimator.estimate());
     watcher.look(lookingDown(), [](const auto&) { return Eigen::Vector3f(0, 0, 0); });

@@ -123,7 +123,8 @@ struct DirectResult {
     Eigen::Vector4d likeness;
     double error;
     bool compared;  ///< true: `likeness` replaces the cell's statistics
-    /// Change of the squared correlation that would choose the other flow; 1 if there is no other.
+    /// Change of a squared correlation at which the other flow would be chosen; 1 if there is no
+    /// other flow.
     double choiceMargin;
 };
 

@@ -28,8 +28,8 @@ public:
         }
         return out;
     }
-    /// Halves the angle atan2(sine, cosine) and returns the index of the half's bin: `bins` equal
-    /// bins from -pi/2 to pi/2.
+    /// Returns the index of the bin that contains half the angle atan2(sine, cosine). There are
+    /// `bins` equal bins from -pi/2 to pi/2.
     int bin(double cosine, double sine, int bins) {
         const double at = (std::atan2(sine, cosine) / (2 * std::numbers::pi) + 0.5) * bins;
         margin_ = std::min(margin_, std::abs(at - std::round(at)));

@@ -86,7 +86,7 @@ inline Eigen::Matrix4d scatterOf(const SubpixelCase& in, int x, int y) {
 }
 
 struct SubpixelStep {
-    Eigen::Vector2d step = Eigen::Vector2d::Zero();  ///< before it is refused
+    Eigen::Vector2d step = Eigen::Vector2d::Zero();  ///< taken() may refuse it
     double gain = 0;
     [[nodiscard]] Eigen::Vector2d taken() const {
         const bool takes =

@@ -19,7 +19,7 @@ struct TwoViews {
     [[nodiscard]] Eigen::Vector2d rayA(const Eigen::Vector2d& pixel) const {
         return a.unproject(pixel);
     }
-    /// Ray of a pixel of camera b, in the frame of camera a, scaled to z = 1.
+    /// Ray of a pixel of camera b, in the coordinates of camera a, scaled to z = 1.
     [[nodiscard]] Eigen::Vector3d rayB(const Eigen::Vector2d& pixel) const {
         const Eigen::Vector3d ray =
             T_b_a.rotation.conjugate() * b.unproject(pixel).homogeneous().eval();
@@ -31,7 +31,7 @@ struct TwoViews {
             T_b_a.rotation * rayA(pixel).homogeneous().eval() + rho * T_b_a.translation;
         return b.project(point.hnormalized()) - pixel;
     }
-    /// Translation of T_b_a, rotated into the frame of a.
+    /// Translation of T_b_a, rotated into the coordinates of camera a.
     [[nodiscard]] Eigen::Vector3d baseline() const {
         return T_b_a.rotation.conjugate() * T_b_a.translation;
     }

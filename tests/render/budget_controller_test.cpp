@@ -155,7 +155,7 @@ TEST(BudgetController, UnusedTimeOfIdleFramesIsNotCarriedOver) {
     EXPECT_EQ(budget.kept().frames, 9) << "idle frames do not count";
 }
 
-TEST(BudgetController, TimeForConvertingAPictureIsRepaidByManyFrames) {
+TEST(BudgetController, ManyFramesTogetherSaveTheTimeForConvertingAPicture) {
     BudgetController budget(kBudget);
     const auto cheap = [](int) { return 0.001; };
     (void)usedIn(budget, 2, 1000, cheap);
@@ -178,7 +178,7 @@ TEST(BudgetController, TimeForConvertingAPictureIsRepaidByManyFrames) {
     EXPECT_LE(budget.kept().deviation, 0.1);
 }
 
-TEST(BudgetController, IdleFramesRepayOverusedTime) {
+TEST(BudgetController, IdleFramesSaveTimeThatWasUsedBeyondTheBudget) {
     BudgetController budget(kBudget);
     (void)usedIn(budget, 2, 1000, [](int) { return 0.001; });
     budget.beginFrame(true);

@@ -81,7 +81,7 @@ TEST(CarriedLight, NewPictureIsShownWhenItHasEnoughSamples) {
         << "the mean of 8 samples per object pixel and 2 per pixel of other surfaces";
 }
 
-TEST(CarriedLight, NewSamplesSoonOutweighLightOfAnOldLighting) {
+TEST(CarriedLight, NewSamplesSoonOutweighTheLightFromBeforeAChangeOfLighting) {
     Driver driver(kThirtyTwo, kProduct);
     const auto dark = std::make_shared<Scene>(*render_scenes::stillLife());
     dark->lighting.sun->irradiance *= 0.2F;
@@ -122,7 +122,7 @@ TEST(CarriedLight, SurfacesWithUnchangedLightAreTracedOnce) {
     EXPECT_GE(driver.pictures.pixels(), all) << "with new light, all pixels must be traced again";
 }
 
-TEST(CarriedLight, CameraAtRestGetsOwnSamplesInEachPixel) {
+TEST(CarriedLight, WhileTheCameraRestsEachPixelGetsOwnSamples) {
     Driver driver(kThirtyTwo, kProduct);
     driver.look(20);
     driver.settle();

@@ -322,7 +322,7 @@ TEST(Emission, GroundThatNoLampLightsIsUnchanged) {
     }
 }
 
-TEST(Emission, InASceneWithoutEmissionSamplingLampsChangesNoBit) {
+TEST(Emission, InASceneWithoutEmissionTheSamplingOfLampsChangesNoBit) {
     auto scene = std::make_shared<Scene>();
     scene->objects = {objectOf(modelOf(sphere({0, 0, 0.5F}, 0.5F, 24), grey(0.8F, 0.3F, 0.3F)))};
     scene->catcher = ground(3, 0.6F);

@@ -255,7 +255,7 @@ TEST(Film, NextPictureReusesTheMemoryOfThePreviousPicture) {
 
 TEST(Film, PixelsOfProvidedMemoryCauseNoPageFaults) {
 #ifdef __SANITIZE_THREAD__
-    GTEST_SKIP() << "the thread sanitizer keeps notes about memory, which cause page faults";
+    GTEST_SKIP() << "the thread sanitizer's shadow memory causes page faults";
 #endif
     const auto faults = [] {
         rusage usage{};

@@ -85,7 +85,7 @@ TEST(FirstPicture, ThreadsOfTheRendererProvideItsMemory) {
 }
 
 // Each frame waits until the threads have used up their time.
-TEST(FirstPicture, UntilItIsShownTheThreadsMayUseTwiceTheirTime) {
+TEST(FirstPicture, BeforeTheFirstPictureTheThreadsMayUseTwiceTheirTimeBudget) {
 #ifdef __SANITIZE_THREAD__
     GTEST_SKIP() << "with the thread sanitizer, one step takes longer than the budget";
 #endif

@@ -62,7 +62,7 @@ KnownLight lightFrom(const Film& film, double x, double y,
     return history.at(surface, pointAt(x, y), kFromAbove.T_world_camera.translation.cast<float>());
 }
 
-TEST(LightHistory, WhereEveryPixelWasSampledItInterpolatesBetweenAdjacentPixels) {
+TEST(LightHistory, InterpolatesBetweenAdjacentPixelsWhereEveryPixelWasSampled) {
     // One pixel has another light. It must affect only points less than a pixel away.
     Film film = filmOf([](int, int) { return true; });
     KnownLight bright = lightAt(6, 4);
@@ -73,7 +73,7 @@ TEST(LightHistory, WhereEveryPixelWasSampledItInterpolatesBetweenAdjacentPixels)
     EXPECT_NEAR(lightFrom(film, 6.5, 4).second.x(), plain - 0.5F + 0.5F * (1 + 6 + 80), 0.2F);
 }
 
-TEST(LightHistory, WhereAQuarterOfThePixelsWasSampledItInterpolatesOverTwoPixels) {
+TEST(LightHistory, InterpolatesOverTwoPixelsWhereAQuarterOfThePixelsWasSampled) {
     const Film film = filmOf(isEven);
     for (const auto& [x, y] : {std::pair{5.0, 4.0}, {5.0, 5.0}, {4.5, 7.25}, {9.75, 6.5}}) {
         const KnownLight light = lightFrom(film, x, y);
@@ -90,9 +90,9 @@ TEST(LightHistory, AtTheLastColumnAndRowOfASparsePictureTheNearestPixelsSuffice)
     EXPECT_EQ(lightFrom(film, 17.5, 6).firstCount, 0) << "the point is outside the picture";
 }
 
-TEST(LightHistory, BetweenSparseAndFullPixelsTheSampledPixelsAreUsed) {
-    // As in a sparse picture: tiles at objects (left) have light in all pixels, other tiles in a
-    // quarter of their pixels.
+TEST(LightHistory, BetweenSparselyAndFullySampledTilesTheSampledPixelsAreUsed) {
+    // As in a sparse picture, tiles at objects (left) have light in all pixels, and other tiles
+    // have light in a quarter of their pixels.
     const Film film = filmOf([](int x, int y) { return x < 8 || isEven(x, y); });
     for (const double x : {6.5, 7.0, 7.5, 8.0, 8.5, 9.0})
         EXPECT_NEAR(lightFrom(film, x, 5).second.x(), 1 + x + 20 * 5, x == 7.5 ? 0.6 : 0.1) << x;

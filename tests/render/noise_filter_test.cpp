@@ -118,15 +118,15 @@ TEST(NoiseFilter, SamplesOfASoftShadowLeaveFewerSpotsOnTheCatcherThanOnObjects) 
 
 // From LightPixel::kFew samples on, the variance is estimated from the pixel's own samples. It is
 // too low if they all agree by chance.
-TEST(NoiseFilter, MoreSamplesOfASoftShadowLeaveHardlyMoreSpots) {
+TEST(NoiseFilter, MoreSamplesOfASoftShadowHardlyIncreaseTheSpots) {
     static_assert(LightPixel::kFew == 4);
     EXPECT_LT(meanSpotsOf(kCatcherId, 2), meanSpotsOf(kCatcherId, 1));
     EXPECT_LT(meanSpotsOf(kCatcherId, 4), 1.3 * meanSpotsOf(kCatcherId, 2));
     EXPECT_LT(meanSpotsOf(kCatcherId, 16), meanSpotsOf(kCatcherId, 4));
 }
 
-// Returns the middle of a dark picture after filtering, if only this pixel was bright. `variance`
-// is that of the bright pixel if it has at least LightPixel::kFew samples.
+// Filters a dark picture in which only the middle pixel is bright, and returns this pixel.
+// `variance` is that of the bright pixel if it has at least LightPixel::kFew samples.
 LightPixel brightPixelFiltered(float samples, std::uint8_t id, float variance = 1e-6F) {
     Pixels pixels = noisyPicture(flat, 0);
     for (LightPixel& p : pixels) {

@@ -89,7 +89,7 @@ TEST(PixelSurface, MirroredLightOfSmallBallsIsTheMeanOverThePixel) {
     EXPECT_LT(std::sqrt(ofPixel), 0.4 * std::sqrt(ofPoint));
 }
 
-TEST(PixelSurface, SmallBallsHaveRougherPixelsAndLargeOnesDoNot) {
+TEST(PixelSurface, PixelsOfSmallBallsAreRougherThanTheMaterialAndThoseOfLargeBallsAreNot) {
     for (const auto& [radius, isRough] : {std::pair(0.1F, true), std::pair(1.0F, false)}) {
         const Film film = seen(balls(radius, 1), kSmall);
         const SeenSurface& middle =
@@ -103,7 +103,7 @@ TEST(PixelSurface, SmallBallsHaveRougherPixelsAndLargeOnesDoNot) {
     }
 }
 
-// The number of points must depend on relative differences of light.
+// The number of points per pixel must depend on differences relative to the light's brightness.
 TEST(PixelSurface, LightIsProportionalToTheBrightnessOfTheEnvironment) {
     const Film dim = seen(balls(0.1F, 0.05F), kSmall), bright = seen(balls(0.1F, 1), kSmall);
     for (std::size_t i = 0; i < render_scenes::allPixels(kSmall).size(); ++i) {

@@ -7,8 +7,8 @@
 
 namespace mfar::render_scenes {
 
-/// Rough and shiny balls and boxes within 0.2 m of the origin. They stand on a shadow catcher, with
-/// a sun and unevenLight().
+/// Rough and shiny balls and boxes within 0.2 m of the origin. They stand on a shadow catcher.
+/// A sun and unevenLight() light them.
 [[nodiscard]] std::shared_ptr<const Scene> stillLife();
 
 /// A camera that looks at the origin. `azimuth` is the angle about the world's z axis from +x

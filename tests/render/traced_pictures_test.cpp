@@ -27,7 +27,7 @@ TEST(NextStep, StepDependsOnTheChangesOfTheView) {
              {{}, 9.0, Continue},  // no shown picture, so the next picture is finished in any
                                    // case
              {0.2, {}, Refine},
-             {0.3, {}, Start},        // the next picture can reuse the light
+             {0.3, {}, Start},        // the change is above the limit of 0.25
              {kInfinite, {}, Start},  // the shown picture is useless from this view
              {1.1, 0.9, Continue},    // the camera approaches the next picture's view
              {0.6, 2.0, Start},       // the shown picture serves meanwhile

@@ -32,7 +32,7 @@ TracedRendererOptions quick() {
     return out;
 }
 
-/// A loop of frames without other work, at the times of 30 frames per second.
+/// Runs frames without other work. Their time stamps are 1/30 s apart.
 class Frames {
 public:
     explicit Frames(const TracedRendererOptions& options) : renderer(options) {}
@@ -177,7 +177,8 @@ TEST(TracedRenderer, SleepsWhenTheFramesBudgetIsUsedUp) {
     Frames frames(options);
     frames.renderer.setScene(render_scenes::stillLife());
     const RenderView view = render_scenes::viewFrom(kRenderSize, 20);
-    // Frames of a busy machine may use less than their budget, but never more.
+    // On a busy machine, frames may use less than their budget, because the threads have a low
+    // priority. The mean must not exceed the budget by more than a tenth.
     int shown = 0;
     ASSERT_TRUE(frames.until(
         view, [&] { return ++shown > 300 && frames.renderer.counters().budget.mean > 0; }));
@@ -191,7 +192,7 @@ TEST(TracedRenderer, SleepsWhenTheFramesBudgetIsUsedUp) {
     EXPECT_LE(frames.renderer.counters().cpuMs - used, 20 * options.budgetMs);
 }
 
-TEST(TracedRenderer, StopInterruptsItsWork) {
+TEST(TracedRenderer, TheDestructorInterruptsTracing) {
     TracedRendererOptions options = quick();
     options.slices.samples = 1 << 20;
     options.budgetMs = 1e6;

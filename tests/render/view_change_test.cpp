@@ -49,7 +49,7 @@ TEST(ViewChange, PureRotationIsIgnoredForWhollyVisibleObjects) {
     EXPECT_NEAR(change(cut, turned(cut, -8)), 2, 0.01);
 }
 
-TEST(ViewChange, AppearingObjectIsAnInfiniteChangeAndDisappearingObjectIsNone) {
+TEST(ViewChange, AppearingObjectIsAnInfiniteChangeAndDisappearingObjectIsNoChange) {
     const RenderView from = viewFrom(kSize, 20), away = turned(viewFrom(kSize, 60), 180);
     EXPECT_EQ(change(from, away), 0);
     EXPECT_TRUE(std::isinf(change(away, from)));

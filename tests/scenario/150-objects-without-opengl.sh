@@ -32,7 +32,7 @@ shape = "box"
 size = [0.1, 0.1, 0.1]
 position = [0.0, 0.0, 0.06]
 END
-# With sanitizers, only few pixels and samples give a picture soon.
+# With sanitizers, the path tracer is slow. So it gets few pixels and samples.
 few=
 [ "$patience" = 1 ] || few='\nresolution = 0.1\nsamples = 1\nbudget_ms = 60'
 sed "s/\"preview\"/\"path-traced\"$few/" preview.toml >traced.toml

@@ -15,6 +15,6 @@ resident=$(sed -n 's/.*"resident_mb": \([0-9]*\).*/\1/p' summary.json)
 [ -n "$resident" ] || fail "the summary does not report the memory in use"
 [ "$resident" -gt 20 ] ||
     fail "the summary reports only $resident MB of memory, which is implausible"
-# About 90 MB are used on x86-64, 30 of them by programs and libraries. With all buffers touched, it
-# would be 310 MB.
+# About 90 MB are used on x86-64, 30 of them by programs and libraries. If mfard touched all its
+# buffers, 310 MB would be used.
 [ "$resident" -lt 180 ] || fail "$resident MB of memory are in use at the first picture; limit: 180 MB"

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# The reader of the display's pipe stalls. With a live source the pictures must continue and the
-# status must report the reader. With a recording, mfard must wait for the reader and report it.
-# mfard must end when the reader closes the pipe.
+# The program that reads the display's pipe stalls. With a live source, the pictures must continue,
+# and the status must report that the reader stalls. With a recording, mfard must wait for the
+# reader and report this. mfard must end when the reader closes the pipe.
 . "$(dirname "$0")/lib.sh"
 
 ctl="$(dirname "$sim")/mfarctl"

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # A service lacks something that it needs, and the service manager restarts it at once. mfard must
-# log the remedy and wait longer before each end. On a command line it must end at once. Usage:
-# 210-service-that-cannot-run.sh MFARD MFAR-SIM NOTIFY-LISTENER
+# log the remedy. After each further failure, it must wait longer before it ends. On a command line
+# it must end at once. Usage: 210-service-that-cannot-run.sh MFARD MFAR-SIM NOTIFY-LISTENER
 . "$(dirname "$0")/lib.sh"
 
 listener=$3

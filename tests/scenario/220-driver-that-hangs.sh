@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # A call to a driver never returns. mfard must stop notifying the watchdog. Status, log and service
-# manager must get the name of the hanging thread. While a missing camera is reopened, mfard must
+# manager must get the name of the hanging thread. While mfard waits for a missing camera, it must
 # notify the watchdog. A preloaded library simulates the cameras. A program that writes down the
 # messages simulates the service manager. Usage: 220-driver-that-hangs.sh MFARD MFAR-SIM
 # PRETENDED.so NOTIFY-LISTENER
@@ -23,7 +23,7 @@ is_fed() {
     before=$(meals)
     until_true fed 2
 }
-# True if the watchdog is not notified for four seconds. Usually it is notified every second.
+# Fails if mfard notifies the watchdog within four seconds. Usually mfard notifies it every second.
 is_hungry() {
     before=$(meals)
     sleep 4

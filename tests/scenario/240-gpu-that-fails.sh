@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # mfard must report a GPU that is lost or hangs, and set it up again. Control and cameras must
-# continue. After three losses within a minute, the CPU must draw and the picture must say so. mfard
-# must report a driver that does not return, and a run with a time limit must still end. Usage:
-# 240-gpu-that-fails.sh MFARD MFAR-SIM PRETENDED.so FAULTY-GL-FOLDER
+# continue. After three failures within a minute, the CPU must draw, and a text in the picture must
+# report this. mfard must report a driver that does not return, and a run with a time limit must
+# still end. Usage: 240-gpu-that-fails.sh MFARD MFAR-SIM PRETENDED.so FAULTY-GL-FOLDER
 . "$(dirname "$0")/lib.sh"
 
 pretended=$3
@@ -56,7 +56,7 @@ status_says '^health +degraded for .*: the GPU failed 3 times within a minute, s
     fail "the health in the status does not report that the CPU draws"
 status_says '^renderer +without OpenGL ES' || fail "status still names a renderer of OpenGL ES"
 control snapshot after.png
-! cmp -s before.png after.png || fail "the picture does not say that the CPU draws"
+! cmp -s before.png after.png || fail "no text in the picture reports that the CPU draws"
 kill -TERM "$pid"
 ends_with 0 1000
 summary_has gpu_failures 3

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Recordings, state and a log file are on a small file system, which is full. mfard must start,
+# Recordings, state and a log file are on a small file system that becomes full. mfard must start,
 # continue, and report what it could not write. Everything that it wrote must be readable.
 # Usage: 270-full-var.sh MFARD MFAR-SIM PRETENDED.so. Exit status 77: no file system can be mounted.
 if [ -z "${MFAR_MOUNTS:-}" ]; then
@@ -27,7 +27,8 @@ goes_on() {
 trap 'umount --lazy "$work/var"; clean_up' EXIT
 mkdir var
 mount -t tmpfs -o size=6m none var
-# mfard works in this folder, as the service does. Its messages go to another folder.
+# mfard runs in the folder var, as the service runs in /var/lib/mfar. The file with mfard's messages
+# is in another folder.
 printf '#!/bin/sh\ncd "%s/var" && exec "%s" "$@"\n' "$work" "$mfard" >mfard
 chmod +x mfard
 mfard=$work/mfard

@@ -34,8 +34,8 @@ pids+=($!)
 exported() { [ -s shown ]; }
 until_true exported
 loop=$(losetup --find --show shown)
-# By default, ext4 writes all data every five seconds, even if mfard does not synchronise. With
-# commit=300, this hides no missing synchronisation.
+# By default, ext4 writes all data every five seconds. This would hide a missing synchronisation in
+# mfard. commit=300 makes the interval 300 s, which is longer than this test.
 mount -t ext4 -o commit=300 "$loop" disk
 
 export STATE_DIRECTORY=$PWD/state

@@ -226,7 +226,7 @@ def at_the_start():
     for name, text in CONFIGURATIONS.items():
         Path('hostile.toml').write_text(text())
         with open('hostile.toml', 'a') as out:
-            # The default pictures would need more than LEAST_MB.
+            # Pictures of the default size would need more than LEAST_MB.
             small = 'width = 320\nheight = 240\n'
             out.write(f'\n[limits]\nmemory_mb = {LEAST_MB}\n[cameras.video]\n{small}[cameras.still]\n{small}')
         check_run(name, ['--check-config', '--config', 'hostile.toml'])

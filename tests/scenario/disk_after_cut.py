@@ -43,7 +43,7 @@ def entries(log):
 
 
 def blocks(place, data):
-    """Parts of a write that a disk has either wholly or not at all."""
+    """Yields the parts of a write. A disk keeps each part either wholly or not at all."""
     begin = 0
     while begin < len(data):
         end = min(len(data), begin + BLOCK - (place + begin) % BLOCK)

@@ -12,8 +12,9 @@ work=$(mktemp -d)
 cd "$work"
 pids=()
 
-# ThreadSanitizer does not understand TBB, which runs OpenCV's loops. On a single CPU, TBB uses one
-# thread. ThreadSanitizer finds races of mfard's threads even there, because it checks their locking.
+# ThreadSanitizer does not see how threads of TBB, which runs OpenCV's loops, wait for each other.
+# On a single CPU, TBB uses only one thread. Races of mfard's own threads are found on a single CPU,
+# too, because ThreadSanitizer checks their locking.
 if [ -n "${MFAR_ONE_CPU:-}" ]; then
     first=$(sed -n 's/^Cpus_allowed_list:[[:space:]]*\([0-9]*\).*/\1/p' /proc/self/status)
     taskset -pc "$first" $$ >/dev/null
@@ -63,7 +64,8 @@ until_true() {
     done
 }
 
-# True after mfard has printed its start line: the devices are open and frames arrive.
+# True after mfard has printed its start line, which names the display. Cameras may still be
+# missing.
 started() { grep -q 'display ' err; }
 
 # Checks the output of Vulkan's validation layer, which goes to standard output.

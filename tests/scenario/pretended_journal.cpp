@@ -1,5 +1,5 @@
-// A library for LD_PRELOAD that redirects messages for the systemd journal to the socket
-// MFAR_PRETENDED_JOURNAL.
+// A library for LD_PRELOAD that redirects messages for the systemd journal to the socket whose path
+// is in the environment variable MFAR_PRETENDED_JOURNAL.
 
 #include <sys/socket.h>
 #include <sys/syscall.h>

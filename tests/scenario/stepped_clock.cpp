@@ -1,5 +1,5 @@
-// A library for LD_PRELOAD that shifts the wall clock by the number of seconds in the file
-// MFAR_CLOCK_IS_OFF. The number may change at any time.
+// A library for LD_PRELOAD that shifts the wall clock. The environment variable MFAR_CLOCK_IS_OFF
+// names a file with the shift in seconds, which may change at any time.
 
 #include <sys/syscall.h>
 #include <sys/time.h>

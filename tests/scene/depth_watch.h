@@ -12,8 +12,8 @@ namespace mfar::test {
 /// Accuracy of the depth of a frame within an object's silhouette, at every third pixel of every
 /// third row. Apart from the completeness, the values are medians.
 struct DepthState {
-    double absrel = 0;        ///< |z - true z| / true z where z is known; NaN: nowhere
-    double completeness = 0;  ///< share of the pixels at which the pipeline knows the depth
+    double absrel = 0;        ///< |z - true z| / true z where z is known; NaN: known nowhere
+    double completeness = 0;  ///< share of the pixels with known depth
     double sigma = 0;  ///< standard deviation of rho that the pipeline reports, as a share of rho
     /// Change of rho / true rho since the previous frame, at the same points of the scene. Only
     /// points with known depth in both frames count; 0 if there are none.

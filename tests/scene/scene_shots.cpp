@@ -55,8 +55,8 @@ std::vector<bool> SceneShots::movingTiles() const {
     const Size size = camera.size;
     const FloatImage rho = board->inverseDepth(frame.time());
     const FlowImage flow = board->flow(View::Video, frame.time(), View::StillAtVideo, still.time());
-    // The pose of the still's camera with the orientation of the video camera. So the rig's
-    // rotation does not count as motion.
+    // `unturn` gives the still's camera the orientation of the video camera. So the rig's rotation
+    // does not count as motion.
     RigidTransform T_still_video = board->rig().T_still_video;
     const Eigen::Matrix3d unturn = T_still_video.rotation.toRotationMatrix().transpose();
     const RigidTransform T_then_now =

@@ -7,7 +7,7 @@
 
 namespace mfar::test {
 
-/// A still and a later frame of a scene from the board's sensors, with exact poses.
+/// A still and a later frame that the sensors of `board` took of a scene.
 struct SceneShots {
     SceneShots(synthetic::Scene scene, synthetic::Path path, int framesLater);
 

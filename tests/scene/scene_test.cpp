@@ -67,8 +67,8 @@ TEST_F(SceneTest, MovingObjectsAreMatchedInBothDimensions) {
     EXPECT_GT(psnr(detail, truth, moving), psnr(off, truth, moving));
 }
 
-/// Tests with two camera paths. On one, the epipole is in the picture. On the other, only the
-/// distance between the sensors causes parallax.
+/// Tests with two camera paths. On Path::Forward, the epipole is in the picture. On Path::Rotate,
+/// only the distance between the sensors causes parallax.
 class Motion : public SceneTest, public testing::WithParamInterface<Path> {};
 
 TEST_P(Motion, DetailIsAddedWhileTheCameraMoves) {

@@ -42,7 +42,7 @@ std::vector<std::string> run(const Case& one, std::uint64_t seed, Checks& checks
         one.run(context);
         gl.frame(checks, 0);
     } catch (const std::exception& error) {
-        checks.fail(fmt::format("threw: {}", error.what()));
+        checks.fail(fmt::format("the case threw an exception: {}", error.what()));
     }
     std::vector<std::string> out;
     for (const std::string& fault : checks.take())

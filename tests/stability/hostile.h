@@ -27,21 +27,21 @@ public:
         return of.begin()[integer(0, static_cast<int>(of.size()) - 1)];
     }
 
-    /// Sizes such as 1x1, 1xN, primes, and near multiples of the tile size. Each side is at most
-    /// about `most`.
+    /// Returns a size such as 1x1, 1xN, with primes, or near a multiple of the tile size. Each side
+    /// is from `least` to `most`.
     [[nodiscard]] Size size(int least, int most);
-    /// Returns one of NaN, the infinities, the largest and smallest float, denormals, and zeros.
+    /// Returns NaN, an infinity or one of extreme().
     [[nodiscard]] double bad();
-    /// Like bad(), but without NaN and infinities.
+    /// Returns a zero, a denormal, the largest or smallest float, or a huge or tiny number.
     [[nodiscard]] double extreme();
 
     /// A picture of a random pattern: constant, saturated, a checkerboard, columns at the Nyquist
-    /// frequency, an impulse, noise, extreme gain, a ramp, or like a photograph.
+    /// frequency, an impulse, noise, a ramp, or waves with usual or extreme gain.
     [[nodiscard]] TestPicture picture(Size size, PixelFormat format = PixelFormat::Rgba8);
     [[nodiscard]] LumaImage luma(Size size);
 
     /// A lens for a picture of this size, from undistorted to strong barrel or pincushion
-    /// distortion, or with an off-centre principal point.
+    /// distortion. Its principal point is off-centre.
     [[nodiscard]] CameraModel camera(Size size);
     [[nodiscard]] Eigen::Vector3d direction();
     [[nodiscard]] Eigen::Quaterniond turn();
@@ -50,7 +50,7 @@ public:
     /// border or near it.
     [[nodiscard]] RigidTransform motion(double unit = 1);
     [[nodiscard]] RigidTransform gentle(double unit = 1);
-    /// Returns `T` with one invalid number or with an invalid rotation.
+    /// Returns `T` with an invalid or extreme number, rotation or translation.
     [[nodiscard]] RigidTransform spoilt(RigidTransform T);
     [[nodiscard]] Matrix6 covariance();
 

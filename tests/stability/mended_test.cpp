@@ -50,7 +50,7 @@ TEST(Mended, InvalidMeasurementsAreIgnored) {
     }
 }
 
-TEST(Mended, DepthIsForgottenAfterAnInvalidPose) {
+TEST(Mended, DepthIsDiscardedAfterAnInvalidPose) {
     for (const double bad : {double(kNan), double(kInf), 0.0}) {
         DepthFilter filter(smallCamera(), oneWorker());
         filter.predict({}, 0.03);
@@ -97,7 +97,7 @@ TEST(Mended, EpipolarLensAcceptsAPictureOfOnePixel) {
 }
 
 // In these pictures there is only one column or one row of cells.
-TEST(Mended, EpipolarFlowAcceptsPicturesOneOrTwoPixelsWide) {
+TEST(Mended, EpipolarFlowAcceptsPicturesWithOneColumnOrRowOfCells) {
     for (const Size size : {Size{1, 1}, Size{1, 40}, Size{40, 1}, Size{2, 3}}) {
         EpipolarFlow flow({smallCamera(size), smallCamera(size), {}}, oneWorker());
         const TestPicture picture = randomPicture(size, 1);
@@ -141,7 +141,7 @@ TEST(Mended, TheSearchAcceptsAnInvalidCovariance) {
     }
 }
 
-TEST(Mended, PosesWithAnInvalidCovarianceAreRejected) {
+TEST(Mended, PosesWithAnInvalidCovarianceOrRotationAreRejected) {
     PoseFilter filter;
     Pose pose{Timestamp::fromSeconds(1), {}};
     pose.covariance(2, 2) = -1;

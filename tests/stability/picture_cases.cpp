@@ -52,7 +52,7 @@ void pictureFormats(Context& c) {
         }
 }
 
-// Values are rounded twice. So they may differ by one grey level.
+// Luma is rounded twice. So it may differ from the oracle's luma by one grey level.
 void lumaPyramids(Context& c) {
     const Size size = c.size(1, 120);
     const TestPicture a = c.hostile.picture(size), b = c.hostile.picture(size);
@@ -111,7 +111,7 @@ void changePlan(Context& c) {
         for (std::size_t k = 0; k < 3; ++k)
             c.checks.within(energy[k] / (1 + twin.energy[k]) -
                                 twin.energy[k] / (1 + twin.energy[k]),
-                            -1e-3, 1e-3, "variance of a tile's difference");
+                            -1e-3, 1e-3, "error of the variance of a tile's difference");
     }
     // WorkPlan::update() uses these thresholds before it has measured any noise.
     const auto wanted = twin::changedTiles(twins, tiles.width, {1 + 2 * 0.29, 1.5 + 4 * 0.29});

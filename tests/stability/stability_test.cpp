@@ -1,5 +1,5 @@
-// Runs a few seeds of every case except the screen case, which only mfar-stress runs. Also has
-// tests that need no seed.
+// Runs a few seeds of every case except the screen case, which only mfar-stress runs. Other tests
+// check seeds that failed once, the class Hostile, and the depth filter over many frames.
 #include "pipeline/depth/depth_filter.h"
 #include "tests/stability/cases.h"
 
@@ -78,7 +78,7 @@ struct DoubleFilter {
     }
 };
 
-TEST(DepthFilterAccumulation, AfterAMillionFramesItMatchesAFilterInDoublePrecision) {
+TEST(DepthFilterAccumulation, AfterAMillionFramesTheFilterMatchesAFilterInDoublePrecision) {
     const CameraModel camera{{1, 1}, 500, 500, 0, 0, {}};
     DepthFilter filter(camera, std::make_shared<Workers>(1));
     const PixelRect whole{0, 0, 1, 1};

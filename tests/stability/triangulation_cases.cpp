@@ -86,8 +86,8 @@ SurfaceScene usualScene(Context& c, double unit) {
     return out;
 }
 
-/// Limit of the error of inverse depth: the error that an error of 2e-6 in normalised rays (a
-/// thousandth of a pixel) would cause.
+/// Limit of the error of inverse depth: the error that an error of 2e-6 in normalised rays would
+/// cause, plus 2e-6 of the inverse depth.
 double bound(const twin::TwoViews& views, const twin::FlowDepth& truth, double flowSigma) {
     const double focal = std::sqrt(views.b.fx * views.b.fy);
     return truth.sigma * 2e-6 * focal / flowSigma + 2e-6 * std::abs(truth.inverseDepth);
@@ -195,7 +195,7 @@ void mirroredTriangulation(Context& c) {
     }
 }
 
-// A point must have the same position if a and b are exchanged.
+// A point must have the same position if the views a and b are exchanged.
 void exchangedTriangulation(Context& c) {
     const SurfaceScene s = usualScene(c, 1);
     const twin::TwoViews back{s.views.b, s.views.a, s.views.T_b_a.inverse()};

@@ -149,7 +149,7 @@ void preview(Context& c) {
             if (!(z >= low * 0.97 - 1e-6 && z <= high * 1.03 + 1e-6)) ++off;
         }
     c.checks.within(static_cast<double>(off), 0, 0.02 * static_cast<double>(pixelsOf(size)) + 8,
-                    "pixels whose depth is not on the object's surface");
+                    "number of pixels whose depth is not on the object's surface");
 }
 
 constexpr double kInterpolation = 0x1p-20;  // a few roundings, relative to the largest value

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Checks the files of the service. systemd must accept them, the service must expose little, and
+# Checks the files of the service. systemd must accept them and compute a low exposure level, and
 # mfard must accept the configuration. Usage: check.sh UNIT MFARD SOURCE-FOLDER. Exit status 77:
-# skipped.
+# systemd-analyze is not installed.
 set -euo pipefail
 unit=$1
 mfard=$2
@@ -77,7 +77,8 @@ grep -qx "WatchdogSec=$limit" "$unit" || fault "WatchdogSec is not the $limit s 
 grep -qx 'RestartPreventExitStatus=64 65 66 78' "$unit" ||
     fault "RestartPreventExitStatus differs from the codes of isRestarted()"
 
-# The service's resources must be limited. Its hook must have no more rights than the service.
+# The service's resources must be limited. Its command ExecStopPost= must have no more rights than
+# the service.
 for key in MemoryMax OOMPolicy TasksMax LimitNOFILE; do
     grep -q "^$key=" "$unit" || fault "the unit has no $key="
 done

@@ -113,7 +113,7 @@ class Cameras(unittest.TestCase):
         self.assertEqual(self.numbers(payloads), [1, 2, 3])
         self.assertEqual({len(p) for p in payloads}, {uvc.HEADER + FRAME})
         flags = [p[1] for p in payloads]
-        self.assertEqual(flags, [0x8f, 0x8e, 0x8f])  # the end of each picture changes the parity
+        self.assertEqual(flags, [0x8f, 0x8e, 0x8f])  # bit 0, the parity, changes after each picture
 
     def test_a_pulse_before_the_stream_starts_is_lost(self):
         self.camera.pulse()

@@ -21,7 +21,7 @@ while IFS= read -r file; do
         fault "$file differs from what mfar-texts prints; run: cmake --build .build/host --target texts"
 done < <(cd "$work/tree" && find . -type f -printf '%P\n')
 
-# The page's example must equal the source that is compiled.
+# The example in docs/flow-method.md must equal the source that is compiled.
 diff -u <(sed -n '/^```cpp$/,/^```$/{//!p}' "$sources/docs/flow-method.md") \
     "$sources/tests/measure/eval/shift_flow.cpp" ||
         fault "the example in docs/flow-method.md differs from tests/measure/eval/shift_flow.cpp"

@@ -32,7 +32,7 @@ TEST(LumaWindow, EveryFormatGivesTheLumaOfTheRequestedPart) {
                         ? 0.299 * rgb[0] + 0.587 * rgb[1] + 0.114 * rgb[2]
                         : picture.view()
                               .data[y * picture.view().stride + 1UL * x * bytesPerPixel(format)];
-                // Tolerance: the weights have units of 1/256.
+                // Tolerance: the weights are rounded to multiples of 1/256.
                 ASSERT_NEAR(luma.data[y * luma.stride + x], expected, packedRgb ? 1.4 : 0)
                     << nameOf(format);
             }

@@ -32,7 +32,7 @@ Pose measured(const RigidTransform& T, Timestamp time, double angle = 0.002,
     return out;
 }
 
-/// A motion at constant velocity in the body's own frame: a helix.
+/// A motion at constant velocity in the body's own coordinates: a helix.
 RigidTransform helix(double seconds) {
     Vector6 twist;
     twist << 0.3, -0.2, 0.4, 0.1, 0.2, -0.15;

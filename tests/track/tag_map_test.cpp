@@ -143,7 +143,7 @@ TEST(TagMap, BrokenBundlesAreRefusedWithFileAndLine) {
             << text;
 }
 
-TEST(TagMap, AnEndlessTextIsRefusedBeforeItIsParsed) {
+TEST(TagMap, DeeplyNestedTextsAreRefusedBeforeTheyAreParsed) {
     std::string dots = "a";
     for (int i = 0; i < 50'000; ++i)
         dots += ".a";

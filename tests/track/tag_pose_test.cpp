@@ -137,7 +137,8 @@ TEST(TagPose, PoseFromSeveralTagsIsMoreExactThanFromOne) {
 }
 
 // Blur, gamma and ink move the edges of all tags outwards or inwards by the same distance, the edge
-// shift (see refinePose()). With one tag, it cannot be told from a change of the tag's distance.
+// shift (see refinePose()). With one tag, the edge shift has the same effect as a change of the
+// tag's distance.
 TEST(TagPose, EdgeShiftIsEstimatedFromSeveralTagsOnly) {
     const CameraModel camera = testCamera();
     const RigidTransform truth = cameraAt(0.5, 0.3, 0.2, 0.4);

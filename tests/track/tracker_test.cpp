@@ -123,14 +123,14 @@ TEST(Tracker, WithoutATagMapTheLargestTagIsTheOriginOfTheWorld) {
         const RigidTransform truth = (tags[0].T_world_tag * standOnTag()).inverse() * view(i);
         EXPECT_LT(angleBetween(pose->T_world_video, truth), 1.5 * kDegree);
         EXPECT_LT((pose->T_world_video.translation - truth.translation).norm(), 0.02);
-        EXPECT_GT(pose->T_world_video.translation.z(), 0) << "z is out of the tag";
+        EXPECT_GT(pose->T_world_video.translation.z(), 0) << "the z axis must point out of the tag";
     }
     const TagMap map = tracker.map();
     ASSERT_EQ(map.tags().size(), 1U);
     EXPECT_EQ(map.find(tags[0].tag)->size, 0.07);
 }
 
-TEST(Tracker, WithoutATagMapAFalseDetectionDoesNotStayTheWorld) {
+TEST(Tracker, WithoutATagMapAFalseDetectionDoesNotRemainTheOriginOfTheWorld) {
     TrackerOptions options;
     options.tagSize = 0.07;
     options.pose.filter.bridgeFrames = 2;

@@ -245,10 +245,10 @@ TEST_F(PipeDisplays, LivePicturesDoNotWaitForAStalledReader) {
               "y4m:" + pipe.string() + ": the reader of the pipe accepts no data");
     for (int i = 1; i <= 50; ++i)
         show(*display, plain(kSize, static_cast<std::uint8_t>(5 * i)), {i});
-    // One picture is being written. Each buffer contains a waiting picture.
+    // One picture is being written. Each of the other three buffers contains a picture that waits.
     EXPECT_EQ(display->leftOut(), 47U);
     const int last = readPictures(4);
-    EXPECT_NEAR(last, 16 + 219 * 250 / 255., 1) << "the newest picture is written";
+    EXPECT_NEAR(last, 16 + 219 * 250 / 255., 1) << "the newest picture must be written";
     display->finish();
     EXPECT_EQ(display->fault(), std::nullopt);
 }

@@ -36,7 +36,7 @@ TEST(LargePages, MemoryIsZeroedAndStartsAtALargePage) {
     EXPECT_EQ(other.data()[other.size() - 1], std::byte{7});
 }
 
-TEST(LargePages, ProvidedPagesKeepTheirContentAndCauseNoFaults) {
+TEST(LargePages, ProvidedPagesKeepTheirContentAndCauseNoPageFaults) {
     const auto faults = [] {
         rusage usage{};
         getrusage(RUSAGE_THREAD, &usage);

@@ -287,7 +287,7 @@ TEST_F(PowerCut, SynchronisedDataReadsBackAfterACutAtAnyMoment) {
         expectWhole(left->stills, test::kSmallStill);
         if (HasFailure()) return;
     }
-    EXPECT_GT(read, 300);  // most cuts leave at least one picture
+    EXPECT_GT(read, 300);  // many cuts leave at least one picture
 }
 
 TEST_F(PowerCut, RowsAreSynchronisedBeforeTheNextPictures) {

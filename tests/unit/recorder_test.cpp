@@ -143,8 +143,8 @@ TEST(Recorder, IfTheDiskHangsPicturesAreDroppedAndCountedWithoutDelayingTheCalle
     const TempFolder folder;
     const std::set<fs::path> before = threads();
     Recorder recorder(folder.path(), smallRig(), 30, {.videoBuffers = 4, .poses = 3});
-    // A pipe without a reader replaces the thread's first file. So open() blocks, as on a hanging
-    // disk.
+    // A pipe without a reader replaces the first file of each of the recorder's threads. So open()
+    // blocks, as on a hanging disk.
     std::vector<fs::path> pipes;
     for (const fs::path& thread : threads())
         if (!before.contains(thread)) {

@@ -81,7 +81,7 @@ TEST(RecordingPlayer, AtConsumerPaceAllStillsUpToTheLastDeliveredVideoFrameAreAv
         EXPECT_EQ(next(player.stills()), -1);
         EXPECT_EQ(next(player.video()), 66 * kMs);
         EXPECT_EQ(next(player.stills()), 40 * kMs);
-        EXPECT_EQ(next(player.stills()), 90 * kMs) << "all video frames were played";
+        EXPECT_EQ(next(player.stills()), 90 * kMs) << "no video frame is left to wait for";
         EXPECT_TRUE(player.stills().ended());
     }
 }

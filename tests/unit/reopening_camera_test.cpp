@@ -13,7 +13,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-/// A simulated device that can be unplugged. It may outlive its cameras. Thread-safe.
+/// A simulated device that can be unplugged. It must outlive its cameras. Thread-safe.
 struct Socket {
     std::atomic<bool> plugged{true};
     std::atomic<bool> sends{true};
@@ -107,7 +107,7 @@ TEST(ReopeningCamera, AMissingCameraIsReportedAndUsedWhenItAppears) {
     EXPECT_EQ(camera.losses(), 0U);
 }
 
-TEST(ReopeningCamera, SurvivesManyLosses) {
+TEST(ReopeningCamera, ACameraIsReopenedAfterEachOfManyLosses) {
     Socket socket;
     ReopeningCamera camera = cameraOn(socket);
     camera.start();
@@ -288,7 +288,7 @@ TEST(ReopeningCamera, CountersIncludeEarlierDevices) {
         EXPECT_TRUE(camera.takeWarnings().empty());
         socket.plugged = false;
         ASSERT_TRUE(drivenUntil(camera, [&](bool) { return camera.absent(); }));
-        EXPECT_EQ(camera.cameraCounters().missed, 3 * i) << "while the camera is unplugged";
+        EXPECT_EQ(camera.cameraCounters().missed, 3 * i) << "unplugging must not change the count";
         EXPECT_EQ(camera.cameraCounters().reopened, i);
         socket.plugged = true;
     }

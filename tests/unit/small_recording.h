@@ -12,7 +12,7 @@
 
 namespace mfar::test {
 
-/// A picture of equal bytes `level`, which can be recognised after lossless compression.
+/// A picture whose bytes are all `level`, so that it can be recognised after lossless compression.
 inline StoredImage plain(Size size, std::uint8_t level, PixelFormat format = PixelFormat::Rgba8) {
     StoredImage image{size, format, {}};
     image.pixels.assign(static_cast<std::size_t>(size.width) * size.height * bytesPerPixel(format),

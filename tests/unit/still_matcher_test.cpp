@@ -193,7 +193,7 @@ TEST(StillMatcher, AStepOfSeveralTriggerPeriodsIsNotLearned) {
         EXPECT_EQ(matcher.stillArrived(pulse + 2ms + step).has_value(), i < 25) << i;
         (void)matcher.poll(pulse + 900ms);
     }
-    EXPECT_EQ(matcher.counters().relearned, 0U) << "the times would be those of other pulses";
+    EXPECT_EQ(matcher.counters().relearned, 0U) << "such times would belong to other pulses";
 }
 
 TEST(StillMatcher, UnmatchedStillsWithDifferentOffsetsAreNotAClockStep) {
@@ -243,7 +243,7 @@ TEST(StillMatcher, ManyPulsesWithoutStillsAreAllLost) {
     EXPECT_EQ(matcher.counters().lost, 1000U);
 }
 
-/// A simulated camera and trigger with every kind of fault. It knows the true pulse of each still.
+/// A simulated camera and trigger with every kind of fault. The true pulse of each still is known.
 class Chaos {
 public:
     explicit Chaos(unsigned seed) : random_(seed) {
@@ -294,7 +294,8 @@ private:
         expose(now_, clean);
     }
 
-    /// Delivers all stills that arrive until this time. Checks for lost pulses between deliveries.
+    /// Delivers all stills that arrive up to the time `until`. Checks for lost pulses between
+    /// deliveries.
     void deliver(StillMatcher& matcher, Timestamp until) {
         const Timestamp end = until;
         for (Timestamp t = lastPoll_ + 5ms; t <= end; t = t + 5ms) {

@@ -23,11 +23,11 @@ struct Sensor {
     std::deque<Frame> ready;
     std::vector<Timestamp> pulses;
     int loans = 0;
-    int busy = 0;   ///< number of next pulses that the trigger refuses
-    int blind = 0;  ///< number of next pulses that expose no still
+    int busy = 0;   ///< number of pulses that the trigger refuses next
+    int blind = 0;  ///< number of pulses that expose no still next
     bool stopped = false;
     int rests = 0;
-    bool high = false;  ///< level of the line after a pulse
+    bool high = false;  ///< true from a pulse until endPulse()
     nanoseconds exposure{0};
     nanoseconds delay{300us};  ///< time from the pulse to the start of the exposure
 

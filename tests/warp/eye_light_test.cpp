@@ -51,7 +51,7 @@ struct OfGles {
     gpu::Texture rays = rayTexture(test::mirrorCamera());
 };
 
-/// A light word and a half float round by up to 1/256 of a pixel's largest channel.
+/// Light words and half floats are each rounded by up to 1/256 of a pixel's largest channel.
 void expectNear(const std::vector<float>& texels, std::size_t pixel, std::array<float, 3> wanted) {
     const float most = *std::ranges::max_element(wanted);
     for (std::size_t c = 0; c < 3; ++c)

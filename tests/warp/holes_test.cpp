@@ -52,8 +52,8 @@ TEST_F(WarpHolesGl, HolesOfTheTracedPictureAreRequested) {
         hidden +=
             before.id[i] != now.id[pixel] || std::abs(before.depth[i] - q.z()) > 0.003 ? 1 : 0;
     }
-    // Up to a fifth of the requested pixels were visible. They are at the edge of a ball, where
-    // rounding decides if a pixel counts as hidden.
+    // The traced picture may show up to a fifth of the requested pixels. They are at the edge of a
+    // ball, where rounding decides if a pixel counts as hidden.
     EXPECT_GT(surfaces, 100);
     EXPECT_GT(surfaces, 0.95 * static_cast<double>(request->pixels.size()));
     EXPECT_GT(hidden, 0.8 * surfaces);

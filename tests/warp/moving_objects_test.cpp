@@ -39,7 +39,7 @@ struct Moving {
         out.balls[1].centre += 0.1 * out.balls[1].radius * Eigen::Vector3d(1, 0.5, 0.3);
         return out;
     }
-    /// PSNR inside the balls if the picture's colours are moved with the balls [dB].
+    /// PSNR inside the balls, compared with colours that move with the balls [dB].
     [[nodiscard]] double psnr(const CastScene& now, double degrees) {
         const LayerPicture& layer = warp.run(test::orbit(degrees), posesOf(now));
         // Each point of the moved ball must have the colour that it had before the motion.
@@ -64,7 +64,7 @@ TEST_F(WarpMovingGl, ColoursMoveWithTheirObject) {
     EXPECT_GT(s.psnr(s.after(), 1), 32) << "the camera moves, too";
 }
 
-TEST_F(WarpMovingGl, UnmovedObjectsAreShownAsWithoutMotion) {
+TEST_F(WarpMovingGl, MovableObjectsAtTheirOldPosesLookTheSameAsStaticOnes) {
     Moving s;
     const std::vector<std::uint8_t> moving =
         test::bytesOf(s.warp.run(test::orbit(1), posesOf(s.before)).colour);
@@ -87,7 +87,7 @@ TEST_F(WarpMovingGl, WithPosesOfMovingObjectsTheViewNeverCountsAsAtRest) {
     EXPECT_EQ(s.warp.counters().unmoved, 0U);
 }
 
-// The second ball turns its back to the camera. Only individually rendered pixels can show it.
+// The second ball turns by 1.5 rad. Only individually rendered pixels can show its new side.
 TEST_F(WarpMovingGl, HolesOfATurnedObjectAreRenderedAtItsPose) {
     Moving s({.filling = HoleFilling::Rerender, .fadeFrames = 0});
     std::vector<RigidTransform> poses = posesOf(s.before);

@@ -20,7 +20,7 @@ PaintTextures painted(float metallic) {
     return PaintTextures({&colour, nullptr, {1, 1, 1, metallic}});
 }
 
-TEST_F(PaintTexturesGl, PaintThatIsTheSameEverywhereIsOneTexel) {
+TEST_F(PaintTexturesGl, PaintThatIsTheSameEverywhereIsStoredInOneTexel) {
     const PaintTextures dielectric = painted(0), metal = painted(1), mixed = painted(0.5F);
     EXPECT_EQ(dielectric.diffuse.size(), kPicture);
     EXPECT_EQ(dielectric.facing.size(), kOne);

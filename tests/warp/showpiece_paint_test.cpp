@@ -96,8 +96,8 @@ std::array<double, 3> bytesOf(std::uint32_t word) {
 }
 
 // Rays interpolate colour and metallic share separately and then multiply them. Paint interpolates
-// their product. So both differ in the texels at the border of the gilding, which limits the PSNR.
-// With texels a third as wide, it is 34.7 dB.
+// their product. So rays and paint differ in the texels at the border of the gilding, which limits
+// the PSNR. With texels a third as wide, the PSNR is 34.7 dB.
 TEST(ShowpiecePaint, PaintOfTheShowpieceMatchesTracedRays) {
     const ShowpieceView view;
     SurfaceRaster raster(view.camera, nullptr);

@@ -41,8 +41,8 @@ TEST(SurfaceMesh, LongEdgesAreDividedAtTheSamePointsInBothAdjacentTriangles) {
             if (to < from) std::swap(from, to);
             ++edges[{from, to}];
         }
-    // Length of the outline: of all edges that belong to one triangle only. A torn inner edge makes
-    // the outline longer.
+    // Length of the outline, which consists of the edges that belong to only one triangle. A torn
+    // inner edge makes the outline longer.
     double outline = 0;
     for (const auto& [edge, triangles] : edges) {
         EXPECT_LE(triangles, 2);
@@ -126,7 +126,7 @@ struct Lattice {
     std::vector<Vector3f> corners;
     Triangles triangles;
 
-    /// Adds side x side squares, whose corners are `point` of the coordinates [0, 1].
+    /// Adds side x side squares. Their corners are point(u, v), with u and v from 0 to 1.
     template <class Point>
     void add(std::uint32_t side, const Point& point) {
         const auto first = static_cast<std::uint32_t>(corners.size());

@@ -226,8 +226,8 @@ TEST(SurfacePaint, ABallIsPaintedWithFactorsAndTexturesOfTwoSizes) {
 }
 
 // Tolerance of 1.25 grey levels: texels are bytes with 255 times the square root of linear values.
-// In dark areas, rounding to such a byte changes up to 0.75 grey levels. The result is rounded
-// again.
+// In dark areas, rounding to such a byte changes the result by up to 0.75 grey levels. The result
+// is rounded again.
 TEST(SurfacePaint, PlainColoursAreExactUpToTwoRoundings) {
     for (const bool hasTexture : {false, true})
         for (int level = 0; level < 256; ++level) {

@@ -69,8 +69,8 @@ float depthOf(std::uint32_t word) {
     return std::bit_cast<float>(word & 0xFFFFFF00U);
 }
 
-// At a distance of 1 m, the square covers 40x40 pixels of the grid. Its first corner is at (39.99,
-// 19.99).
+// At a distance of 1 m, the square covers 40x40 pixels of the grid, which has twice the layer's
+// resolution. Its first corner is at (39.51, 19.51).
 TEST(SurfaceRaster, CoversASurfaceWithoutGapsAndNotBeyondItsOutline) {
     for (unsigned seed = 0; seed < 20; ++seed) {
         const auto words = drawn(
@@ -108,7 +108,7 @@ TEST(SurfaceRaster, DepthMatchesTheSlantedPlane) {
     EXPECT_GT(checked, 1000);
 }
 
-// A floor that extends from behind the camera to far in front of it.
+// The floor extends from behind the camera to far in front of it.
 TEST(SurfaceRaster, TrianglesBehindTheCameraAreClipped) {
     Material both;
     both.doubleSided = true;

@@ -26,8 +26,8 @@ std::shared_ptr<const Scene> litBy(const Scene& scene, const Eigen::Vector3f& li
     return out;
 }
 
-/// A picture from one view is shown from all views. Pixels that it does not show are rendered
-/// individually, and are empty until then.
+/// Options with which a picture from one view is warped to all views. Pixels that the picture does
+/// not show are rendered individually, and are empty until then.
 TracedLayerOptions rerendering() {
     TracedLayerOptions out;
     out.size = kTraced;

@@ -50,7 +50,7 @@ TEST(TracedPicture, PixelsOfALayeredPictureKeepTheirColourAndLight) {
     EXPECT_TRUE(r.layered);
 }
 
-TEST(TracedPicture, GlossOfMovingObjectsIsUnknownAndEmptyIfAllObjectsMove) {
+TEST(TracedPicture, GlossOfMovingObjectsIsUnknownAndTheListOfGlossIsEmptyIfAllObjectsMove) {
     RenderedPicture p = smallPicture();
     for (std::size_t i = 0; i < 20; ++i) {
         if (i / 5 < 2 && p.id[i] == 1) p.id[i] = 2;

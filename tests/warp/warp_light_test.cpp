@@ -26,7 +26,7 @@ SurfaceTexture stripes(bool srgb) {
     return out;
 }
 
-/// The balls get texture coordinates, and a material with both textures.
+/// The scene of the balls, with texture coordinates and a material with both textures.
 Scene painted(const test::CastScene& cast) {
     Scene out = cast.scene();
     for (SceneObject& object : out.objects) {

@@ -57,9 +57,9 @@ inline double meanGreen(Warp& warp, const RigidTransform& pose,
     return sum / static_cast<double>(pixels.size());
 }
 
-/// Runs `frames` frames at this pose and answers all requests for holes. By then, the answers are
-/// fully shown. `pose` should be a variable: GCC 14 warns that the result might refer to a
-/// temporary argument.
+/// Runs `frames` frames at this pose and answers all requests for holes. After 12 frames, the
+/// answers are fully shown. `pose` should be a variable: GCC 14 warns that the result might refer
+/// to a temporary argument.
 inline const LayerPicture& settled(Warp& warp, const CastScene& scene, const RigidTransform& pose,
                                    int frames = 12) {
     for (int i = 0; i < frames; ++i) {

@@ -35,7 +35,7 @@ struct Shown {
     Warp warp;
 };
 
-TEST_F(WarpGl, AtThePoseOfTheTracedPictureItIsShownUnchanged) {
+TEST_F(WarpGl, AtThePoseOfTheTracedPictureThePictureIsShownUnchanged) {
     Shown s;
     RigidTransform pose = test::orbit(0);
     pose.translation.x() += 2e-5;  // moves pixels by 0.01 px
@@ -127,8 +127,8 @@ TEST_F(WarpGl, HugeMotionAndOddPosesAreHarmless) {
     RigidTransform away = test::orbit(0);
     away.rotation = away.rotation * Eigen::Quaterniond(0, 0, 1, 0);  // the camera looks away
     EXPECT_TRUE(s.warp.run(away).bounds.empty());
-    // The camera is inside a ball, on its surface, near the plane and far away; upright, rolled by
-    // 90 degrees and upside down.
+    // The camera is inside a ball, near its surface or far away; upright, rolled by 90 degrees and
+    // upside down.
     for (const double distance : {0.001, 0.05, 0.09, 0.1001, 0.14, 50.0, 1e5})
         for (const double degrees : {0.0, 90.0, 180.0}) {
             RigidTransform rolled = test::orbit(30, distance, 1);

@@ -17,10 +17,11 @@ ITERATIONS = 50
 
 
 class Counts:
-    """Number of executions of each block. The key is the block's offset from the start of the program's code."""
+    """Number of executions of each block. The key is the block's offset from the start of the program's code and its
+    size in bytes."""
 
     def __init__(self, text=''):
-        self.blocks = {}  # offset: (bytes, instructions, count)
+        self.blocks = {}  # (offset, bytes): (instructions, count)
         self.other = 0  # instructions of libraries
         for line in text.splitlines():
             words = line.split()

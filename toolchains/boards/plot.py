@@ -63,7 +63,7 @@ def frames(model, results):
     height = TOP + ROW * len(rows) + 50
     lines = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {LEFT + WIDTH + 40} {height}" '
              'font-family="sans-serif">', '<rect width="100%" height="100%" fill="white"/>',
-             text(12, 22, f'Predicted: a moving frame, 640x480 to {width}x{width * 3 // 4}', size=15)]
+             text(12, 22, f'Predicted time of a frame while the camera moves, 640x480 to {width}x{width * 3 // 4}', size=15)]
     x = 12
     for step in predict.STEPS:
         lines.append(f'<rect x="{x}" y="34" width="12" height="12" fill="{COLOURS[step]}"/>')

@@ -59,8 +59,8 @@ precompileHeaders() {
 }
 
 # tidyOptions PLUGIN HEADERS: prints the options of clang-tidy. In precompiled headers, clang ignores
-# the pragma by which libstdc++ allows itself a deprecated function. GCC reports deprecated functions
-# in our files.
+# the pragma by which libstdc++ allows itself a deprecated function. So its warnings of deprecated
+# functions are off; GCC reports those in our files.
 tidyOptions() {
     printf '%s\n' --quiet "--load=$1"
     { sharedOptions; printf '%s\n' -Wno-unknown-warning-option -Wno-deprecated-declarations \

@@ -161,7 +161,7 @@ def run_scenario(bed, scenario):
 
 
 def install(bed):
-    """Installs the package with a configuration of the cameras, with which the service starts."""
+    """Installs the package with a configuration of the cameras, so that the service can start."""
     begin = time.monotonic()
     bed.run('mkdir -p /etc/mfar /etc/systemd/system/mfard.service.d')
     bed.write('/etc/mfar/mfard.toml', CAMERAS)

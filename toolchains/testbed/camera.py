@@ -26,9 +26,9 @@ class Camera:
     """A camera. `picture(time, number)` gives the pixels of a picture; `time` is in seconds since `epoch`
     (a value of time.monotonic()).
 
-    With a rate above 0, it sends pictures at this rate, and their numbers count from the epoch. With rate
-    0, it sends one picture for each pulse(), and the numbers count the pulses from 1. Pictures that it
-    cannot send in time are skipped, as a real sensor skips them; their numbers are missing.
+    With a rate above 0, it sends pictures at this rate, and their numbers count from the epoch. Pictures
+    that it cannot send in time are skipped, as a real sensor skips them; their numbers are missing. With
+    rate 0, it sends one picture for each pulse(), and the numbers count the pulses from 1.
     """
 
     def __init__(self, name, picture, rate, epoch):
@@ -52,7 +52,7 @@ class Camera:
         self.link = None
         threading.Thread(target=self._stream, daemon=True).start()
 
-    # Functions for scenarios. They do what a person at the board would do.
+    # Functions that scenarios and the guest call.
 
     def attach(self, connection):
         self.link = usbredir.UsbRedirLink(connection, self)

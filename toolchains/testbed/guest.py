@@ -102,7 +102,7 @@ class Monitor:
 
 
 class Edges(threading.Thread):
-    """Reads from QEMU's trace to which levels the guest sets the lines of its GPIO chip."""
+    """Records the levels to which the guest sets the lines of its GPIO chip. QEMU's trace contains them."""
 
     LINE = re.compile(rb'setting output (\d+) to (\d)')
 

@@ -1,7 +1,7 @@
 """Descriptors and requests of a USB camera (USB Video Class 1.0) with one size of NV12 pictures.
 
 The stream has one alternate setting with a bulk endpoint. A picture is one payload: a header of 12
-bytes and the pixels. A packet shorter than the others ends it.
+bytes and the pixels. A packet shorter than the others ends the payload.
 """
 
 import struct

@@ -11,7 +11,7 @@ namespace mfar::calibration {
 namespace {
 
 constexpr int kLeastCorners = 6;
-constexpr int kRounds = 4;          // each round fits, then removes bad corners and views
+constexpr int kRounds = 4;          // each round fits a camera, then removes bad corners and views
 constexpr double kCornerLimit = 6;  // corners with a longer residual are removed [sigma]
 constexpr double kLeastSigma = 0.01;
 // Largest RMS error of a view [px]. A view with a larger error does not show the target.

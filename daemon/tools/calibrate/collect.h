@@ -10,8 +10,8 @@ namespace mfar::calibration {
 
 struct Progress {
     const Coverage& coverage;
-    /// Numbers of pictures. `done`: searched so far. `of`: to be searched in total. `found`:
-    /// searched so far and with the target in them.
+    /// Numbers of pictures. `done`: searched so far. `of`: to be searched in total. `found`: those
+    /// of `done` that show the target.
     int done = 0, of = 0, found = 0;
 };
 

@@ -6,8 +6,8 @@
 namespace mfar::calibration {
 
 /// A folder for results that are written later. It is created at once, so that a wrong path is
-/// noticed before the results are computed. The destructor removes the folders that were created if
-/// they are still empty.
+/// noticed before the results are computed. The destructor removes those of the created folders
+/// that are still empty.
 class OutputFolder {
 public:
     /// Throws std::runtime_error ("folder: cannot be created: reason").

@@ -18,7 +18,7 @@ namespace mfar::calibration {
 /// The poses T_video_target of one target in the frames of a video.
 class PoseTrack {
 public:
-    /// Adds a pose. Times must increase. Frames without a pose are left out.
+    /// Adds the pose of a frame. Times must increase. For a frame without a pose, nothing is added.
     void add(Timestamp time, const RigidTransform& pose);
     [[nodiscard]] int size() const { return static_cast<int>(times_.size()); }
 

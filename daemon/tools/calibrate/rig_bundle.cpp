@@ -15,7 +15,7 @@ namespace {
 constexpr double kHuber = 2.5;  // a corner's cost grows linearly above this residual [sigma]
 constexpr int kIterations = 40;
 constexpr double kConverged = 1e-9;  // iteration ends at a smaller relative decrease of the cost
-constexpr double kStep = 1e-6;       // for numeric derivatives of interpolated poses [rad, m, s]
+constexpr double kStep = 1e-6;       // step of the numeric derivatives of poses [rad, m, s]
 
 using Vector9 = Eigen::Matrix<double, 9, 1>;
 
@@ -101,10 +101,10 @@ double RigBundle::cost(const std::array<double, 2>& sigma) const {
     return sum;
 }
 
-/// Returns the derivative of a view's pose with respect to the parameters of this pose. The change
-/// of the pose is expressed as a motion in the camera's frame. If the view has a pose of its own,
-/// the parameters are this pose. If its pose is interpolated, they are the extrinsics, the clock
-/// offset and the four poses between which it is interpolated.
+/// Returns the derivative of a view's pose with respect to the parameters on which it depends. The
+/// change of the pose is expressed as a motion in the camera's frame. If the view has a pose of its
+/// own, this pose is the parameter. If its pose is interpolated, the parameters are the extrinsics,
+/// the clock offset and the four poses between which it is interpolated.
 Eigen::MatrixXd RigBundle::poseJacobian(const View& view) const {
     if (!view.tied) return Matrix6::Identity();
     Eigen::MatrixXd out(6, 31);

@@ -45,7 +45,7 @@ public:
 
     [[nodiscard]] const StereoRig& rig() const { return rig_; }
     [[nodiscard]] double offset() const { return offset_; }
-    /// Returns the standard deviations of the shared parameters after solve(); 0: fixed.
+    /// Returns the standard deviations of the shared parameters after solve(), 0 for fixed ones.
     [[nodiscard]] const Eigen::Matrix<double, kShared, 1>& deviations() const {
         return deviations_;
     }

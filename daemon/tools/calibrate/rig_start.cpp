@@ -57,7 +57,7 @@ RigStart startOfRig(const PoseTrack& video, const std::vector<StillPose>& stills
     Agreement best;
     const double step = std::max(1e-3, video.interval() / 8);
     // The search begins at offset 0, and another offset must give a smaller spread to replace it.
-    // If nothing moved, no offset does, so the result is 0.
+    // If nothing moved, no other offset gives a smaller spread, so the result is 0.
     for (int i = 0; i * step <= maxOffset; ++i) {
         for (const double offset : {i * step, -i * step}) {
             const Agreement now = agreementAt(video, stills, offset);

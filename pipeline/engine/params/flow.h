@@ -17,8 +17,8 @@ inline constexpr int kTrackingRadius = 3;
 /// radius would find objects that have moved farther since the still, but would take four times as
 /// long.
 inline constexpr int kListedRadius = 5;
-/// A cell tries the flow vectors of its neighbours. If one of them costs less than the cell's own,
-/// it is improved by this number of Gauss-Newton steps.
+/// A cell tries the flow vectors of its neighbours. If the best of them has a lower cost than the
+/// cell's own vector, the cell adopts it, and this number of Gauss-Newton steps improves it.
 inline constexpr int kPropagateSteps = 2;
 /// Number of Gauss-Newton steps that improve a flow vector whose error is already less than a
 /// pixel. Four steps would not make it more accurate.
@@ -44,8 +44,10 @@ inline constexpr float kNotShown = 100.0F;
 /// match along epipolar lines.
 inline constexpr int kLeastUnexplained = 3;
 
-/// On a moving object, the test for occlusion is meaningless. Therefore, the two-way error [px] of
-/// a cell there is computed from the cost of its match: max(cost - kGoodCost, 0) * kErrorPerCost.
+/// A match is doubtful if its cost is above kGoodCost or its two-way error is above 0 (see
+/// kPatchSamples). On a moving object, the test for occlusion is meaningless. Therefore, the
+/// two-way error [px] of a cell there is computed from the cost of its match: max(cost - kGoodCost,
+/// 0) * kErrorPerCost.
 inline constexpr float kGoodCost = 0.1F;
 inline constexpr float kErrorPerCost = 5.0F;
 /// A flow vector whose end is within this distance [px] of the match along the epipolar line counts

@@ -5,8 +5,8 @@
 namespace mfar::params {
 
 inline constexpr float kPatchPixels = 64.0F;
-/// A patch with less texture (see FlowCell) than this is flat: noise alone can cause this texture
-/// [grey levels^2].
+/// Texture (see FlowCell) that noise alone can cause [grey levels^2]. It is added to the texture
+/// when gain and cost are computed, so that noise has little effect on them in flat patches.
 inline constexpr float kPatchNoise = 128.0F;
 /// This value is added to the diagonal of the Hessian. It limits the length of Gauss-Newton steps
 /// in patches without gradient.

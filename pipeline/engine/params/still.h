@@ -6,9 +6,9 @@
 // still_raise.frag and in SIMD. params_to_glsl.cmake translates this header to GLSL.
 namespace mfar::params {
 
-/// Linear look-ups weaken a still's finest detail. A filter amplifies this detail before;
-/// kLinearLoss is the weight of each neighbour in the filter. A reduced still is not filtered; see
-/// still_raise.frag.
+/// Linear look-ups weaken a still's finest detail. A filter amplifies this detail beforehand: it
+/// subtracts kLinearLoss times each of the four neighbours from a pixel, and adds 4 * kLinearLoss
+/// times the pixel. A reduced still is not filtered; see still_raise.frag.
 inline constexpr float kLinearLoss = 0.08F;
 
 struct alignas(16) ReduceStill {

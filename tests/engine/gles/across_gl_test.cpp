@@ -37,7 +37,7 @@ TEST_F(AcrossGl, TwoGlRenderersDrawTheSamePictures) {
     const char* out = std::getenv("MFAR_PICTURES_OUT");
     const char* in = std::getenv("MFAR_PICTURES_IN");
     if (out == nullptr && in == nullptr)
-        GTEST_SKIP() << "run by CTest, which sets MFAR_PICTURES_OUT or MFAR_PICTURES_IN";
+        GTEST_SKIP() << "only CTest runs this test; it sets MFAR_PICTURES_OUT or MFAR_PICTURES_IN";
     const auto mine = pipelinePictures();
     if (out != nullptr) {
         std::ofstream file(out, std::ios::binary | std::ios::trunc);

@@ -1,8 +1,8 @@
 // Compiles every shader of the program, in every variant, with the driver that mfard would use.
-// Before each shader it prints a line "shader: NAME DEFINES", so that the driver's output can be
-// assigned to it:
+// Before each shader it prints a line "shader: NAME DEFINES", so that statistics that the driver
+// prints can be assigned to the shader. The driver V3D prints them with
 //   V3D_DEBUG=shaderdb mfar-compile-shaders 2>&1
-// BIFROST_MESA_DEBUG=shaderdb does the same on Mali. Usage:
+// and the driver for Mali with BIFROST_MESA_DEBUG=shaderdb. Usage:
 //   mfar-compile-shaders [--link-only] [FILE...]
 // --link-only: draws and dispatches nothing. This is enough for the driver Panfrost, which compiles
 // a shader when it is linked. On machines without its GPU (with Mesa's drm-shim), Panfrost crashes
@@ -116,8 +116,8 @@ std::vector<gpu::Texture> boundImages(const std::string& text) {
     return images;
 }
 
-/// Provides buffers of zeros and one-pixel targets, because drivers generate the final code of a
-/// shader when it is first used.
+/// Runs a shader once, on buffers of zeros and one-pixel targets, because drivers generate the
+/// final code of a shader when it is first used.
 class Use {
 public:
     explicit Use(bool runs) : runs_(runs) {

@@ -93,7 +93,7 @@ void expectResidual(const Grey& residual, const Grey& luma, int x, int y, const 
             << luma.size.width << ": " << x << " " << y << " " << phase;
 }
 
-TEST_F(Enlarge, ResidualMatchesTheOracleForEqualClasses) {
+TEST_F(Enlarge, ResidualMatchesTheOracleWhereRoundingDoesNotDecideTheClass) {
     for (const int most : {500, 8000}) {
         const FilterBank bank = randomBank(most, 11);
         Compared compared;

@@ -18,7 +18,7 @@ struct Errors {
     Vector2d bias{0, 0};
 };
 
-/// Errors relative to a constant flow. Counts pixels that are, like their targets, at least
+/// Errors relative to a constant flow. Counts only pixels that, like their targets, are at least
 /// `border` px inside the picture.
 Errors errorsOf(const std::vector<float>& flow, Size size, const Vector2d& truth, int border) {
     Errors e;
@@ -76,7 +76,7 @@ TEST_F(Flow, FlowDoesNotDependOnGainAndOffset) {
     EXPECT_LT(e.worst, 0.3);
 }
 
-TEST_F(Flow, FlatPicturesDoNotMove) {
+TEST_F(Flow, FlowBetweenFlatPicturesIsZero) {
     for (const std::uint8_t level : {0, 128, 255}) {
         const TestPicture a(kSmall, PixelFormat::Rgba8, level), b(kSmall, PixelFormat::Rgba8, 77);
         for (const float v : flowBetween(a.view(), b.view())) {
@@ -95,7 +95,7 @@ TEST_F(Flow, UnrelatedPicturesGiveBoundedFlow) {
         }
 }
 
-TEST_F(Flow, FlowIsFoundInGreyPicturesOfOddSize) {
+TEST_F(Flow, FlowIsFoundInGreyPicturesOfSmallAndOddSizes) {
     for (const Size size : {Size{101, 59}, Size{16, 16}, Size{67, 53}}) {
         const Waves waves(5, 8, 60, 35);
         const TestPicture a = waves.shoot(size, {.format = PixelFormat::Gray8});

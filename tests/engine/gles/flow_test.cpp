@@ -179,7 +179,8 @@ TEST_F(FlowPasses, CostsOfBentPatchesMatchTheOracle) {
     for (int i = 0; i < kArea; ++i) {
         const int x = i % 16, y = i / 16;
         // Along each axis, the shader computes the slopes to the cells two before and two behind,
-        // and uses the smaller one; cells at the border have the slopes of cells two away from it.
+        // and uses the smaller one, or 0 if their signs differ. A cell at the border has the slope
+        // of the nearest cell that has both.
         const Vector2d alongY = std::abs(y - 6) <= 1 ? Vector2d(0, 0) : y < 6 ? dy : Vector2d(-dy);
         const auto m = twin::compareBentPatch(a, b, x, y, {in[i][0], in[i][1]}, dx, alongY);
         EXPECT_EQ(out[i][0], in[i][0]);
@@ -188,8 +189,8 @@ TEST_F(FlowPasses, CostsOfBentPatchesMatchTheOracle) {
     }
 }
 
-// A surface seen from a different angle: stretched by 15 % along x.
-TEST_F(FlowPasses, BentPatchesMatchASlantedSurfaceWhereShiftedPatchesCannot) {
+// The second picture shows the surface 15 % larger.
+TEST_F(FlowPasses, BentPatchesMatchAnEnlargedSurfaceWhereShiftedPatchesCannot) {
     const Waves waves(4, 5, 40, 40);
     constexpr double kStretch = 1 / 1.15;
     const LevelPair pair(waves.shoot(kSize, {}),

@@ -6,7 +6,7 @@ namespace {
 
 using Luma = GlTest;
 
-// Tolerance: half an 8-bit step, plus single precision for values between two steps.
+// Tolerance: half a grey level, plus rounding errors of single precision.
 constexpr double kRounding = 0.501;
 
 void expectNear(const twin::Grey& gpu, const twin::Grey& twin, double tolerance) {

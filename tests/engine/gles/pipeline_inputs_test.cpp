@@ -38,7 +38,7 @@ TEST_F(PipelineInputs, OptionsOutOfRangeAreRefused) {
     EXPECT_THROW(Pipeline(c.rig, far), std::invalid_argument);
 }
 
-// A shift of 9 px can only be found at the coarsest pyramid level.
+// With a search radius of 4 px, a shift of 9 px can only be found at a coarser pyramid level.
 TEST_F(PipelineInputs, FlowUsesTheConfiguredPyramidLevels) {
     const PipelineCase c;
     const auto errorWith = [&](int levels) {
@@ -56,7 +56,7 @@ TEST_F(PipelineInputs, FlowUsesTheConfiguredPyramidLevels) {
     EXPECT_LT(errorWith(3), 0.5);
 }
 
-TEST_F(PipelineInputs, AStillMuchNarrowerThanTheVideoGivesAnOutputOfOneRow) {
+TEST_F(PipelineInputs, AStillMuchNarrowerThanTheVideoGivesAnOutputOfOnePixel) {
     const TestPicture video({160, 40}, PixelFormat::Rgba8, 90),
         still({1, 7}, PixelFormat::Rgba8, 90);
     Pipeline p(plainRig(video.size, still.size), {});
@@ -66,7 +66,7 @@ TEST_F(PipelineInputs, AStillMuchNarrowerThanTheVideoGivesAnOutputOfOneRow) {
     EXPECT_EQ(p.readImage().size(), 4U);
 }
 
-TEST_F(PipelineInputs, OddSizesOfPicturesAreProcessed) {
+TEST_F(PipelineInputs, PicturesOfUnusualSizesAreProcessed) {
     for (const Size size : {Size{641, 479}, Size{648, 432}, Size{100, 60}, Size{61, 45}}) {
         const PipelineCase c(size);
         Pipeline p(c.rig, {});

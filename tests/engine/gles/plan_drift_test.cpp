@@ -73,7 +73,8 @@ struct DriftOutcome {
     double changed = 0;
 };
 
-/// Runs frames and draws the tiles that the plan marks. Counts only the frames after `settled`.
+/// Runs frames and draws the tiles that the plan marks. Counts only the frames after the first
+/// `settled` ones.
 DriftOutcome watch(const DriftScene& scene, NoisySensor sensor, int settled, int frames) {
     WorkPlan plan(kDriftVideo);
     Light drawnLight = lightOf(scene, 0), light = drawnLight;

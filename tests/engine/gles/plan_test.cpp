@@ -12,7 +12,8 @@ using Plan = GlTest;
 
 constexpr Size kSize{100, 60};  // 7x4 tiles, the last ones cut off
 // A cell counts as changed above these values of TileChange::mean and TileChange::absolute [grey
-// levels]. They belong to noise of 0.29 grey levels, which is assumed until the noise is measured.
+// levels]. These limits belong to noise of 0.29 grey levels, which is assumed until the noise is
+// measured.
 constexpr double kMeanThreshold = 1.58, kAbsoluteThreshold = 2.37;
 
 struct TileState {
@@ -216,8 +217,8 @@ TEST_F(Plan, ManyChangedTilesAreDrawnAsAWholeFrame) {
     }
 }
 
-/// A noisy brightness ramp with columns of dots, two tiles apart. Column i has the contrast
-/// contrasts[i].
+/// A noisy brightness ramp with columns of dots, which are four tiles apart. Column i has the
+/// contrast contrasts[i].
 TestPicture dotted(Size size, const std::vector<int>& contrasts) {
     TestPicture out(size);
     for (int y = 0; y < size.height; ++y)

@@ -105,9 +105,9 @@ TEST_F(Preview, SurfacesAroundAndBehindTheCameraAreDrawnCorrectly) {
     CameraModel folding = plainRig(kVideo, kVideo).video;
     folding.fx = folding.fy = 130;
     folding.distortion = {-0.17, 0, 0, 0, 0};
-    // The surfaces are a wall beside the camera, a wall at 5 mm, and a floor that begins behind the
-    // camera. The tolerance is 5 %, because surfaces are drawn as flat cells that are as wide as a
-    // quarter of their distance. The lens would bend such a cell by a few percent.
+    // The surfaces are a wall beside the camera, a wall 13 mm from the camera, and a floor that
+    // begins behind the camera. The tolerance is 5 %, because surfaces are drawn as flat cells that
+    // are as wide as a quarter of their distance. The lens would bend such a cell by a few percent.
     for (const CameraModel& camera : {lens(), folding}) {
         PreviewRenderer renderer(camera, kOutput);
         for (const VirtualObject& o : inWorld({
@@ -204,7 +204,7 @@ int litQuad(double angle, double ambient) {
     return rgba[4UL * (200UL * kOutput.width + 280)];
 }
 
-TEST_F(Preview, LightFollowsLambertsLawPlusAmbient) {
+TEST_F(Preview, ShadingFollowsLambertsLawPlusAmbientLight) {
     for (const double degrees : {0.0, 30.0, 60.0, 85.0, 120.0})
         for (const double ambient : {0.0, 0.35, 1.0}) {
             const double angle = degrees * std::numbers::pi / 180;

@@ -64,7 +64,7 @@ TEST_F(QualityTest, IfTheStillIsNotUsedAFrameMayBeEnlargedLinearly) {
     }
     Pipeline usual(c.rig, {});
     EXPECT_TRUE(pictureOf(detail, c, false) == pictureOf(usual, c, false))
-        << "the option must have no effect on a frame with a still";
+        << "the option cubic must have no effect on a frame with a still";
 }
 
 // Only the two lowest pixel rows of a tile change. They are also read to enlarge the tile below.
@@ -85,8 +85,8 @@ TEST_F(QualityTest, NeighboursAffectedByAChangeAreRedrawn) {
     EXPECT_TRUE(p.readImage() == whole.readImage());
 }
 
-/// Without poses, both pictures must be equal. With poses, the search along the lines starts from
-/// the last frame's flow. Another start may change the flow of doubtful cells a little.
+/// Without poses, both pictures must be equal. With poses, the search along epipolar lines starts
+/// from the last frame's flow. Another start may change the flow of doubtful cells a little.
 void expectAlike(const Image& a, const Image& b, bool withPoses) {
     ASSERT_EQ(a.size(), b.size());
     std::size_t differing = 0;

@@ -13,7 +13,7 @@ struct ShaderBudget {
     static constexpr int kImages = 4;         ///< number of images; each binding must be below it
     static constexpr int kInvocations = 128;  ///< invocations of a work group
     static constexpr int kSharedBytes = 16 * 1024;
-    static constexpr int kFileLines = 150;
+    static constexpr int kFileLines = 150;  ///< lines of a file; a limit of this project
 };
 
 /// Faults of a file in gles_shaders/ whose includes are not resolved: in its name, header comment,

@@ -50,7 +50,7 @@ std::vector<double> twinOf(const TestPicture& picture, Size to) {
     return out;
 }
 
-TEST_F(StillReducerTest, MatchesTheOracle) {
+TEST_F(StillReducerTest, ReducedPicturesMatchTheOracle) {
     for (const auto& [from, to] : {std::pair(Size{100, 70}, Size{43, 31}),
                                    {Size{37, 41}, Size{36, 11}},
                                    {Size{9, 1}, Size{2, 1}},

@@ -35,7 +35,8 @@ InverseDepthField tableField(double share) {
     return field;
 }
 
-/// Tests in which areas a camera above the table needs real depth, frame by frame.
+/// Checks, frame by frame, in which area of the picture a camera above the table needs measured
+/// depth.
 class ShadowDepthGl : public GlTest {
 protected:
     void SetUp() override {

@@ -235,7 +235,7 @@ void expectLists(const Classified& got, const std::array<std::set<std::uint32_t>
 
 TEST_F(Classify, TileClassesCountsAndListsMatchTheOracle) {
     const twin::Cells field = mixedField();
-    // Tiles that the four lists must contain: all, enlarged only, trusted, blended.
+    // Tiles that the four lists must contain: changed, only enlarged, trusted, blended.
     std::array<std::set<std::uint32_t>, 4> wanted;
     std::array<unsigned, 4> counts{};
     for (int i = 0; i < static_cast<int>(kTileCount); ++i) {

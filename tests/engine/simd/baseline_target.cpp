@@ -1,5 +1,5 @@
-// Linked into tests that run the SIMD kernels on the baseline of this build: Highway's scalar
-// target with version 1.0 on x86, SSE2 with later versions, NEON on ARM.
+// Programs that link this file run the SIMD kernels on the baseline target of this build. On x86 it
+// is Highway's scalar target with Highway 1.0, SSE2 with later versions; on ARM it is NEON.
 #include <hwy/targets.h>
 
 namespace {

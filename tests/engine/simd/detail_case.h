@@ -7,8 +7,8 @@
 
 namespace mfar::simd {
 
-/// Input of the detail step that resembles a real frame: textured pictures, the smooth flow of a
-/// scene at several distances with a curved border, varying weights, and areas without weight.
+/// Input of the detail step that resembles a real frame: textured pictures, smooth flow with a
+/// nearer rectangle in front of a background, varying weights, and areas without weight.
 struct DetailCase {
     DetailCase(Size video, Size still, double changedShare = 1);
 

@@ -11,8 +11,8 @@ namespace {
 constexpr Size kVideo{160, 120}, kStill{400, 300}, kOutput{576, 432};
 constexpr int kFrom = 20, kTo = 32;
 
-/// A frame with two stills. The second still is inverted and has its own look-ups. Its weight
-/// exceeds that of the first still by `more` in some columns of cells; it is 0 elsewhere.
+/// A frame with two stills. The second still is inverted. Its weight exceeds that of the first
+/// still by `more` in some columns of cells; elsewhere, its weight is 0.
 struct TwoStills {
     explicit TwoStills(float more, double changedShare = 1)
         : frame(kVideo, kStill, changedShare), other(kVideo, kStill, changedShare) {

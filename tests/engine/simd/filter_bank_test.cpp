@@ -38,7 +38,7 @@ TEST(FilterBank, EachFilterHasOneWeightPerNeighbour) {
     EXPECT_EQ(tapAt({0, 0}), -1);
 }
 
-TEST(FilterBank, MirroringMapsAllGradientBinsOntoOneQuadrant) {
+TEST(FilterBank, MirroringMapsAllGradientBinsOntoAQuarterOfThem) {
     for (const int bins : {8, 16})
         for (int bin = 0; bin < bins; ++bin) {
             const Symmetry same = Symmetry::of(bin, bins);

@@ -43,8 +43,8 @@ struct Errors {
     Vector2d bias{0, 0};
 };
 
-/// Errors relative to a constant flow [px of the field's level]. Counts cells at least `border`
-/// cells inside the picture.
+/// Errors relative to a constant flow [px of the field's level]. Counts only cells that are at
+/// least `border` cells inside the picture.
 Errors errorsOf(Rows<const FlowCell> field, const Vector2d& truth, int border) {
     Errors e;
     int n = 0;
@@ -96,7 +96,7 @@ TEST(Flow2d, FlowDoesNotDependOnGainAndOffset) {
     EXPECT_LT(e.worst, 0.3);
 }
 
-TEST(Flow2d, FlatPicturesDoNotMove) {
+TEST(Flow2d, FlowBetweenFlatPicturesIsZero) {
     for (const std::uint8_t level : {0, 128, 255}) {
         Pair pair(FlowPicture(kSmall, level), FlowPicture(kSmall, 77));
         for (const bool usePrior : {false, true}) {

@@ -34,7 +34,7 @@ struct FlowPicture {
 };
 
 /// A sum of plane waves of 6 to 80 px. Content that is at x without a shift appears at x + `shift`.
-/// `stretch`: factor along x, from the left border.
+/// `stretch`: factor by which the content is stretched along x, away from the left border.
 inline FlowPicture wavesMoved(Size size, Eigen::Vector2d shift, double gain = 1, double offset = 0,
                               unsigned seed = 1, double stretch = 1) {
     constexpr int kWaves = 24;

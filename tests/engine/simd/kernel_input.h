@@ -53,7 +53,8 @@ inline Point3 turned(const std::array<float, 9>& r, const Point3& p) {
             r[6] * p.x + r[7] * p.y + r[8] * p.z};
 }
 
-/// True if a coordinate is so near the border between two pixels that rounding decides.
+/// True if a coordinate is so near the border between two pixels that rounding decides to which one
+/// it belongs.
 inline bool isBetween(double v) {
     const double part = v + 0.5 - std::floor(v + 0.5);
     return part < 0.01 || part > 0.99;

@@ -57,7 +57,7 @@ TEST(LumaFilters, SmoothedRowsApplyTheTapsInBothDirections) {
     }
 }
 
-TEST(LumaFilters, NoiseColumnsAreResponsesToTheNoiseMask) {
+TEST(LumaFilters, NoiseColumnsAreSumsOfAbsoluteResponsesToTheNoiseMask) {
     constexpr Size kSize{140, 18};
     for (const bool extreme : {false, true}) {
         Bytes picture = bytes(140UL * 18, 7);

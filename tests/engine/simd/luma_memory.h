@@ -55,7 +55,8 @@ private:
     std::vector<twin::Grey> video_, still_;
 };
 
-/// Two cameras with different distorting lenses, rotated against each other by some degrees.
+/// Two cameras, rotated against each other by 1.7 degrees. If `distort` is true, their lenses have
+/// different distortion.
 [[nodiscard]] inline StereoRig twoLenses(Size video, Size still, bool distort) {
     CameraModel v;
     v.size = video;

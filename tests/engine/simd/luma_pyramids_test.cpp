@@ -6,7 +6,7 @@
 namespace mfar::simd {
 namespace {
 
-// Tolerance: half an 8-bit step, plus single precision for values between two steps.
+// Tolerance: half a grey level, plus rounding errors of single precision.
 constexpr double kRounding = 0.501;
 
 /// A pyramid level as it is stored; its columns begin at x = -8.

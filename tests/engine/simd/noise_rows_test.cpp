@@ -73,7 +73,8 @@ struct Filtered {
     double variance = 0, weights = 0;
 };
 
-/// The weight of the surface of pixel `j` in the mean of pixel `i`.
+/// Factor of the weight of pixel `j` in the mean around pixel `i`: 1 for the same surface, 0 for
+/// unrelated ones.
 double surfaceWeight(Arrays& a, std::size_t i, std::size_t j, const NoiseRule& rule) {
     if (i == j) return 1;
     if (a.of("id")[i] != a.of("id")[j]) return 0;

@@ -114,7 +114,8 @@ TEST_P(OcclusionSizes, PixelsInsideTheBoundsDoNotDependOnBoundsOrThreads) {
                 const PixelRect& b = layer.bounds;
                 const bool in = x >= b.x0 && x < b.x1 && y >= b.y0 && y < b.y1;
                 if (in) {
-                    // Tolerance: sigma^2 is computed from the rounded sqrt(sigma^2).
+                    // Tolerance: given a rounded sigma^2, the step computes sigma as its square
+                    // root.
                     ASSERT_NEAR(part.visibleAt(x, y), whole.visibleAt(x, y),
                                 threads == 2 ? 1.01 / 255 : 0);
                 }

@@ -33,7 +33,7 @@ private:
     Size size_;
 };
 
-/// Random vectors, four floats per cell, of which every eighth leads far outside the picture.
+/// Random vectors, four floats per cell. Every eighth vector leads far outside the picture.
 std::vector<float> randomVectors(unsigned seed, float reach) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> flow(-reach, reach);

@@ -49,7 +49,7 @@ double measured(const Grey& scene, double sigma, PixelFormat format = PixelForma
     return noiseOfStill({bytes.data(), scene.size, channels * width, format});
 }
 
-TEST(StillNoise, FindsWhiteNoiseInEachFormat) {
+TEST(StillNoise, WhiteNoiseIsFoundInEachFormat) {
     for (const double sigma : {1.5, 3.0, 6.0})
         for (const PixelFormat format : {PixelFormat::Gray8, PixelFormat::Rgba8})
             EXPECT_NEAR(measured(plainScene(), sigma, format), sigma, 0.15 * sigma);
@@ -61,7 +61,7 @@ TEST(StillNoise, TextureIsNotNoise) {
     EXPECT_LT(measured(texture(), 6), 6.5);
 }
 
-TEST(StillNoise, OfACleanOrASmallStillIsZero) {
+TEST(StillNoise, CleanOrSmallStillsHaveNoNoise) {
     EXPECT_LT(measured(plainScene(), 0), 0.3);
     EXPECT_EQ(measured(plainScene({19, 300}), 5), 0);
     EXPECT_EQ(measured(plainScene({300, 19}), 5), 0);

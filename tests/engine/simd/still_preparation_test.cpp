@@ -118,11 +118,11 @@ TEST(StillPreparation, PairsAreWithoutNoiseButLumaIsUnchanged) {
 
 TEST(QuietVariance, IsFourVariancesOfTheNoiseThatTheReductionLeaves) {
     EXPECT_EQ(quietVariance(0, {400, 300}, {400, 300}), 0);
-    EXPECT_EQ(quietVariance(0.7, {400, 300}, {400, 300}), 0) << "this noise is not seen";
+    EXPECT_EQ(quietVariance(0.7, {400, 300}, {400, 300}), 0) << "so little noise is not visible";
     EXPECT_EQ(quietVariance(std::nan(""), {400, 300}, {400, 300}), 0);
     EXPECT_FLOAT_EQ(quietVariance(3, {400, 300}, {400, 300}), 36);
     EXPECT_FLOAT_EQ(quietVariance(3, {400, 300}, {200, 150}), 4);
-    EXPECT_FLOAT_EQ(quietVariance(50, {400, 300}, {400, 300}), 576) << "this is texture";
+    EXPECT_FLOAT_EQ(quietVariance(50, {400, 300}, {400, 300}), 576) << "noise above 12 is texture";
 }
 
 TEST(StillPreparation, TheToneCurveChangesLumaAndPairsButNotThePicture) {

@@ -32,7 +32,7 @@ TEST(TurnedPoints, PointsAreProjectionsOfRotatedRays) {
     }
 }
 
-TEST(TurnedRow, ARotatedPictureIsBilinearInsideAndUnseenOutside) {
+TEST(TurnedRow, ARotatedPictureIsInterpolatedInsideAndMarkedUnseenOutside) {
     for (const Size size : {Size{2, 2}, Size{3, 2}, Size{40, 31}}) {
         for (const int width : {1, 8, 23, 80}) {
             const std::ptrdiff_t pitch = size.width + 3;

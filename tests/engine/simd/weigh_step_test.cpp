@@ -162,8 +162,8 @@ void expectOracle(const WeighCase& c, bool givenErrors) {
             EXPECT_EQ(w.y, c.forward[y][x].y);
             // Tolerance: the kernels round pixels to 1/64 grey level, which changes the covariance
             // by up to 0.1 %. At low contrast a weight grows with the covariance's fifth power. A
-            // weight below kSmallestWeight is set to 0, so that only one of the two weights may be
-            // 0.
+            // weight below kSmallestWeight is set to 0. So near this limit, the kernel's or the
+            // oracle's weight alone may be 0.
             EXPECT_NEAR(w.weight, t.weight,
                         w.weight == 0 || t.weight == 0 ? 1.001 * params::kSmallestWeight
                                                        : 2e-3 * t.weight + 1e-4);

@@ -65,8 +65,8 @@ std::string skipSvg(const SkipReport& report) {
         panels.push_back(std::move(saved));
         panels.push_back(std::move(lost));
     }
-    return eval::barsSvg("mfar-bench skip: time saved and quality lost by work that is left out",
-                         panels, "");
+    return eval::barsSvg("mfar-bench skip: time saved and quality lost by skipping work", panels,
+                         "");
 }
 
 std::string governorSvg(std::span<const GovernedRun> runs) {

@@ -29,7 +29,7 @@ std::string curvesCsv(const Curves& curves) {
 
 void writeCurves(const Curves& curves, const fs::path& folder) {
     std::error_code error;
-    fs::create_directories(folder, error);  // writeText() reports it if the folder is missing
+    fs::create_directories(folder, error);  // writeText() reports a missing folder
     eval::writeText(folder / "curves.csv", curvesCsv(curves));
     eval::writeText(folder / "curves.svg", curvesSvg(curves));
 }

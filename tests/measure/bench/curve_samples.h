@@ -17,8 +17,8 @@ struct CurveSample {
     [[nodiscard]] bool hasPoses() const { return frame.pose && still.pose; }
 };
 
-/// Loads at most `most` samples from each folder, which are recordings or pairs as for `mfar-eval
-/// flow`. Throws EvalError, RecordingError and ImageFileError.
+/// Loads at most `most` samples from each folder. A folder is a recording or holds pairs, as for
+/// `mfar-eval flow`. Throws EvalError, RecordingError and ImageFileError.
 [[nodiscard]] std::vector<CurveSample>
 curveSamplesOf(const std::vector<std::filesystem::path>& folders, std::size_t most);
 

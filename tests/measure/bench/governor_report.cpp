@@ -48,7 +48,7 @@ double p95(const GovernedRun& run, std::size_t from) {
     return percentile(std::move(ms), 0.95);
 }
 
-/// Text about the frames after the settling time; empty if no scene has any.
+/// Text about the frames after the settling time; empty if no scene has such frames.
 std::string settledText(const GovernedRun& run) {
     const bool any = std::ranges::any_of(
         run.scenes, [](const GovernedScene& scene) { return scene.ms.size() > kSettling; });

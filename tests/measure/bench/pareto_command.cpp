@@ -46,20 +46,20 @@ ParetoCommand::ParetoCommand(CLI::App& app)
     : command_(app.add_subcommand("pareto",
                                   "run time against error: measures flow, super-resolution, depth, "
                                   "slicing and warp with every setting of mfar and with other "
-                                  "methods; each gives a point (median time, error)")) {
+                                  "methods; each of these gives a point (median time, error)")) {
     command_
         ->add_option("--stages", stages_,
                      fmt::format("stages to measure: any of {}", fmt::join(stages_, ", ")))
         ->delimiter(',')
         ->check(CLI::IsMember(stages_));
     command_->add_option("--data", data_,
-                         "recordings or pairs, as for mfar-eval depth, on which flow and depth are "
-                         "measured. Default: the stereo pairs of ../shared/data or, where they are "
-                         "absent and with --quick, synthetic scenes");
+                         "recordings on which flow and depth are measured, as for mfar-eval; flow "
+                         "can also be measured on pairs of frames. Default: the stereo pairs in "
+                         "../shared/data; if these are absent, or with --quick: synthetic scenes");
     command_
         ->add_option("--frames", frames_,
                      "number of samples from each folder (default 2) and number of frames of each "
-                     "synthetic sequence (default 12)")
+                     "synthetic sequence (default 12, with --quick 3)")
         ->check(CLI::Range(1, 1000));
     command_
         ->add_option("--rounds", run_.rounds,

@@ -71,7 +71,7 @@ ParetoStage warpStage(bool quick) {
 
 ParetoStage slicingStage(bool quick) {
     eval::SlicingRequest request;
-    request.frames = 8;  // Only the rows `budget` need more; these rows are not used below.
+    request.frames = 8;  // Only the rows `budget` need more frames; they are not used below.
     if (quick) {
         request.size = {48, 36};
         request.samples = 8;

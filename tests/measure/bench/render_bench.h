@@ -6,8 +6,9 @@
 namespace mfar::bench {
 
 /// Rays and samples per second in one thread, for a 640x480 camera that looks at a sphere. `bare`:
-/// Embree's rtcIntersect1 in a plain loop. `ours`: mfar's camera rays, which include the lens and
-/// are traced in packets. `samples`: whole paths of a matt surface in sunlight.
+/// Embree's rtcIntersect1 in a plain loop. `ours`: mfar's camera rays, traced in packets; the time
+/// includes computing their directions through the lens. `samples`: paths that end at the sphere,
+/// a matt surface in sunlight.
 struct RayRates {
     int triangles = 0;
     double bare = 0, ours = 0;  ///< [million rays/s]

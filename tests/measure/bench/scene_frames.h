@@ -8,9 +8,9 @@
 
 namespace mfar::bench {
 
-/// A frame and the still that came before it, R G B A. They are rendered before a measurement
-/// starts, because the synthetic board renders in threads of this process, which would slow the
-/// measurement.
+/// A frame, and the still that arrived before it, if any; R G B A. They are rendered before a
+/// measurement starts, because the synthetic board renders in threads of this process, which would
+/// slow the measurement.
 struct SceneFrame {
     cv::Mat picture, still;
     Timestamp time;

@@ -24,7 +24,8 @@ namespace {
 
 using synthetic::Path;
 
-/// The first frames are not scored, because the first still must arrive and depth must settle.
+/// Times and errors of the first frames do not count, because the first still must arrive and depth
+/// must settle.
 constexpr std::size_t kSettled = 8;
 constexpr std::size_t kScoredFrames = 4;  // every fourth frame is scored
 // Distance between two imagined cameras [m]. bad-1 of depth counts pixels whose disparity between

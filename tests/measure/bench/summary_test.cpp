@@ -7,7 +7,7 @@
 namespace mfar::bench {
 namespace {
 
-TEST(Summary, MediansOfOddAndEvenCountsAreRight) {
+TEST(Summary, MedianIsTheMiddleValueOrTheMeanOfBothMiddleValues) {
     EXPECT_DOUBLE_EQ(summarise({3, 1, 2}).median, 2);
     EXPECT_DOUBLE_EQ(summarise({4, 1, 2, 3}).median, 2.5);
     EXPECT_DOUBLE_EQ(summarise({4, 1, 2, 3}).min, 1);

@@ -32,7 +32,7 @@ struct Workload {
     std::vector<cv::Mat> frames;
     std::vector<std::size_t> stillOf;
     /// Poses of the video camera at each frame and at each still. An unknown pose is an empty
-    /// entry. If all are unknown, the vector is empty.
+    /// entry. If all are unknown, the vector may be empty.
     std::vector<std::optional<Pose>> framePoses{}, stillPoses{};
     std::vector<Lesson> lessons{};  ///< pairs from which filters are learned before the first frame
     std::shared_ptr<const FilterBank> filters{};  ///< learned from `lessons`; null: shipped filters

@@ -11,7 +11,7 @@ namespace mfar::eval {
 struct Bar {
     std::string label;
     double value = 0;
-    std::vector<double> dots{};  ///< further values, for example of the frames with mean `value`
+    std::vector<double> dots{};  ///< further values, for example those whose mean is `value`
     std::size_t colour = 0;
 };
 
@@ -28,7 +28,8 @@ struct BarPanel {
                                   const std::string& footnote);
 
 /// Makes a panel for each measured column of a report. A bar is the mean of a method. Dots are the
-/// means of the recordings or, with only one recording, the values of its frames.
+/// means of the recordings or, with only one recording, the values of its frames. In a report
+/// without means, each row gives a bar.
 [[nodiscard]] std::vector<BarPanel> barsOf(const Report& report);
 
 struct SizedSvg {

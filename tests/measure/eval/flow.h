@@ -5,8 +5,9 @@
 
 namespace mfar::eval {
 
-/// Measures the requested methods on every sample of flowSamplesOf(). The columns are the members
-/// of FlowError and the areas of Sparsification. Throws EvalError and RecordingError.
+/// Measures the requested methods on every sample of flowSamplesOf(). The columns are the run time,
+/// the errors and the coverage of FlowError, and the areas of Sparsification. Throws EvalError and
+/// RecordingError.
 [[nodiscard]] Report evaluateFlow(const SampleRequest& request);
 
 }  // namespace mfar::eval

@@ -16,7 +16,7 @@ struct FlowSample {
     std::filesystem::path video, still, truth;  ///< `truth`: .flo, or .pfm with inverse depth
     Timestamp videoTime, stillTime;
     PosePair poses{};
-    std::optional<PosePair> given{};  ///< poses from another source, which replace `poses`
+    std::optional<PosePair> given{};  ///< if set, methods get these poses, not `poses`
 };
 
 struct FlowSet {

@@ -141,8 +141,8 @@ TEST(FlowSamples, FlowFromDepthContainsTheParallaxOfRigAndMotion) {
     writeRecording(folder / "r", true);
     writeDepth(folder / "r/truth/inverse_depth/200.pfm", 2);
     const FlowSet set = flowSamplesOf(folder / "r");
-    // At 150 ns the rig was 0.05 m further left. Its still camera is 0.1 m to the right of the
-    // video camera.
+    // At 150 ns, the rig was 0.05 m to the left of its position at 200 ns. Its still camera is
+    // 0.1 m to the right of the video camera.
     const auto v = loadTruth(set, set.samples.at(0)).at<cv::Vec2f>(8, 12);
     EXPECT_NEAR(v[0], 20 * 2 * (0.05 - 0.1), 1e-5);
     EXPECT_NEAR(v[1], 0, 1e-6);

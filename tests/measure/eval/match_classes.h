@@ -36,8 +36,8 @@ inline constexpr int kMatchClasses = 3;
 /// Columns of each class: its share of the pixels, and its gain in luma PSNR over bicubic [dB].
 [[nodiscard]] std::vector<Column> matchClassColumns();
 /// Values of matchClassColumns(). Lumas are CV_64F, classes CV_8U, all of the same size. The gain
-/// of a class is empty if its share is below kSmallestClass, or if a picture equals the truth in
-/// it.
+/// of a class is empty if its share is below kSmallestClass, or if `picture` or `bicubic` equals
+/// the truth in all pixels of the class.
 [[nodiscard]] std::vector<std::optional<double>> matchClassValues(const cv::Mat& classes,
                                                                   const cv::Mat& picture,
                                                                   const cv::Mat& bicubic,

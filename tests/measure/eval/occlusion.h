@@ -22,9 +22,10 @@ struct OcclusionRequest {
 };
 
 /// Measures every object alone in every scene, on every path. Rows are named SCENE/PATH/OBJECT;
-/// `method` is the source of the poses. Columns: times of the stages depth and objects [ms]; iou
-/// and boundary_px, see OcclusionScore; on the path `rest`, flicker() of the object's pixels at the
-/// output's resolution. Throws EvalError, and Failure for a faulty configuration.
+/// `method` is the source of the poses. Columns: the times of the stages depth and objects [ms];
+/// iou and boundary_px (see OcclusionScore); flicker() of the object's pixels at the output's
+/// resolution, measured only on the path `rest`. Throws EvalError, and Failure for a faulty
+/// configuration.
 [[nodiscard]] Report evaluateOcclusion(const OcclusionRequest& request);
 
 }  // namespace mfar::eval

@@ -33,7 +33,7 @@ CLI::App* addOcclusionCommand(CLI::App& app, OcclusionRequest& request, std::str
              synthetic::pathNamed);
     sub->add_option("--objects", request.objects,
                     "configuration file of mfard whose [[objects]] are shown one after the other "
-                    "(default: one object that is half behind real things of office and shelf)");
+                    "(default, for office and shelf: a sphere, half hidden behind real things)");
     addPoseSource(*sub, request.poses);
     sub->add_option("--frames", request.frames, "number of scored frames on each path")
         ->check(CLI::Range(1, 1000000))

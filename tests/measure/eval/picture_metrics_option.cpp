@@ -10,7 +10,7 @@ namespace mfar::eval {
 const char* const kPictureMetricsHelp =
     "msssim: multi-scale SSIM of five scales. lpc_si: sharpness by local phase coherence\n"
     "(Hassen et al. 2013), as in release 1.0. Few very sharp pixels determine it; lpc_si_tiles\n"
-    "adds its quantiles over 8x8 tiles.\n"
+    "adds its quantiles over 8 x 8 equal parts of the picture.\n"
     "hdrvdp: hdrvdp_q is Q of HDR-VDP 2.2.1 and 2.2.2 (100: no difference, no lower bound);\n"
     "hdrvdp_qmos is Q_MOS of 2.2.0. Luma V is shown as black + (peak - black) (V/255)^gamma in\n"
     "a surround of 1e-5 cd/m2. Compare either value only between pictures of equal --ppd and\n"

@@ -91,8 +91,8 @@ TEST(MfarEval, FlowMeasuresAKnownShift) {
     EXPECT_LT(std::stod(rows[10][4]), 0.5);
 }
 
-/// Both sensors take a flat wall at 2 m at the same time. The recording has inverse depth and a
-/// baseline, but no flow.
+/// Records a flat wall at 2 m, of which both sensors take a picture at the same time. The recording
+/// has inverse depth and a baseline, but no flow.
 void writeStereo(const fs::path& root) {
     const cv::Mat world = bench::syntheticWorkload({160, 120}, {320, 240}, 1).stills[0];
     const cv::Size size(160, 120);
@@ -160,7 +160,7 @@ TEST(MfarEval, EveryDepthMethodMeasuresAFlatWall) {
         EXPECT_LT(std::stod(rows[i + 1][4]), 0.05) << names[i];
         EXPECT_LT(std::stod(rows[i + 1][5]), 0.2) << names[i];
         EXPECT_GT(std::stod(rows[i + 1][6]), 0.8) << names[i];
-        EXPECT_TRUE(rows[i + 1][7].empty());  // a wall has no edges
+        EXPECT_TRUE(rows[i + 1][7].empty());  // a flat wall has no depth edges
         EXPECT_GT(std::stod(rows[i + 1][11]), 0.8);
         EXPECT_GE(std::stod(rows[i + 1][13]), std::stod(rows[i + 1][11]));
         EXPECT_EQ(rows[i + 1].at(15).empty(), i != 0);  // only `depth` reports a variance
@@ -169,7 +169,7 @@ TEST(MfarEval, EveryDepthMethodMeasuresAFlatWall) {
         folder, fmt::format("{0} depth {1}/wall --methods flow --poses none --csv {1}/out.csv",
                             MFAR_EVAL, folder.path().string()));
     ASSERT_EQ(blind.status, 0) << blind.text;
-    EXPECT_EQ(std::stod(readCsv(folder / "out.csv").at(1).at(6)), 0);  // no pose, no depth
+    EXPECT_EQ(std::stod(readCsv(folder / "out.csv").at(1).at(6)), 0);  // depth needs poses
 }
 
 TEST(MfarEval, WithoutPosesEpipolarFlowEqualsFlow2d) {

@@ -22,8 +22,9 @@ public:
     /// defines createGlContext().
     SceneRun(SyntheticOptions options, PoseSource poses);
 
-    /// The next frame and, if one arrived before it, a still. A still arrives some frames after its
-    /// trigger pulse. With PoseSource::Tags, a still's pose is found from the tags in the still.
+    /// The next frame, and the still that arrived before it, if any. A still arrives some frames
+    /// after its trigger pulse. With PoseSource::Tags, a still's pose is found from the tags in the
+    /// still.
     struct Shots {
         Frame frame;
         std::optional<Pose> pose;

@@ -24,9 +24,9 @@ struct PosePair {
     std::optional<Pose> frame, still;
 };
 
-/// Interpolates the recorded poses; a pose outside their time range is empty. Without recorded
-/// poses, the video camera's coordinates at the still's time are the world's coordinates, and a
-/// frame's pose is known only if its time equals the still's.
+/// Interpolates the recorded poses. A pose is empty if Recording::poseAt() finds none. Without
+/// recorded poses, the video camera's coordinates at the still's time are the world's coordinates,
+/// and a frame's pose is known only if its time equals the still's.
 [[nodiscard]] PosePair posesOf(const Recording& recording, Timestamp frame, Timestamp still);
 
 /// Maps video camera coordinates at the frame's time to still camera coordinates at the still's

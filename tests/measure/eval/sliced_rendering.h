@@ -35,7 +35,8 @@ struct ErrorAt {
 [[nodiscard]] std::vector<ErrorAt> slicedErrors(const SlicedScene& scene,
                                                 const SliceOptions& slices);
 
-/// Errors of whole pictures that were traced anew with 1, 2, 4, ... samples, at most `samples`.
+/// Errors of whole pictures that were traced anew with 1, 2, 4, ... samples per pixel, at most
+/// `samples`.
 [[nodiscard]] std::vector<ErrorAt> wholeErrors(const SlicedScene& scene, int samples);
 
 /// Processor time of each frame [ms] if a picture is divided into `frames` portions of equally many

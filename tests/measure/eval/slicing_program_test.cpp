@@ -52,7 +52,7 @@ TEST(MfarEvalSlicing, MeasuresAndPlotsEachSlicingMethod) {
         EXPECT_EQ(error(fmt::format("{} 16", way)), error("time 16")) << "the same samples\n"
                                                                       << csv;
     EXPECT_GT(error("time 1"), error("time 16"));
-    EXPECT_LT(std::stod(rows.at("time 4")[5]), 0.95 * error("time 4")) << "filtered";
+    EXPECT_LT(std::stod(rows.at("time 4")[5]), 0.95 * error("time 4")) << "after smoothing";
     EXPECT_EQ(error("time 1"), error("full 1"));
     EXPECT_GT(error("spatial 1"), error("time 1")) << "most tiles are still empty";
     for (const char* row :

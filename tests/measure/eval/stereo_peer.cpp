@@ -23,8 +23,8 @@ cv::Ptr<cv::StereoMatcher> createMatcher(int disparities, StereoPeer::Matcher ma
                                   cv::StereoSGBM::MODE_SGBM_3WAY);
 }
 
-/// Fills pixels [begin, end) of a row with the smaller disparity of their two neighbours, because
-/// that is the background's.
+/// Fills the pixels [begin, end) of a row with the smaller one of the disparities at both ends of
+/// this gap, because the smaller one is the background's.
 void fillGap(float* row, int begin, int end, int width) {
     constexpr float kNone = std::numeric_limits<float>::infinity();
     const float value =

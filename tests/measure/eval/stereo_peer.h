@@ -8,8 +8,9 @@
 namespace mfar::eval {
 
 /// Peer for flow with known poses: OpenCV's StereoSGBM (3-way) or StereoBM on rectified pictures.
-/// Disparities are in [0, width / 6). Pixels that OpenCV finds occluded or ambiguous get the
-/// disparity of the farther of their two neighbours in the row.
+/// The number of disparities is a sixth of the width, rounded up to a multiple of 16. Pixels that
+/// OpenCV finds occluded or ambiguous get the smaller one of the disparities on both sides of the
+/// gap in the row, which belongs to the farther surface.
 class StereoPeer {
 public:
     enum class Matcher { SemiGlobal, Block };

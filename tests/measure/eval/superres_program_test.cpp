@@ -111,7 +111,7 @@ TEST(MfarEval, SuperResDegradesTheVideoForEveryMethod) {
     const auto clean = psnrOf(""), noisy = psnrOf("--degrade-video noise=20");
     EXPECT_LT(noisy[0], clean[0] - 1);
     EXPECT_LT(noisy[1], clean[1] - 1);
-    EXPECT_LT(noisy[2], clean[2] - 1) << "colours";
+    EXPECT_LT(noisy[2], clean[2] - 1) << "psnr_rgb_db";
 }
 
 TEST(MfarEval, SuperResLearnsFromStillsBeforeItMeasures) {

@@ -18,9 +18,10 @@ struct SuperResSample {
     std::filesystem::path truth;
 };
 
-/// Finds the frames with truth/highres, at most `limit` (0: all). Without `needsStill`, a frame
-/// without a suitable still is its own still, which must not be used. Prints a line to stderr for
-/// each skipped frame. Throws EvalError if no frame remains.
+/// Finds the frames with truth/highres, at most `limit` (0: all). Frames without a suitable still
+/// are skipped, and a line on stderr reports each. If `needsStill` is false, they are kept; their
+/// member `still` is then the frame itself and must not be used. Throws EvalError if no frame
+/// remains.
 [[nodiscard]] std::vector<SuperResSample> superResSamplesOf(const Recording& recording, int limit,
                                                             bool needsStill = true);
 

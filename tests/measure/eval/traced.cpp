@@ -235,8 +235,8 @@ void savePicture(const std::filesystem::path& folder, const std::string& name, S
     savePng(folder / (name + ".png"), rgbaOf({&picture}, size).view());
 }
 
-/// The name of a truth contains the model's key, because another file, or another version of the
-/// file, may have the same name. Programs' own scenes have no key.
+/// Name of the files with the truth. It contains the model's key, because another file, or another
+/// version of the file, may have the same name. Names of built-in scenes contain no key.
 std::string truthName(const std::string& name, const Scene& scene, synthetic::Path path) {
     const std::vector<std::string> own = warpSceneNames();
     if (std::ranges::find(own, name) != own.end() || scene.objects.empty())

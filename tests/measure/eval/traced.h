@@ -35,9 +35,9 @@ struct TracedRequest {
 /// second.
 ///
 /// Columns: psnr_db, of pixels where the truth shows an object; shadow_psnr_db, of pixels where the
-/// truth shows a shadow or light of an object on the real surface; flicker of the objects' luma
-/// [grey levels], see metrics/flicker.h; pictures, the number of traced pictures shown so far;
-/// warp_ms, the time of drawing the layer; with `hdrVdp`, hdrvdp_q of the whole frame on the
+/// truth shows a shadow or light of an object on the real surface; flicker of the luma error of
+/// objects [grey levels], see metrics/flicker.h; pictures, the number of traced pictures shown so
+/// far; warp_ms, the time of drawing the layer; with `hdrVdp`, hdrvdp_q of the whole frame on the
 /// display HdrVdpDisplay{}. The GLES engine needs a current context. Throws EvalError.
 [[nodiscard]] Report evaluateTraced(const TracedRequest& request);
 

@@ -18,8 +18,8 @@ constexpr const char* kTracedHelp =
     "psnr_db: of red, green and blue where the truth shows an object; shadow_psnr_db: where\n"
     "it shows a shadow or light of the objects on the real surface; flicker [grey levels]:\n"
     "change of the luma error of objects from a frame to the next along their motion, root\n"
-    "mean square over the square root of two; pictures: number of pictures shown so far;\n"
-    "warp_ms: time of drawing the layer; hdrvdp_q: HDR-VDP-2's quality of the whole frame,\n"
+    "mean square over the square root of two; pictures: number of traced pictures shown so\n"
+    "far; warp_ms: time of drawing the layer; hdrvdp_q: HDR-VDP-2's quality of the whole frame,\n"
     "100 if it equals the truth. Frames of the first half second are not scored.";
 
 }  // namespace

@@ -17,7 +17,7 @@ struct EvalCommand {
     bool hasOwnPlot = false;
 };
 
-/// Adds the subcommands that need the path tracer. Empty if it is not built.
+/// Adds and returns the subcommands that need the path tracer. Without the path tracer, adds none.
 [[nodiscard]] std::vector<EvalCommand> addTracedCommands(CLI::App& app, std::string& csv);
 
 }  // namespace mfar::eval

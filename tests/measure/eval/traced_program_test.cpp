@@ -63,7 +63,7 @@ TEST(MfarEvalTraced, ComparesFramesOfEachMethodAndKeepsTheTruth) {
     EXPECT_GT(std::filesystem::file_size(folder / "video/still-life-orbit.y4m"), 22 * kFrameBytes);
 }
 
-/// Writes a file with a triangle of this red.
+/// Writes a model with one triangle of the base colour (`red`, 0, 0).
 void writeModel(const std::filesystem::path& file, double red) {
     test::GltfMaker maker = test::oneTriangle();
     maker.root["materials"] = {{{"pbrMetallicRoughness", {{"baseColorFactor", {red, 0, 0, 1}}}}}};
@@ -97,11 +97,11 @@ TEST(MfarEvalTraced, FilesOfTheSameNameHaveTheirOwnRowsPicturesAndTruth) {
     EXPECT_EQ(saved, 2U * 2 * 2) << "two files, two frames, one method and its truth";
     outcome = run("b/object.glb");
     ASSERT_EQ(outcome.status, 0) << outcome.text;
-    EXPECT_EQ(filesIn(folder / "truth"), truths) << "a single file finds the truth of both runs";
+    EXPECT_EQ(filesIn(folder / "truth"), truths) << "the second run reuses the stored truth";
     writeModel(folder / "b/object.glb", 0.25);
     outcome = run("b/object.glb");
     ASSERT_EQ(outcome.status, 0) << outcome.text;
-    EXPECT_EQ(filesIn(folder / "truth"), truths + truths / 2) << "a changed file has a new truth";
+    EXPECT_EQ(filesIn(folder / "truth"), truths + truths / 2) << "a changed file needs a new truth";
 }
 
 TEST(MfarEvalTraced, InvalidRequestsEndWithAMessageAndStatus2) {

@@ -17,7 +17,7 @@ namespace mfar::eval {
 class TracedTruth {
 public:
     /// `name`: name of scene and path, for file names. Different scenes need different names.
-    /// Without a folder, nothing is kept.
+    /// If `folder` is empty, no files are kept.
     TracedTruth(const std::shared_ptr<const Scene>& scene, int samples,
                 std::filesystem::path folder, const std::string& name);
 

@@ -26,11 +26,15 @@ struct WarpRequest {
 /// warped picture with one that was traced for the same view with truthSamples. Rows are
 /// SCENE/DEGREES. The GLES engine needs a current context. Throws EvalError.
 ///
-/// Columns: psnr_db inside the objects' silhouette; hole_share: pixels of objects without a
-/// rendered sample, divided by the silhouette's pixels; reray_share: rays for individually rendered
-/// pixels, divided by the rays of a full picture (referenceSamples for all pixels in the tracer's
-/// bounds); reray_of_objects: the same rays, divided by those of the silhouette's pixels; ms: time
-/// of the complete warp, or of the peer.
+/// Columns:
+/// psnr_db: inside the objects' silhouette.
+/// hole_share: number of objects' pixels that have no rendered sample / number of the silhouette's
+/// pixels.
+/// reray_share: rays for individually rendered pixels / rays of a full picture, which has
+/// referenceSamples rays for each pixel in the tracer's bounds.
+/// reray_of_objects: rays for individually rendered pixels / rays of a picture of the silhouette's
+/// pixels alone, with referenceSamples rays each.
+/// ms: time of the complete warp, or of the other method that is compared.
 [[nodiscard]] Report evaluateWarp(const WarpRequest& request);
 
 [[nodiscard]] std::string warpSvg(const WarpRequest& request, const Report& report);

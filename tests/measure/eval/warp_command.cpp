@@ -12,9 +12,10 @@ namespace mfar::eval {
 namespace {
 
 constexpr const char* kWarpHelp =
-    "Path-traces a picture of each scene, turns the camera about it, warps the picture to the\n"
-    "new view, and compares it with a picture that is path-traced in that view.\n"
-    "Methods differ in how they fill holes, the pixels that the warped picture does not show.\n"
+    "Path-traces a picture of each scene, turns the camera around the objects, warps the\n"
+    "picture to the new view, and compares it with a picture that is path-traced in that view.\n"
+    "Methods differ in how they fill holes: pixels of the new view that the first picture does\n"
+    "not show.\n"
     "none: left empty; push-pull: from pixels around them; re-render: these pixels are traced;\n"
     "both: re-render, and push-pull until the traced pixels arrive; inpaint: by Telea's method\n"
     "in OpenCV; full: no warp, the whole picture is traced anew. re-render and both fill holes\n"

@@ -14,10 +14,10 @@ namespace mfar::eval {
 /// "still-life": balls and boxes next to and behind each other. "showpiece": the model of
 /// showpiece() on a plane that catches its shadow.
 [[nodiscard]] std::vector<std::string> warpSceneNames();
-/// Short names of scenes: a scene's name, or the file's name without extension. If two scenes have
-/// the same short name, both keep the text they were given as.
+/// Short names of scenes: a scene's name, or the file's name without extension. If several scenes
+/// would have the same short name, each keeps its entry of `scenes`.
 [[nodiscard]] std::vector<std::string> sceneLabels(const std::vector<std::string>& scenes);
-/// The label as a part of a file's name.
+/// Returns the label with "-" for each "/", so that it can be part of a file's name.
 [[nodiscard]] std::string fileStemOf(std::string label);
 /// Loads a scene of warpSceneNames(), or a glTF file. The file's model keeps its size and stands on
 /// a plane. Throws EvalError.

@@ -49,8 +49,9 @@ struct SplitVector {
 };
 
 /// Triangulates the flow between two views, each with its own lens and pose, in single precision.
-/// It agrees with double precision within 1e-6 for rotations up to 10 degrees and at least 0.01
-/// degrees of parallax. Beyond these limits, errors grow as in plain single precision.
+/// Its depths differ from double precision by less than 1e-6 of their value for rotations up to 10
+/// degrees and at least 0.01 degrees of parallax. Beyond these limits, errors grow as in plain
+/// single precision.
 class Triangulation {
 public:
     /// Allocates all memory, and undistorts every pixel of both views.

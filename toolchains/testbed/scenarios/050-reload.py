@@ -1,4 +1,4 @@
-"""A reload applies the new configuration. If it is invalid, the service keeps the old one."""
+"""A reload applies the new configuration. If the new one is invalid, the service keeps the old one."""
 
 
 def run(bed):

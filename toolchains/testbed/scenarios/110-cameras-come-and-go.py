@@ -1,4 +1,4 @@
-"""Each camera of the board is unplugged and plugged in again. The service reports that and continues."""
+"""Each camera of the board is unplugged and plugged in again. The service reports the loss and continues."""
 
 import re
 import time

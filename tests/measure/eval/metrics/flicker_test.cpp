@@ -23,7 +23,7 @@ cv::Mat flowOf(float x, float y) {
 TEST(Flicker, ErrorsThatMoveWithTheirScenePointDoNotFlicker) {
     const cv::Mat all = noise(5, 1, {248, 180});
     const cv::Mat before = all(cv::Rect(8, 4, 240, 176)), after = all(cv::Rect(0, 0, 240, 176));
-    EXPECT_NEAR(flicker(before, after, flowOf(2, 1), kBorder), 0, 1e-9) << "flow of the errors";
+    EXPECT_NEAR(flicker(before, after, flowOf(2, 1), kBorder), 0, 1e-9) << "motion of the errors";
     EXPECT_GT(flicker(before, after, flowOf(0, 0), kBorder), 4);
     EXPECT_GT(flicker(before, after, flowOf(1, 2), kBorder), 4) << "x and y exchanged";
 }

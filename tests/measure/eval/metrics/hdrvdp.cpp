@@ -25,7 +25,8 @@ void requireLight(const cv::Mat& light) {
         throw std::invalid_argument("HDR-VDP-2: light must be finite and positive");
 }
 
-/// Returns 1 for pixels at which the pictures differ by more than a thousandth, otherwise 0.
+/// Returns 1 for pixels at which the pictures differ by more than a thousandth of the reference,
+/// otherwise 0.
 cv::Mat differs(const cv::Mat& test, const cv::Mat& reference) {
     cv::Mat out(test.size(), CV_64F);
     const int channels = test.channels();

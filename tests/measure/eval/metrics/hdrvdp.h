@@ -18,8 +18,8 @@ struct HdrVdpDisplay {
 [[nodiscard]] double pixelsPerDegree(double diagonal, cv::Size resolution, double distance);
 
 /// Light that a display emits for a picture [cd/m^2]. The picture is CV_64F or CV_64FC3 (B G R,
-/// sRGB) in [0, 255]; the type stays. Throws std::invalid_argument for values outside this range,
-/// and for an impossible display, such as one whose black is brighter than its white.
+/// sRGB) in [0, 255]; the result has the same type. Throws std::invalid_argument for values outside
+/// this range, and for an impossible display, such as one whose black is brighter than its white.
 [[nodiscard]] cv::Mat displayedLight(const cv::Mat& picture, const HdrVdpDisplay& display);
 
 /// Contribution of one orientation of one band of the steerable pyramid. D: masked difference of
@@ -37,7 +37,7 @@ struct HdrVdpBand {
 };
 
 struct HdrVdpResult {
-    double q = 0;     ///< score of releases 2.2.1 and 2.2.2; 100: equal; no lower bound
+    double q = 0;     ///< score of releases 2.2.1 and 2.2.2; 100: equal pictures; no lower bound
     double q220 = 0;  ///< sum from which release 2.2.0 computes Q_MOS
     double qMos = 0;  ///< Q_MOS of release 2.2.0, [0, 100]
     std::vector<HdrVdpBand> bands;

@@ -217,7 +217,7 @@ LpcSharpness lpcSharpness(const cv::Mat& picture, double sigmaRatio) {
     if (picture.type() != CV_64F || std::min(picture.cols, picture.rows) < kLpcSmallestSide)
         throw std::invalid_argument("LPC-SI: picture must be CV_64F of 32x32 pixels at least");
     if (!cv::checkRange(picture))
-        throw std::invalid_argument("LPC-SI: a pixel of the picture is not a number");
+        throw std::invalid_argument("LPC-SI: a pixel of the picture is not a finite number");
     if (!(sigmaRatio > 0 && sigmaRatio < 1))
         throw std::invalid_argument("LPC-SI: the ratio of the filters must be in (0, 1)");
     const int border = static_cast<int>(std::lround(std::min(picture.cols, picture.rows) / 16.0));

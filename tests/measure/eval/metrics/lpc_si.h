@@ -16,7 +16,7 @@ struct LpcOrientation {
     /// Mean and standard deviation of the finest scale's amplitudes, without border.
     double mean = 0, deviation = 0;
     double threshold = 0;                 ///< mean + 2 deviation; smaller amplitudes do not count
-    double energy = 0;                    ///< sum of amplitudes above the threshold, whole picture
+    double energy = 0;                    ///< sum of max(amplitude - threshold, 0), whole picture
     std::array<double, 2> coarserMean{};  ///< mean amplitude at the coarser scales, whole picture
 };
 
@@ -34,7 +34,8 @@ struct LpcSharpness {
 [[nodiscard]] LpcSharpness lpcSharpness(const cv::Mat& picture, double sigmaRatio = kLpcRelease);
 [[nodiscard]] double lpcSi(const cv::Mat& picture, double sigmaRatio = kLpcRelease);
 
-/// Quantiles of lpcSi() over 8x8 tiles of equal size, each computed separately.
+/// Quantiles of lpcSi() over the tiles of a grid that divides the picture into 8 x 8 equal parts.
+/// lpcSi() is computed for each tile separately.
 struct LpcTiles {
     double p10 = 0, median = 0, p90 = 0;
 };

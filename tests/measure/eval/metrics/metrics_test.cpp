@@ -124,7 +124,7 @@ TEST(FlowSparsification, AreaIsZeroIfConfidenceFallsAsErrorsRise) {
     cv::Mat flow = truth.clone();
     flow.at<cv::Vec2f>(0, 1) += cv::Vec2f(1, 0);
     flow.at<cv::Vec2f>(0, 2) += cv::Vec2f(0, 3);
-    flow.at<cv::Vec2f>(0, 3) = {std::nanf(""), 0};  // no result, no error
+    flow.at<cv::Vec2f>(0, 3) = {std::nanf(""), 0};  // pixels without a result do not count
     const cv::Mat right = (cv::Mat_<float>(1, 4) << 0.9F, 0.5F, 0.1F, 0);
     EXPECT_NEAR(flowSparsification(flow, truth, right).ause, 0, 1e-9);
     EXPECT_GT(flowSparsification(flow, truth, 1 - right).ausePerRandom, 1);

@@ -57,8 +57,8 @@ int objectAt(int x, int y, int s, int v) {
     return v;
 }
 
-/// Reduces an axis by a factor of 3.6. Returns for each output pixel its source pixels, with their
-/// weights in units of 1/5.
+/// Reduces an axis by a factor of 3.6. Returns for each output pixel the source pixels that it
+/// covers, each with the number of its fifths that are covered.
 std::vector<std::vector<std::pair<int, int>>> areaShares(int out) {
     std::vector<std::vector<std::pair<int, int>>> shares(static_cast<std::size_t>(out));
     for (int i = 0; i < out; ++i)
