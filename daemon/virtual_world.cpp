@@ -62,6 +62,13 @@ TracedLayerOptions tracedLayerOptions(const VirtualOptions& options, float expos
     return out;
 }
 
+Size layerSize(const VirtualOptions& options, Size full, Size output) {
+    const auto scaled = [&](int whole, int shown) {
+        return std::clamp(static_cast<int>(std::lround(whole * options.resolution)), 1, shown);
+    };
+    return {scaled(full.width, output.width), scaled(full.height, output.height)};
+}
+
 VirtualWorld::VirtualWorld(const VirtualOptions& options, const StereoRig& rig, Pipeline& pipeline)
     : options_(options), fullSize_(Pipeline::fullSize(rig)), pipeline_(pipeline),
       traced_(!drawsPreviews(options)) {}
@@ -71,12 +78,8 @@ bool VirtualWorld::drawsPreviews(const VirtualOptions& options) {
 }
 
 TracedLayerOptions VirtualWorld::layerOptions() const {
-    const Size output = pipeline_.outputSize();
-    const auto scaled = [&](int full, int shown) {
-        return std::clamp(static_cast<int>(std::lround(full * options_.resolution)), 1, shown);
-    };
     TracedLayerOptions out = tracedLayerOptions(options_, exposure_);
-    out.size = {scaled(fullSize_.width, output.width), scaled(fullSize_.height, output.height)};
+    out.size = layerSize(options_, fullSize_, pipeline_.outputSize());
     return out;
 }
 

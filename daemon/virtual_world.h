@@ -33,7 +33,12 @@ private:
     float exposure_ = 1;
 };
 
+/// TracedLayerOptions::size is not set, see layerSize().
 [[nodiscard]] TracedLayerOptions tracedLayerOptions(const VirtualOptions& options, float exposure);
+
+/// Returns the size of the path-traced pictures. `full`: Pipeline::fullSize(). `output`: size of
+/// the pictures that mfard shows.
+[[nodiscard]] Size layerSize(const VirtualOptions& options, Size full, Size output);
 
 /// Returns a scene with these objects at their poses in the tag map, in this light. If the light is
 /// to be estimated from the camera's pictures, the scene begins with the light of a studio.

@@ -1,8 +1,8 @@
 #include "tests/measure/bench/bench.h"
 
 #include "tests/measure/bench/gpu_timer.h"
+#include "tests/measure/bench/pipeline_run.h"
 #include "tests/measure/eval/paper_pipeline.h"
-#include "tests/measure/eval/picture.h"
 #include "tests/measure/eval/pipeline_shot.h"
 #include "tests/measure/eval/still_learning.h"
 #include "tests/measure/eval/stopwatch.h"
@@ -24,78 +24,13 @@ constexpr double kRestNoise = 2;
 constexpr std::size_t kWarmUp = 3;
 constexpr std::size_t kSetStillRuns = 5;
 
-std::optional<Pose> poseOf(const std::vector<std::optional<Pose>>& poses, std::size_t i) {
-    return poses.empty() ? std::nullopt : poses[i];
-}
-
 Workload withoutPoses(Workload work) {
     work.framePoses.clear();
     work.stillPoses.clear();
     return work;
 }
 
-/// Runs mfar's pipeline on the frames of a workload. Setting a still is not part of a frame's time.
-class Ours {
-public:
-    Ours(const Workload& work, SuperResMode mode, EngineKind engine, int threads = 0,
-         Size output = {})
-        : work_(work), engine_(engine),
-          pipeline_(work.rig, optionsFor(mode, engine, threads, output)) {
-        pipeline_.setFilters(work.filters);
-        for (const cv::Mat& still : work.stills)
-            stills_.push_back(eval::toRgba(still));
-        for (const cv::Mat& frame : work.frames)
-            frames_.push_back(eval::toRgba(frame));
-    }
-
-    /// Returns the time from upload to finished picture [ms].
-    double run(std::size_t i) {
-        if (still_ != work_.stillOf[i]) setStill(work_.stillOf[i]);
-        return eval::wallMs([&] {
-            stats_ =
-                pipeline_.run(eval::viewOf(frames_[i]), nextTime(), poseOf(work_.framePoses, i))
-                    .stats;
-            pipeline_.finish(engine_);
-        });
-    }
-    double setStill(std::size_t index) {
-        still_ = index;
-        pipeline_.finish(engine_);
-        return eval::wallMs([&] {
-            pipeline_.setStill(eval::viewOf(stills_[index]), nextTime(),
-                               poseOf(work_.stillPoses, index));
-            pipeline_.finish(engine_);
-        });
-    }
-    [[nodiscard]] Pipeline& pipeline() { return pipeline_; }
-    [[nodiscard]] EngineKind engine() const { return engine_; }
-    [[nodiscard]] const FrameStats& stats() const { return stats_; }
-
-private:
-    static PipelineOptions optionsFor(SuperResMode mode, EngineKind engine, int threads,
-                                      Size output) {
-        PipelineOptions options;
-        options.mode = mode;
-        options.output = output;
-        options.engines = EngineChoice::all(engine);
-        options.threads = threads;
-        return options;
-    }
-    Timestamp nextTime() {
-        time_ = time_ + std::chrono::nanoseconds{33'333'333};
-        return time_;
-    }
-
-    const Workload& work_;
-    EngineKind engine_;
-    Pipeline pipeline_;
-    std::vector<cv::Mat> stills_, frames_;
-    std::optional<std::size_t> still_;
-    Timestamp time_;
-    FrameStats stats_;
-};
-
-void warmUp(Ours& ours, std::size_t frames) {
+void warmUp(PipelineRun& ours, std::size_t frames) {
     for (std::size_t i = 0; i < std::min(kWarmUp, frames); ++i)
         ours.run(i);
 }
@@ -108,7 +43,7 @@ void addTiles(CaseResult& result, const FrameStats& stats) {
         result.tileShare[c] += stats.tiles[c] / all / static_cast<double>(result.frame.runs);
 }
 
-void measureStages(Ours& ours, std::size_t frames, CaseResult& result) {
+void measureStages(PipelineRun& ours, std::size_t frames, CaseResult& result) {
     std::vector<std::pair<std::string, std::vector<double>>> stages;
     gpu::Timer timer;
     std::vector<double> gpuMs;
@@ -169,7 +104,7 @@ private:
 
 using Peers = std::vector<std::unique_ptr<Peer>>;
 
-CaseResult measureCase(const std::string& name, Ours& ours, const Workload& work,
+CaseResult measureCase(const std::string& name, PipelineRun& ours, const Workload& work,
                        const Peers& peers, std::vector<PeerResult>& results,
                        const ProgressPart& progress) {
     const std::size_t frames = work.frames.size();
@@ -194,7 +129,7 @@ CaseResult measureCase(const std::string& name, Ours& ours, const Workload& work
     return result;
 }
 
-void measureAgainstPeers(const std::string& name, Ours& ours, const Workload& work,
+void measureAgainstPeers(const std::string& name, PipelineRun& ours, const Workload& work,
                          BenchResult& out, const ProgressPart& progress) {
     const Size output = ours.pipeline().outputSize();
     Peers peers;
@@ -225,9 +160,9 @@ std::shared_ptr<const FilterBank> learnedFrom(const Workload& work) {
 
 BenchResult runBench(const Workload& moving, const Workload& posed, SuperResMode mode,
                      EngineKind engine, const std::string& renderer, const ProgressPart& progress) {
-    constexpr std::size_t kParts = 7;
+    constexpr std::size_t kParts = 8;
     const Workload blind = withoutPoses(moving);
-    Ours ours(blind, mode, engine);
+    PipelineRun ours(blind, mode, engine);
     BenchResult out;
     out.workload = moving.name;
     out.posed = posed.name;
@@ -243,12 +178,12 @@ BenchResult runBench(const Workload& moving, const Workload& posed, SuperResMode
 
     measureAgainstPeers("moving", ours, blind, out, progress.part(0, kParts, "moving"));
     if (!posed.frames.empty()) {
-        Ours handheld(posed, mode, engine);
+        PipelineRun handheld(posed, mode, engine);
         measureAgainstPeers("handheld", handheld, posed, out, progress.part(1, kParts, "handheld"));
     }
     for (const double noise : {0.0, kRestNoise}) {
         const Workload rest = atRest(blind, noise);
-        Ours resting(rest, mode, engine);
+        PipelineRun resting(rest, mode, engine);
         const char* name = noise > 0 ? "rest-noise" : "rest";
         out.cases.push_back(measureCase(name, resting, rest, {}, out.peers,
                                         progress.part(noise > 0 ? 3 : 2, kParts, name)));
@@ -257,7 +192,8 @@ BenchResult runBench(const Workload& moving, const Workload& posed, SuperResMode
     out.depth = measureDepth(posed);
     progress.show(5, kParts, "warp");
     out.warp = measureWarp(out.video, static_cast<int>(moving.frames.size()), engine);
-    progress.show(6, kParts, "triangulation");
+    out.objects = measureObjects(posed, engine, progress.part(6, kParts, "objects"));
+    progress.show(7, kParts, "triangulation");
     out.triangulation = measureTriangulation(out.video);
     return out;
 }
@@ -267,7 +203,7 @@ namespace {
 Summary framesOf(const Workload& work, SuperResMode mode, EngineKind engine, int threads,
                  Size output) {
     if (work.frames.empty()) return {};
-    Ours ours(work, mode, engine, threads, output);
+    PipelineRun ours(work, mode, engine, threads, output);
     warmUp(ours, work.frames.size());
     std::vector<double> ms;
     for (std::size_t i = 0; i < work.frames.size(); ++i)

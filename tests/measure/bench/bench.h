@@ -3,6 +3,7 @@
 #include "base/progress.h"
 #include "pipeline/pipeline.h"
 #include "tests/measure/bench/depth_bench.h"
+#include "tests/measure/bench/objects_bench.h"
 #include "tests/measure/bench/render_bench.h"
 #include "tests/measure/bench/summary.h"
 #include "tests/measure/bench/triangulation_bench.h"
@@ -56,6 +57,7 @@ struct BenchResult {
     std::vector<PeerResult> peers;
     DepthTimes depth;
     WarpTimes warp;
+    ObjectTimes objects;
     TriangulationTimes triangulation;
     std::vector<ScalingResult> scaling;
     RenderFigures render;

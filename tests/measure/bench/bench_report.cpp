@@ -40,6 +40,10 @@ nlohmann::json json(const WarpTimes& t) {
             {"remap", json(t.remap)}};
 }
 
+nlohmann::json json(const ObjectTimes& t) {
+    return {{"tracing", json(t.tracing)}, {"waiting", json(t.waiting)}};
+}
+
 std::string line(const std::string& name, const Summary& s) {
     return fmt::format("{:<28} {:>9.2f} {:>9.2f} {:>9.2f} {:>6}", name, s.median, s.p99, s.min,
                        s.runs);
@@ -83,6 +87,20 @@ std::string toTable(const RenderFigures& render) {
     return out;
 }
 
+std::string toTable(const WarpTimes& warp, const ObjectTimes& objects) {
+    std::string out = line("warp, objects", warp.objects) + '\n' +
+                      line("warp, whole picture", warp.whole) + '\n' +
+                      line("warp, camera at rest", warp.still) + '\n' +
+                      line("warp, new picture", warp.newPicture) + '\n' +
+                      line("peer cv::remap", warp.remap) + '\n';
+    if (objects.tracing.runs > 0)
+        out += line("objects, path tracer works", objects.tracing) +
+               fmt::format("  {:.1f} % more than while it waits\n",
+                           100 * (objects.tracing.median / objects.waiting.median - 1)) +
+               line("objects, path tracer waits", objects.waiting) + '\n';
+    return out;
+}
+
 }  // namespace
 
 nlohmann::json toJson(const BenchResult& result) {
@@ -115,6 +133,7 @@ nlohmann::json toJson(const BenchResult& result) {
             {"peers", peers},
             {"depth", {{"tenth", json(result.depth.tenth)}, {"whole", json(result.depth.whole)}}},
             {"warp", json(result.warp)},
+            {"objects", json(result.objects)},
             {"triangulation_ns_per_point",
              {{"flow", result.triangulation.flow},
               {"midpoint", result.triangulation.midpoint},
@@ -150,11 +169,7 @@ std::string toTable(const BenchResult& result) {
     if (result.depth.whole.runs > 0)
         out += line("depth, tenth of the picture", result.depth.tenth) + '\n' +
                line("depth, whole picture", result.depth.whole) + '\n';
-    out += line("warp, objects", result.warp.objects) + '\n' +
-           line("warp, whole picture", result.warp.whole) + '\n' +
-           line("warp, camera at rest", result.warp.still) + '\n' +
-           line("warp, new picture", result.warp.newPicture) + '\n' +
-           line("peer cv::remap", result.warp.remap) + '\n';
+    out += toTable(result.warp, result.objects);
     const TriangulationTimes& t = result.triangulation;
     out += fmt::format("triangulation [ns per point]: mfar's flow method {:.1f}, mfar's midpoint "
                        "method {:.1f}, cv::triangulatePoints {:.0f} ({:.0f} times as long as the "

@@ -33,7 +33,9 @@ constexpr const char* kHelp =
     "with its poses; rest: the same frame again and again; rest-noise: the same view with sensor "
     "noise of sigma 2 grey levels.\n"
     "mfar learns its filters from stills before the measurement. Whole frames are timed without "
-    "interruption until the picture is finished; stages are timed in a separate run. Rows `peer "
+    "interruption until the picture is finished; stages are timed in a separate run. Rows "
+    "`objects`: frames of handheld at 30 Hz with a path-traced model, while the path tracer works "
+    "and while it has no work. Rows `peer "
     "paper` and `peer paper-fast` are for comparison: the paper's method with OpenCV's flow (DIS "
     "medium, DIS fast). It processes each frame right after mfar.";
 

@@ -53,6 +53,10 @@ TEST(MfarBench, QuickRunWritesEveryPartOfItsJson) {
         EXPECT_GT(result.at("triangulation_ns_per_point").at(key).get<double>(), 0) << key;
     for (const char* key : {"objects", "whole", "still", "new_picture", "remap"})
         EXPECT_GT(result.at("warp").at(key).at("median_ms").get<double>(), 0) << key;
+    for (const char* key : {"tracing", "waiting"})
+        EXPECT_EQ(result.at("objects").at(key).at("median_ms").get<double>() > 0,
+                  MFAR_PATH_TRACING != 0)
+            << key;
     const auto hasStage = [&](int i, const char* name) {
         const auto& stages = result.at("cases").at(i).at("stages");
         return std::any_of(stages.begin(), stages.end(),
