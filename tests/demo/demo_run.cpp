@@ -8,7 +8,6 @@
 #include "tests/measure/eval/metrics/ssim.h"
 #include "tests/measure/eval/picture.h"
 
-#include <GLES3/gl31.h>
 #include <opencv2/imgproc.hpp>
 
 #include <chrono>
@@ -68,8 +67,9 @@ Shown shownBy(const Pipeline& pipeline, const cv::Mat& video, const cv::Mat& tru
 
 }  // namespace
 
-DemoRun runDemo(const Recording& recording, const std::function<void(int, int)>& progress) {
-    Pipeline pipeline(recording.rig, {});
+DemoRun runDemo(const Recording& recording, EngineKind engine,
+                const std::function<void(int, int)>& progress) {
+    Pipeline pipeline(recording.rig, {.output = {}, .engines = EngineChoice::all(engine)});
     StillFeed stills(recording);
     DemoRun run;
     int done = 0;
@@ -79,7 +79,7 @@ DemoRun runDemo(const Recording& recording, const std::function<void(int, int)>&
         stills.feed(pipeline, frame.time);
         const auto begun = std::chrono::steady_clock::now();
         const FrameResult& result = pipeline.run(eval::viewOf(rgba), frame.time);
-        glFinish();
+        pipeline.finish(engine);
         const std::chrono::duration<double, std::milli> took =
             std::chrono::steady_clock::now() - begun;
         const auto truth = recording.truthHighRes(frame.time);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "hal/virtual/recording.h"
+#include "pipeline/engine/engine.h"
 #include "pipeline/results.h"
 
 #include <opencv2/core.hpp>
@@ -42,10 +43,11 @@ struct DemoRun {
     Shown last;
 };
 
-/// Runs the pipeline on all frames. Each frame is matched with the newest still taken before it.
-/// `progress` gets the number of processed frames and of all frames. Needs a current GL context.
+/// Runs the pipeline on all frames, with all steps on `engine`. Each frame is matched with the
+/// newest still taken before it. `progress` gets the number of processed frames and of all frames.
+/// Needs a current GL context for EngineKind::Gles.
 /// Throws std::runtime_error if no frame of the recording has both a still and a true picture.
-[[nodiscard]] DemoRun runDemo(const Recording& recording,
+[[nodiscard]] DemoRun runDemo(const Recording& recording, EngineKind engine,
                               const std::function<void(int, int)>& progress);
 
 }  // namespace mfar::demo

@@ -18,6 +18,7 @@
 #include <filesystem>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 namespace {
 
@@ -42,7 +43,7 @@ void row(const std::string& what, const std::string& upscaled, const std::string
     fmt::print("  {:<36}{:>16}{:>12}\n", what, upscaled, ours);
 }
 
-void printTable(const Quality& q) {
+void printTable(const Quality& q, std::string_view engine) {
     fmt::print("\n");
     row(fmt::format("means over {} frames", q.frames), "video upscaled", "mfar");
     row("PSNR [dB]", fmt::format("{:.2f}", q.upscaledPsnrDb),
@@ -50,7 +51,8 @@ void printTable(const Quality& q) {
     row("SSIM", fmt::format("{:.4f}", q.upscaledSsim), fmt::format("{:.4f}", q.resultSsim));
     row("pixels worse than upscaled video [%]", "", fmt::format("{:.2f}", 100 * q.harmRate));
     row("mean confidence, 0 to 1", "", fmt::format("{:.3f}", q.meanConfidence));
-    row("time of a frame [ms]", "", fmt::format("{:.1f}", q.frameMs));
+    row(fmt::format("time of a frame [ms], engine {}", engine), "",
+        fmt::format("{:.1f}", q.frameMs));
     for (std::size_t i = 0; i < mfar::kTileClasses; ++i) {
         const auto tileClass = static_cast<mfar::TileClass>(i);
         row(fmt::format("share of tiles: {} [%]", mfar::demo::name(tileClass)), "",
@@ -74,14 +76,15 @@ auto shownBy(const mfar::ProgressPart& part) {
     };
 }
 
-void runObjects(const Request& request, const mfar::Recording& recording,
+void runObjects(const Request& request, const mfar::Recording& recording, mfar::EngineKind engine,
                 const mfar::ProgressPart& part) {
     const auto scene = mfar::synthetic::sceneNamed(request.scene);
     if (!scene)
         throw std::runtime_error("--scene: unknown scene '" + request.scene +
                                  "'; mfar-sim --help lists the scenes");
     const auto objects = mfar::placedShapes(mfar::loadConfig(request.objects).objects, {});
-    const OcclusionRun run = mfar::demo::runOcclusion(recording, *scene, objects, shownBy(part));
+    const OcclusionRun run =
+        mfar::demo::runOcclusion(recording, *scene, objects, engine, shownBy(part));
     mfar::eval::savePicture(request.folder / "depth.png", mfar::demo::depthPicture(run));
     mfar::eval::savePicture(request.folder / "occlusion.png", mfar::demo::occlusionPicture(run));
     printTable(run.quality);
@@ -110,7 +113,11 @@ void run(const Request& request) {
     const mfar::Recording recording = mfar::loadRecording(request.recording);
     mfar::Progress progress;
     const mfar::ProgressPart all(progress);
-    const DemoRun run = mfar::demo::runDemo(recording, shownBy(all.part(0, 3, "resolution")));
+    // mfard uses the same engine unless the GPU is slower than the CPU.
+    const mfar::EngineKind engine =
+        context->isSoftware() ? mfar::EngineKind::Simd : mfar::EngineKind::Gles;
+    const DemoRun run =
+        mfar::demo::runDemo(recording, engine, shownBy(all.part(0, 3, "resolution")));
     mfar::eval::savePicture(request.folder / "comparison.png",
                             mfar::demo::comparisonPicture(run.last));
     mfar::eval::savePicture(request.folder / "confidence.png",
@@ -119,8 +126,9 @@ void run(const Request& request) {
                             mfar::demo::tileClassPicture(run.last));
     if (!request.video.empty()) mfar::demo::writeVideo(request.video, request.folder / "video.avi");
     progress.clear();
-    printTable(run.quality);
-    if (!request.objects.empty()) runObjects(request, recording, all.part(1, 3, "occlusion"));
+    printTable(run.quality, nameOf(engine));
+    if (!request.objects.empty())
+        runObjects(request, recording, engine, all.part(1, 3, "occlusion"));
     progress.clear();
     if (!request.pathTraced.empty())
         runPathTraced(request, recording, all.part(2, 3, "path tracing"));

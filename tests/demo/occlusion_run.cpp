@@ -92,10 +92,12 @@ void divideByFrames(OcclusionQuality& sum) {
 }  // namespace
 
 OcclusionRun runOcclusion(const Recording& recording, synthetic::Scene scene,
-                          const std::vector<VirtualObject>& objects,
+                          const std::vector<VirtualObject>& objects, EngineKind engine,
                           const std::function<void(int, int)>& progress) {
     const eval::KnownPoses poses(recording, eval::PoseSource::Tags);
-    Pipeline pipeline(recording.rig, {.output = {}, .depthEverywhere = true});
+    Pipeline pipeline(
+        recording.rig,
+        {.output = {}, .depthEverywhere = true, .engines = EngineChoice::all(engine)});
     pipeline.setObjects(objects);
     StillFeed stills(recording, &poses);
     SceneTruth sceneTruth(recording, scene, objects, pipeline.outputSize());

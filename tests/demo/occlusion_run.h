@@ -3,6 +3,7 @@
 #include "hal/virtual/recording.h"
 #include "hal/virtual/synthetic_scene.h"
 #include "pipeline/composite/virtual_object.h"
+#include "pipeline/engine/engine.h"
 
 #include <opencv2/core.hpp>
 
@@ -34,11 +35,13 @@ struct OcclusionRun {
 };
 
 /// Shows objects in a recording of a synthetic scene, with poses found from the scene's tags. Depth
-/// is computed in the whole picture, not only near objects. `progress` gets the number of processed
-/// frames and of all frames. Needs a current GL context. Throws std::runtime_error if the last
-/// frame has no true depth, pose or picture, or is one of the first eight frames.
+/// is computed in the whole picture, not only near objects. All steps run on `engine`. `progress`
+/// gets the number of processed frames and of all frames. Needs a current GL context. Throws
+/// std::runtime_error if the last frame has no true depth, pose or picture, or is one of the first
+/// eight frames.
 [[nodiscard]] OcclusionRun runOcclusion(const Recording& recording, synthetic::Scene scene,
                                         const std::vector<VirtualObject>& objects,
+                                        EngineKind engine,
                                         const std::function<void(int, int)>& progress);
 
 }  // namespace mfar::demo
