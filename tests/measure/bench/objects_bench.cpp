@@ -6,6 +6,7 @@
 #include "tests/measure/bench/pipeline_run.h"
 #include "tests/measure/eval/report.h"
 
+#include <algorithm>
 #include <chrono>
 #include <thread>
 
@@ -77,13 +78,15 @@ ObjectTimes measureObjects(const Workload& posed, EngineKind engine, const Progr
         std::this_thread::sleep_until(next);
         return ms;
     };
-    const std::size_t frames = posed.frames.size(), all = frames * (kWarmUpPasses + kPasses);
+    // Every second pass runs backwards, so that the view never jumps. A pass leaves out its last
+    // frame, with which the next pass begins.
+    const std::size_t last = posed.frames.size() - 1, pass = std::max(last, std::size_t{1});
+    const std::size_t all = pass * (kWarmUpPasses + kPasses);
     for (std::size_t i = 0; i < all; ++i) {
         progress.show(i, all, "");
-        // Every second pass runs backwards, so that the view never jumps.
-        const std::size_t at = i % frames, frame = i / frames % 2 == 0 ? at : frames - 1 - at;
+        const std::size_t at = i % pass, frame = i / pass % 2 == 0 ? at : last - at;
         const double with = paced(tracing, frame), without = paced(waiting, frame);
-        if (i < frames * kWarmUpPasses) continue;
+        if (i < pass * kWarmUpPasses) continue;
         tracingMs.push_back(with);
         waitingMs.push_back(without);
     }
