@@ -123,10 +123,22 @@ class GpuModel(unittest.TestCase):
 
     def test_numbers_of_loop_iterations_come_from_parameters(self):
         loop = shader_stats.Loop
-        one = shader(loops=[loop(0), loop(1, 0), loop(2, 1)])
-        self.assertEqual(gpu_model.trips_of(one, {'planeFits': 2}, MODEL['loops']), [2, 5])
+        one = shader(loops=[loop(0), loop(1, 0), loop(1, 0), loop(2, 2)])
+        self.assertEqual(gpu_model.trips_of(one, {'planeFits': 2}, MODEL['loops']), [3, 2, 5])
         with self.assertRaises(gpu_model.UnknownLoops):
             gpu_model.trips_of(shader(loops=[loop(0), loop(1, 0), loop(1, 0)]), {}, MODEL['loops'])
+
+    def test_shaders_of_a_frame_whose_loops_are_not_in_the_model_are_listed_once(self):
+        loop = shader_stats.Loop
+        compiled = {kind: {'flow_filter.comp': shader(loops=[loop(0), loop(1, 0)]),
+                           'not_in_the_frame.comp': shader(loops=[loop(0), loop(1, 0)])}
+                    for kind in ('v3d-4', 'v3d-7')}
+        work = {'shader': 'flow_filter.comp', 'defines': '', 'params': {'planeFits': 2}}
+        found = gpu_model.unknown_loops([work, work], compiled, MODEL['loops'])
+        self.assertEqual(len(found), 1)
+        self.assertIn('flow_filter.comp', found[0])
+        known = {'v3d-4': {'flow_filter.comp': shader(loops=[loop(0)])}}
+        self.assertEqual(gpu_model.unknown_loops([work], known, MODEL['loops']), [])
 
 
 class CpuModel(unittest.TestCase):

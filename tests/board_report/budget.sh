@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# Checks that every shader keeps its budget on every board whose drivers are in the cache. Exit
-# status 77: python3 or all drivers are missing. With "planted": checks that a shader with a large
-# local array is reported on each board. Usage: budget.sh COMPILE-SHADERS [planted]
+# Checks for every board whose drivers are in the cache that every shader keeps its budget, and that
+# model.toml has trip counts for the loops of a frame's shaders. Exit status 77: python3 or all
+# drivers are missing. With "planted": checks that a shader with a large local array is reported on
+# each board. Usage: budget.sh COMPILE-SHADERS FRAME-WORK [planted]
 set -euo pipefail
 here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
 boards=$here/../../toolchains/boards
@@ -15,7 +16,7 @@ for suite in bookworm trixie; do
 done
 [[ ${#drivers[@]} -gt 0 ]] || { echo "the boards' drivers are not built; ./run board-report builds them"; exit 77; }
 check=(python3 -B "$boards/report.py" --compile-shaders "$1" --check "${drivers[@]}")
-if [[ ${2:-} != planted ]]; then exec "${check[@]}"; fi
+if [[ ${3:-} != planted ]]; then exec "${check[@]}" --frame-work "$2"; fi
 
 found=$("${check[@]}" --budget "$here/planted.csv" --file "$here/planted.comp") && {
     echo "a shader with a large local array was not reported as over its budget"

@@ -35,6 +35,21 @@ def trips_of(shader, params, loops):
     raise UnknownLoops(f'{shader.key}: model.toml has no trip counts for loops of these depths: "{lying}"')
 
 
+def unknown_loops(works, compiled, loops):
+    """Returns a message for each shader in `works` (draws and dispatches) whose loops have no trip counts.
+    `compiled`: {kind of GPU: {key: Shader}}."""
+    out = set()
+    for work in works:
+        key = (work['shader'] + ' ' + work['defines']).strip()
+        for shaders in compiled.values():
+            try:
+                if key in shaders:
+                    trips_of(shaders[key], work['params'], loops)
+            except UnknownLoops as error:
+                out.add(str(error))
+    return sorted(out)
+
+
 def unit_cycles(shader, trips, gpu):
     """Returns for each kind of unit: (cycles that one wave keeps it busy, number of cores that share one unit)."""
     arithmetic, memory, texture = shader.weights(trips)

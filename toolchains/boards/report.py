@@ -11,6 +11,7 @@ import budget
 import collect
 import cpu_model
 import drivers
+import gpu_model
 import plot
 import predict
 import tables
@@ -48,13 +49,19 @@ def budget_rows(compiled):
     return [budget.row_of(kind, shader) for kind, shaders in compiled.items() for shader in shaders.values()]
 
 
-def check(compiled, allowed):
-    """Prints the shaders that exceed their budget. Returns their number."""
+def check(compiled, allowed, unknown):
+    """Prints the shaders that exceed their budget, and the messages `unknown`. Returns the number of these lines."""
     faults = budget.faults(budget_rows(compiled), allowed)
-    for fault in faults:
+    for fault in faults + unknown:
         print(fault)
     print(f'{sum(map(len, compiled.values()))} shaders on {len(compiled)} GPUs; {len(faults)} exceed their budget')
-    return len(faults)
+    return len(faults) + len(unknown)
+
+
+def unknown_loops(model, program, compiled):
+    """Returns a message for each shader of a frame whose loops have no trip counts in model.toml."""
+    works = [work for case in collect.CASES for work in collect.gpu_work(program, case, model['frame']['readme_output'])]
+    return gpu_model.unknown_loops(works, compiled, model['loops'])
 
 
 def outputs(model):
@@ -113,6 +120,8 @@ def check_host(args, model, plugin):
 
 
 def report(args, model, compiled):
+    if unknown := unknown_loops(model, args.frame_work, compiled):
+        sys.exit('\n'.join(unknown))
     os.makedirs(args.out, exist_ok=True)
     plugin = collect.build_plugin(os.path.join(HERE, 'block_counts.c'), os.path.join(args.out, 'block_counts.so'))
     works, cycles = {}, {}
@@ -154,7 +163,8 @@ def parse():
     parser.add_argument('--sysroot')
     parser.add_argument('--no-host', action='store_true', help='skip the check of the model on this machine')
     parser.add_argument('--out', default='out/boards')
-    parser.add_argument('--check', action='store_true', help='only compare all shaders with their budgets (budget.csv)')
+    parser.add_argument('--check', action='store_true', help='only compare all shaders with their budgets (budget.csv); with '
+                        '--frame-work, also find loops without trip counts in model.toml')
     parser.add_argument('--update-budget', action='store_true')
     parser.add_argument('--budget', default=BUDGET)
     parser.add_argument('--file', action='append', default=[], help='with --check: compare only this shader')
@@ -172,7 +182,8 @@ def main():
     if args.check:
         if not compiled:
             return 77
-        return 1 if check(compiled, budget.read(args.budget)) else 0
+        unknown = unknown_loops(model, args.frame_work, compiled) if args.frame_work else []
+        return 1 if check(compiled, budget.read(args.budget), unknown) else 0
     report(args, model, compiled)
     return 0
 
