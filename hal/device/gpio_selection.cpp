@@ -15,7 +15,7 @@
 namespace mfar {
 namespace {
 
-constexpr std::string_view kPrefix = "gpiochip";
+constexpr std::string_view kDeviceFolder = "/dev", kPrefix = "gpiochip";
 
 std::optional<unsigned> number(std::string_view text) {
     unsigned value = 0;
@@ -62,9 +62,14 @@ std::string listNames(const std::vector<const GpioChip*>& chips) {
 }
 
 std::vector<const GpioChip*> chipsFor(const std::vector<GpioChip>& chips, std::string_view wanted) {
+    // The device that a symbolic link names. An absolute `wanted` replaces the folder.
+    std::error_code error;
+    const auto device =
+        std::filesystem::canonical(std::filesystem::path(kDeviceFolder) / wanted, error);
     std::vector<const GpioChip*> found;
     for (const GpioChip& chip : chips)
-        if (wanted.empty() || wanted == chip.path || wanted == chip.name) found.push_back(&chip);
+        if (wanted.empty() || wanted == chip.path || wanted == chip.name || device == chip.path)
+            found.push_back(&chip);
     if (!found.empty()) return found;
     for (const GpioChip& chip : chips)
         if (wanted == chip.label) found.push_back(&chip);
@@ -141,7 +146,8 @@ std::vector<std::string> gpioChipPaths(const std::string& folder) {
     std::error_code error;
     for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
         const std::string name = entry.path().filename();
-        if (!name.starts_with(kPrefix)) continue;
+        std::error_code unknown;
+        if (!name.starts_with(kPrefix) || entry.is_symlink(unknown)) continue;
         if (const auto index = number(std::string_view(name).substr(kPrefix.size())))
             found.emplace_back(*index, entry.path());
     }

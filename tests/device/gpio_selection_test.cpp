@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cerrno>
+#include <filesystem>
 #include <fstream>
 #include <gmock/gmock.h>
 #include <stdexcept>
@@ -113,10 +114,22 @@ TEST(GpioSelection, MissingChipsAreReported) {
     EXPECT_THAT(faultOf({}, "", "TRIGGER"), HasSubstr("no GPIO chip that programs can use"));
 }
 
+TEST(GpioSelection, AChipIsFoundThroughALink) {
+    const test::TempFolder folder;
+    std::vector<GpioChip> chips = board();
+    chips[1].path = folder.path() / "gpiochip1";
+    std::ofstream(folder.path() / "gpiochip1") << ' ';
+    std::filesystem::create_symlink("gpiochip1", folder.path() / "expander");
+    EXPECT_EQ(findGpioLine(chips, (folder.path() / "expander").string(), "BT_ON").path,
+              chips[1].path);
+}
+
 TEST(GpioSelection, ChipsComeInTheOrderOfTheirNumbers) {
     const test::TempFolder folder;
     for (const char* name : {"gpiochip10", "gpiochip2", "gpiochip0", "gpiochipX", "gpio", "null"})
         std::ofstream(folder.path() / name) << ' ';
+    // Raspberry Pi OS creates such a link. The chip must not be found twice.
+    std::filesystem::create_symlink("gpiochip0", folder.path() / "gpiochip4");
     const std::string root = folder.path();
     EXPECT_THAT(gpioChipPaths(root),
                 ElementsAre(root + "/gpiochip0", root + "/gpiochip2", root + "/gpiochip10"));
