@@ -19,10 +19,7 @@ struct LibcameraOptions {
     /// Frame rate [Hz], requested if the camera has the control FrameDurationLimits. 0: the camera
     /// takes pictures only when it is triggered, and drops are not counted.
     double rateHz = 30;
-    /// Fixed values; not set: automatic. A gain of 1 is no gain; a focus of 0 is infinity.
-    std::optional<double> exposureUs;
-    std::optional<double> gain;
-    std::optional<double> focusDioptres;
+    /// A fixed exposure (ExposureTime), gain or focus ends its automatic mode.
     std::vector<std::pair<std::string, std::string>> controls;
     bool still = false;  ///< true: single pictures instead of video
     bool allowCrop = false;

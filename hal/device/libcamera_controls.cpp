@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <stdexcept>
@@ -106,6 +107,26 @@ std::optional<ControlValue> parse(const ControlId& id, const ControlInfo& info,
 
 bool hasControl(const ControlInfoMap& camera, const std::string& name) {
     return find(camera, name) != nullptr;
+}
+
+NamedValues withManualModes(const ControlInfoMap& camera, NamedValues wanted) {
+    struct Mode {
+        std::string_view value, mode, manual;
+    };
+    // Since libcamera 0.5, exposure and gain have a mode each. Before, AeEnable was the mode of
+    // both; a fixed exposure or gain alone was possible while it was on.
+    static constexpr std::array<Mode, 3> kModes{{{"ExposureTime", "ExposureTimeMode", "1"},
+                                                 {"AnalogueGain", "AnalogueGainMode", "1"},
+                                                 {"LensPosition", "AfMode", "0"}}};
+    const auto isWanted = [&](std::string_view name) {
+        return std::ranges::find(wanted, name, &NamedValues::value_type::first) != wanted.end();
+    };
+    NamedValues modes;
+    for (const Mode& one : kModes)
+        if (isWanted(one.value) && !isWanted(one.mode) && hasControl(camera, std::string(one.mode)))
+            modes.emplace_back(one.mode, one.manual);
+    wanted.insert(wanted.begin(), modes.begin(), modes.end());
+    return wanted;
 }
 
 ControlValues parseControls(const ControlInfoMap& camera, const NamedValues& wanted) {

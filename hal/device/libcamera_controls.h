@@ -16,6 +16,11 @@ using ControlValues = std::vector<std::pair<unsigned, libcamera::ControlValue>>;
 
 [[nodiscard]] bool hasControl(const libcamera::ControlInfoMap& camera, const std::string& name);
 
+/// Adds the controls that end the automatic modes of exposure, gain and focus, if `wanted` has
+/// values of these but not of the modes. Otherwise libcamera would ignore the values.
+[[nodiscard]] NamedValues withManualModes(const libcamera::ControlInfoMap& camera,
+                                          NamedValues wanted);
+
 /// Converts names and texts to control values, also for controls of the camera's vendor. Throws
 /// std::runtime_error if a name is unknown (the message lists the controls) or a value is invalid
 /// (the message states the range).

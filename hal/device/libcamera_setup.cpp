@@ -197,32 +197,12 @@ ConfiguredCamera configureLibcamera(libcamera::Camera& camera, const LibcameraOp
 ControlValues controlsFor(const libcamera::Camera& camera, const LibcameraOptions& options) {
     const auto& known = camera.controls();
     NamedValues wanted;
-    const auto manual = [&](const char* name, const char* value) {
-        if (hasControl(known, name)) wanted.emplace_back(name, value);
-    };
     if (options.rateHz > 0 && hasControl(known, "FrameDurationLimits")) {
         const auto us = std::llround(1e6 / options.rateHz);
         wanted.emplace_back("FrameDurationLimits", fmt::format("{},{}", us, us));
     }
-    if (options.exposureUs) {
-        // Since libcamera 0.5, exposure and gain have separate controls for their automatic modes.
-        // Older versions have AeEnable for both.
-        if (hasControl(known, "ExposureTimeMode"))
-            manual("ExposureTimeMode", "1");
-        else
-            manual("AeEnable", "false");
-        wanted.emplace_back("ExposureTime", fmt::format("{}", std::llround(*options.exposureUs)));
-    }
-    if (options.gain) {
-        manual("AnalogueGainMode", "1");
-        wanted.emplace_back("AnalogueGain", fmt::format("{}", *options.gain));
-    }
-    if (options.focusDioptres) {
-        manual("AfMode", "0");
-        wanted.emplace_back("LensPosition", fmt::format("{}", *options.focusDioptres));
-    }
     wanted.insert(wanted.end(), options.controls.begin(), options.controls.end());
-    return parseControls(known, wanted);
+    return parseControls(known, withManualModes(known, std::move(wanted)));
 }
 
 std::optional<Size> activePixels(const libcamera::Camera& camera) {

@@ -57,6 +57,21 @@ TEST_F(LibcameraControls, ArraysAreSeparatedByCommas) {
     EXPECT_EQ(one("ColourGains", "1.5,2").get<libcamera::Span<const float>>()[1], 2.0F);
 }
 
+// AfMode stands for the modes of exposure and gain, which older versions of libcamera do not have.
+TEST_F(LibcameraControls, AFixedValueEndsItsAutomaticMode) {
+    const ControlInfoMap camera({{&controls::AfMode, ControlInfo(std::int32_t{0}, std::int32_t{2})},
+                                 {&controls::LensPosition, ControlInfo(0.0F, 10.0F)}},
+                                controls::controls);
+    const NamedValues focus{{"LensPosition", "2"}};
+    EXPECT_EQ(withManualModes(camera, focus),
+              (NamedValues{{"AfMode", "0"}, {"LensPosition", "2"}}));
+    const NamedValues both{{"LensPosition", "2"}, {"AfMode", "1"}};
+    EXPECT_EQ(withManualModes(camera, both), both);
+    const NamedValues other{{"ExposureTime", "8000"}};
+    EXPECT_EQ(withManualModes(camera, other), other);
+    EXPECT_EQ(withManualModes(camera_, focus), focus) << "this camera has no AfMode";
+}
+
 TEST_F(LibcameraControls, AnUnknownNameIsReportedWithTheExistingControls) {
     EXPECT_THAT([&] { (void)one("LensPosition", "1"); },
                 ThrowsMessage<std::runtime_error>(

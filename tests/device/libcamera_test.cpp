@@ -41,9 +41,6 @@ TEST(Libcamera, ImpossibleOptionsAreRefusedBeforeADeviceIsLookedFor) {
     refused([](auto& o) { o.size = {641, 480}; }, "641x480");
     refused([](auto& o) { o.size = {0, 0}; }, "0x0");
     refused([](auto& o) { o.rateHz = std::numeric_limits<double>::quiet_NaN(); }, "rate");
-    refused([](auto& o) { o.exposureUs = -1; }, "exposure");
-    refused([](auto& o) { o.gain = std::numeric_limits<double>::infinity(); }, "gain");
-    refused([](auto& o) { o.focusDioptres = -0.5; }, "focus");
     refused([](auto& o) { o.buffers = 1; }, "buffers");
 }
 
