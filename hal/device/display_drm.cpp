@@ -63,6 +63,18 @@ std::uint32_t currentCrtc(int fd, const drmModeConnector& connector) {
     return encoder ? encoder->crtc_id : 0;
 }
 
+// Returns the CRTCs that drive other connectors than `connector`.
+std::vector<std::uint32_t> crtcsOfOthers(int fd, const drmModeRes& all, std::uint32_t connector) {
+    std::vector<std::uint32_t> out;
+    for (int i = 0; i < all.count_connectors; ++i) {
+        if (all.connectors[i] == connector) continue;
+        const Connector other = connectorOf(fd, all.connectors[i], false);
+        const std::uint32_t crtc = other ? currentCrtc(fd, *other) : 0;
+        if (crtc != 0) out.push_back(crtc);
+    }
+    return out;
+}
+
 std::optional<std::uint64_t> propertyValue(int fd, std::uint32_t object, std::uint32_t type,
                                            std::string_view name) {
     const ObjectProperties all(drmModeObjectGetProperties(fd, object, type));
@@ -208,13 +220,20 @@ std::optional<DrmOutput> DrmCard::route(const drmModeConnector& connector,
     if (!mode || !all) return std::nullopt;
     const std::uint32_t possible = drmModeConnectorGetPossibleCrtcs(fd(), &connector);
     const std::uint32_t current = currentCrtc(fd(), connector);
+    const std::vector<std::uint32_t> taken = crtcsOfOthers(fd(), *all, connector.connector_id);
+    // The connector's own CRTC is best, then a free one. One that drives another screen is the last
+    // choice, because most drivers refuse to show one picture on two screens.
+    const auto rank = [&](std::uint32_t crtc) {
+        if (crtc == current) return 2;
+        return std::ranges::find(taken, crtc) == taken.end() ? 1 : 0;
+    };
     std::optional<DrmOutput> found;
     for (int i = 0; i < std::min(all->count_crtcs, 32); ++i) {
-        if ((possible >> i & 1U) == 0 || (found && all->crtcs[i] != current)) continue;
+        const std::uint32_t crtc = all->crtcs[i];
+        if ((possible >> i & 1U) == 0 || (found && rank(crtc) <= rank(found->crtc))) continue;
         const std::uint32_t plane = primaryPlane(static_cast<unsigned>(i));
         if (plane != 0)
-            found =
-                DrmOutput{nameOf(connector), *mode, connector.connector_id, all->crtcs[i], plane};
+            found = DrmOutput{nameOf(connector), *mode, connector.connector_id, crtc, plane};
     }
     return found;
 }

@@ -191,8 +191,18 @@ void KmsScreen::waitForLastFlip() {
                     card_->path(), output_->connectorName));
 }
 
+// Otherwise the report of this flip would later be taken for that of another one.
+void KmsScreen::waitForLostFlip() {
+    try {
+        waitForLastFlip();
+    } catch (const std::runtime_error&) {
+        // The device is lost or did not report the flip in time. Waiting longer would not help.
+    }
+}
+
 void KmsScreen::releaseGl() {
     if (!buffers_) return;
+    waitForLostFlip();
     buffers_->releaseGl();
     left_ = std::move(buffers_);
 }
@@ -201,11 +211,7 @@ void KmsScreen::releaseGl() {
 // turns the screen off. Errors are ignored, because a lost device refuses all requests.
 void KmsScreen::leaveOutput() {
     if ((buffers_ || left_) && output_) {
-        try {
-            waitForLastFlip();
-        } catch (const std::runtime_error&) {
-            // The device is lost or did not report the flip in time. Waiting longer would not help.
-        }
+        waitForLostFlip();
         if (saved_ && saved_->mode_valid != 0 && saved_->buffer_id != 0)
             drmModeSetCrtc(card_->fd(), saved_->crtc_id, saved_->buffer_id, saved_->x, saved_->y,
                            &output_->connector, 1, &saved_->mode);

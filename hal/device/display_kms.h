@@ -38,6 +38,7 @@ private:
     void commit(ScanoutBuffers::Ready ready, Commit kind);
     void addModeSet(drmModeAtomicReq& request, std::uint32_t modeBlob) const;
     void waitForLastFlip();
+    void waitForLostFlip();
 
     ScreenSpec spec_;
     ScreenScaler& scaler_;

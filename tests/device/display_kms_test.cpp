@@ -1,5 +1,6 @@
 #include "base/rows.h"
 #include "base/time.h"
+#include "hal/device/display_drm.h"
 #include "hal/device/display_kms.h"
 #include "tests/device/pretended_drm.h"
 #include "tests/unit/temp_folder.h"
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -142,6 +144,28 @@ TEST_F(KmsScreenTest, ThePictureStaysWhileTheContextIsRecreated) {
     EXPECT_EQ(driver_.framebuffers, 2) << "there must be only the two new framebuffers";
     screen_.close();
     EXPECT_TRUE(driver_.console);
+}
+
+// The report of the last flip must not remain: it would be taken for that of the next flip.
+TEST_F(KmsScreenTest, AFlipEndsBeforeTheContextIsRecreated) {
+    ASSERT_EQ(screen_.look(true), Presence::Ready);
+    show();
+    show();
+    screen_.releaseGl();
+    EXPECT_EQ(driver_.flipped, 1);
+    show();
+    show();
+    show();
+    EXPECT_EQ(driver_.flipped, 2);
+}
+
+TEST_F(KmsScreenTest, DoesNotUseTheCrtcOfAnotherScreen) {
+    driver_.secondScreen = true;
+    const DrmCard card(this->card());
+    const std::optional<DrmOutput> output = card.findOutput({}, true);
+    ASSERT_TRUE(output);
+    EXPECT_EQ(output->crtc, 11U);
+    EXPECT_EQ(output->plane, 31U);
 }
 
 // At first the descriptor never becomes readable. Then its other end is closed.

@@ -56,6 +56,13 @@ T* listOf(T value) {
     return out;
 }
 
+std::uint32_t* twoFrom(std::uint32_t first) {
+    auto* out = made<std::uint32_t>(2);
+    out[0] = first;
+    out[1] = first + 1;
+    return out;
+}
+
 int refused(int error) {
     errno = error;
     return -error;
@@ -94,9 +101,9 @@ int drmSetClientCap(int /*fd*/, std::uint64_t /*capability*/, std::uint64_t /*va
 
 drmModeResPtr drmModeGetResources(int /*fd*/) {
     auto* out = made<drmModeRes>();
-    out->count_crtcs = out->count_connectors = 1;
-    out->crtcs = listOf(kCrtc);
-    out->connectors = listOf(kConnector);
+    out->count_crtcs = out->count_connectors = driver.seen.secondScreen ? 2 : 1;
+    out->crtcs = twoFrom(kCrtc);
+    out->connectors = twoFrom(kConnector);
     return out;
 }
 
@@ -105,7 +112,7 @@ drmModeConnectorPtr drmModeGetConnector(int /*fd*/, std::uint32_t id) {
     out->connector_id = id;
     out->connector_type = DRM_MODE_CONNECTOR_HDMIA;
     out->connector_type_id = 1;
-    out->encoder_id = kEncoder;
+    out->encoder_id = driver.seen.secondScreen && id == kConnector ? 0 : kEncoder;
     out->connection = driver.seen.connected ? DRM_MODE_CONNECTED : DRM_MODE_DISCONNECTED;
     if (!driver.seen.connected) return out;
     drmModeModeInfo mode{};
@@ -120,7 +127,7 @@ drmModeConnectorPtr drmModeGetConnectorCurrent(int fd, std::uint32_t id) {
     return drmModeGetConnector(fd, id);
 }
 std::uint32_t drmModeConnectorGetPossibleCrtcs(int /*fd*/, const drmModeConnector* /*connector*/) {
-    return 1;
+    return driver.seen.secondScreen ? 3 : 1;
 }
 drmModeEncoderPtr drmModeGetEncoder(int /*fd*/, std::uint32_t id) {
     auto* out = made<drmModeEncoder>();
@@ -130,14 +137,14 @@ drmModeEncoderPtr drmModeGetEncoder(int /*fd*/, std::uint32_t id) {
 }
 drmModePlaneResPtr drmModeGetPlaneResources(int /*fd*/) {
     auto* out = made<drmModePlaneRes>();
-    out->count_planes = 1;
-    out->planes = listOf(kPlane);
+    out->count_planes = driver.seen.secondScreen ? 2 : 1;
+    out->planes = twoFrom(kPlane);
     return out;
 }
 drmModePlanePtr drmModeGetPlane(int /*fd*/, std::uint32_t id) {
     auto* out = made<drmModePlane>();
     out->plane_id = id;
-    out->possible_crtcs = 1;
+    out->possible_crtcs = 1U << (id - kPlane);
     out->count_formats = 1;
     out->formats = listOf(std::uint32_t{DRM_FORMAT_XRGB8888});
     return out;

@@ -7,8 +7,8 @@
 namespace mfar::test {
 
 /// A simulated KMS driver. A program that links pretended_drm.cpp calls it instead of libdrm. It
-/// has one card with one connector, CRTC and plane. Dumb buffers are in the card's file. A program
-/// has one driver, used by one thread.
+/// has one card with one connector, CRTC and plane, or with two of each (`secondScreen`). Dumb
+/// buffers are in the card's file. A program has one driver, used by one thread.
 struct PretendedDrm {
     bool connected = true;
     std::uint16_t width = 64, height = 48;
@@ -17,6 +17,9 @@ struct PretendedDrm {
     bool refusesFlips = false;
     int modeSets = 0, flipped = 0, buffers = 0, framebuffers = 0;
     std::uint32_t shown = 0;
+    /// A second connector exists, and its screen shows the first CRTC. The first connector has
+    /// none.
+    bool secondScreen = false;
     bool console = false;  ///< true while the console's picture is on the screen
 };
 
