@@ -122,7 +122,12 @@ bool isProgressive(std::span<const std::uint8_t> file) {
         const std::uint8_t marker = file[at + 1];
         if (marker == 0xc2 || marker == 0xc6 || marker == 0xca || marker == 0xce) return true;
         if (marker == kStartOfScan) return false;
-        at += 2 + (std::size_t{file[at + 2]} << 8U | file[at + 3]);
+        if (marker == 0xff)
+            ++at;  // any number of bytes 0xff may precede a marker
+        else if (marker == 0x01 || (marker >= 0xd0 && marker <= 0xd7))
+            at += 2;  // these markers have no length
+        else
+            at += 2 + (std::size_t{file[at + 2]} << 8U | file[at + 3]);
     }
     return false;
 }

@@ -4,8 +4,11 @@
 
 #include <fmt/format.h>
 
+#include <system_error>
+
 #include <algorithm>
 #include <cstdint>
+#include <filesystem>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -39,8 +42,11 @@ Captures capturesOf(V4l2Api& api) {
     return out;
 }
 
+// `name` may also be a symbolic link to the device, such as those in /dev/v4l/by-id.
 bool isNamed(const V4l2Device& device, const std::string& name) {
-    return device.card() == name || device.bus() == name || device.path() == name;
+    std::error_code error;
+    return device.card() == name || device.bus() == name || device.path() == name ||
+           (name.starts_with("/") && std::filesystem::canonical(name, error) == device.path());
 }
 
 V4l2Device anyOf(Captures captures, const CameraWish& wish) {

@@ -44,15 +44,19 @@ std::string y4mHeader(Size size, double rateHz) {
 void appendY4mFrame(const ImageView& rgba, std::vector<std::uint8_t>& out) {
     const int width = rgba.size.width, height = rgba.size.height;
     const cv::Mat source(height, width, CV_8UC4, const_cast<std::uint8_t*>(rgba.data), rgba.stride);
-    cv::Mat even = source, planes;
+    cv::Mat even = source, half, means, planes, planesOfMeans;
     if (width % 2 != 0 || height % 2 != 0)
         cv::copyMakeBorder(source, even, 0, height % 2, 0, width % 2, cv::BORDER_REPLICATE);
     cv::cvtColor(even, planes, cv::COLOR_RGBA2YUV_I420);
+    // cvtColor() computes chroma from the first of four pixels, so it gets the mean of the four.
+    cv::resize(even, half, {}, 0.5, 0.5, cv::INTER_AREA);
+    cv::resize(half, means, even.size(), 0, 0, cv::INTER_NEAREST);
+    cv::cvtColor(means, planesOfMeans, cv::COLOR_RGBA2YUV_I420);
     constexpr std::string_view kFrame = "FRAME\n";
     out.insert(out.end(), kFrame.begin(), kFrame.end());
     for (int y = 0; y < height; ++y)
         out.insert(out.end(), planes.ptr(y), planes.ptr(y) + width);
-    const std::uint8_t* chroma = planes.ptr(even.rows);
+    const std::uint8_t* chroma = planesOfMeans.ptr(even.rows);
     out.insert(out.end(), chroma, chroma + even.total() / 2);
 }
 

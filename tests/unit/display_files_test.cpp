@@ -133,6 +133,27 @@ TEST_F(FileDisplays, Y4mHasTheRightHeaderSizeAndLuma) {
     EXPECT_EQ(first.substr(41), std::string(24, '\x80'));
 }
 
+TEST(Y4m, ChromaIsTheMeanOfFourPixels) {
+    // One column of red pixels, then one of blue pixels.
+    std::vector<std::uint8_t> pixels;
+    for (int i = 0; i < 4; ++i)
+        for (const std::uint8_t value : {i % 2 == 0 ? 240 : 0, 0, i % 2 == 0 ? 0 : 240, 255})
+            pixels.push_back(value);
+    const auto chromaOf = [](const std::vector<std::uint8_t>& rgba) {
+        std::vector<std::uint8_t> out;
+        ImageView view;
+        view.data = rgba.data();
+        view.size = {2, 2};
+        view.stride = 8;
+        appendY4mFrame(view, out);
+        return std::pair(out.at(out.size() - 2), out.back());
+    };
+    std::vector<std::uint8_t> purple;
+    for (int i = 0; i < 4; ++i)
+        purple.insert(purple.end(), {120, 0, 120, 255});
+    EXPECT_EQ(chromaOf(pixels), chromaOf(purple));
+}
+
 TEST_F(FileDisplays, Y4mRefusesAPictureOfAnotherSize) {
     const auto display = openFileDisplay("y4m:" + (folder_ / "a.y4m").string(), 30);
     show(*display, plain({8, 8}, 1), {1});

@@ -51,6 +51,10 @@ TEST(ImageFiles, ALargeProgressiveJpegIsRefusedAtItsHeader) {
     const std::string error = errorOf([&] { static_cast<void>(loadImage(folder / "a.jpg")); });
     EXPECT_NE(error.find("a progressive JPEG may have at most"), error.npos) << error;
     EXPECT_EQ(loadImage(MFAR_PROGRESSIVE_JPEG).size, (Size{16, 8}));
+    // Bytes 0xff before a marker have no meaning.
+    bytes.insert(2, "\xff\xff");
+    test::writeFile(folder / "a.jpg", bytes);
+    EXPECT_EQ(errorOf([&] { static_cast<void>(loadImage(folder / "a.jpg")); }), error);
 }
 
 TEST(ImageFiles, PngKeepsColoursButNotAlpha) {
