@@ -67,7 +67,10 @@ class Pictures(unittest.TestCase):
             self.assertEqual(shown, [(0, 0), (1, 0), (3, 1), (3, 1), (1, 0), (0, 0), (0, 0),
                                      (3, 1)])
             a.held = True
-            self.assertEqual([a(t, 1)[0] for t in (0, 0.11, 0.29)], [0, 0, 0])
+            self.assertEqual([a(t, 2)[0] for t in (0, 0.11, 0.29)], [0, 0, 0])
+            # Successive pictures differ in the first column of luma.
+            row = bytes([1]) + bytes(SIZE[0] - 1)
+            self.assertEqual(a(0.11, 3), SIZE[1] * row + bytes(FRAME - len(SIZE[1] * row)))
 
     def test_a_numbered_film_is_unchanged_below_the_number(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -9,6 +9,7 @@ import mmap
 NUMBER_ROWS = 16
 NUMBER_BITS = 32
 BLACK, WHITE = 16, 235
+OTHER_LOWEST_BIT = bytes(value ^ 1 for value in range(256))
 
 
 def number_rows(number, width):
@@ -36,7 +37,8 @@ class Film:
     """Pictures from a file of mfar-film, which contains them one after the other, with their times [s]
     in a second file. The film runs forwards up to the time `span`, then backwards, and so on, so that
     the view never jumps. Films with the same span stay synchronous. `numbered`: the picture's number is
-    drawn into it. `held`: only the first picture is shown."""
+    drawn into it. `held`: only the first picture is shown, with noise in its first
+    column, because mfard reports a camera that repeats exactly the same picture."""
 
     held = False
 
@@ -62,9 +64,13 @@ class Film:
     def __call__(self, time, number):
         start = self.index(0 if self.held else time) * self._bytes
         picture = self._data[start:start + self._bytes]
+        width, height = self.size
+        if self.held and number % 2:
+            picture = bytearray(picture)
+            column = slice(0, width * height, width)
+            picture[column] = picture[column].translate(OTHER_LOWEST_BIT)
         if not self.numbered:
             return picture
-        width = self.size[0]
         return number_rows(number, width) + bytes(picture[NUMBER_ROWS * width:])
 
 

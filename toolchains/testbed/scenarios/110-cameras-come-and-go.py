@@ -57,11 +57,11 @@ def told_after(bed, event):
 
 
 def back_after(bed, event):
-    """Returns the time from the kernel's message about the new device to the service's message that all devices are
-    available, on the guest's clock [s]."""
+    """Returns the time from the kernel's message about the new device to the service's message that it works again, on
+    the guest's clock [s]."""
     since = bed.now()
     event()
-    said = f'journalctl --no-pager -q -u mfard -o short-monotonic --since "{since}" | grep "all devices are available again"'
+    said = f'journalctl --no-pager -q -u mfard -o short-monotonic --since "{since}" | grep -E "available again|works again"'
     bed.wait_for(said, 20)
     found = bed.run('dmesg | grep "Found UVC" | tail -n 1')
     service, kernel = (float(re.search(r'\[ *([\d.]+)\]', text)[1]) for text in (bed.run(said), found))
