@@ -3,6 +3,7 @@
 #include "daemon/toml_reader.h"
 #include "pipeline/models/gltf_model.h"
 #include "pipeline/models/showpiece.h"
+#include "pipeline/render/scene_check.h"
 
 #include <fmt/format.h>
 
@@ -10,6 +11,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <map>
 #include <memory>
 #include <new>
@@ -59,10 +61,21 @@ public:
             known = std::make_shared<const Model>(load(name));
             memory_.take(memoryOf(*known));
         }
+        countParts(*known);
         return known;
     }
 
 private:
+    // The path tracer counts each part that moves by itself as an object.
+    void countParts(const Model& model) {
+        parts_ += model.paths.size() + 1;
+        if (parts_ > kMostSceneObjects)
+            throw ModelError(
+                fmt::format("the moving nodes of all models, and one more part for each model, are "
+                            "more than {}",
+                            kMostSceneObjects));
+    }
+
     [[nodiscard]] std::filesystem::path identity(std::string_view name) const {
         std::error_code missing;
         const std::filesystem::path file = folder_ / name;
@@ -81,6 +94,7 @@ private:
 
     std::filesystem::path folder_;
     FileMemory& memory_;
+    std::size_t parts_ = 0;
     std::map<std::filesystem::path, std::shared_ptr<const Model>> models_;
 };
 

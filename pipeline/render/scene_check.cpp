@@ -10,7 +10,6 @@
 namespace mfar {
 namespace {
 
-constexpr std::size_t kMostObjects = 250;
 constexpr float kUnitTolerance = 1e-3F;
 constexpr float kHalfTurn = 1.57079632679F;
 
@@ -101,7 +100,7 @@ void checkLighting(const Lighting& lighting) {
 }  // namespace
 
 void validate(const Scene& scene) {
-    require(scene.objects.size() <= kMostObjects, "the scene has more than 250 objects");
+    require(scene.objects.size() <= kMostSceneObjects, "the scene has more than 250 objects");
     for (const SceneObject& object : scene.objects) {
         require(object.model != nullptr, "an object has no model");
         require(isFinite(object.T_world_object), "an object's pose is not finite");

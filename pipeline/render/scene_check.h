@@ -2,7 +2,11 @@
 
 #include "pipeline/scene/scene.h"
 
+#include <cstddef>
+
 namespace mfar {
+
+inline constexpr std::size_t kMostSceneObjects = 250;
 
 /// Throws std::invalid_argument if the scene violates a limit documented in scene.h. The message
 /// names the first violation.

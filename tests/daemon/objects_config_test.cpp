@@ -15,6 +15,7 @@ namespace mfar {
 namespace {
 
 using test::configFaults;
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::StartsWith;
 
@@ -118,6 +119,25 @@ TEST(ObjectsConfig, AFileWithSeveralNamesIsReadOnce) {
     ASSERT_EQ(config.objects.size(), 4U);
     for (const PlacedObject& one : config.objects)
         EXPECT_EQ(one.model, config.objects[0].model) << one.modelName;
+}
+
+TEST(ObjectsConfig, TooManyMovingPartsAreRefusedAtTheObjectThatExceedsTheLimit) {
+    const test::TempFolder folder;
+    test::GltfMaker maker = test::oneTriangle();
+    for (int node = 0; node < 16; ++node) {
+        if (node > 0) maker.root["nodes"].push_back({{"mesh", 0}});
+        maker.root["scenes"][0]["nodes"][node] = node;
+        maker.animate(node, "translation", {0, 1}, {0, 0, 0, 1, 0, 0});
+    }
+    const std::vector<std::uint8_t> glb = maker.glb();
+    test::writeFile(folder / "a.glb", {reinterpret_cast<const char*>(glb.data()), glb.size()});
+    const std::string object = "[[objects]]\nmodel = \"" + (folder / "a.glb").string() + "\"\n";
+    std::string many;
+    for (int i = 0; i < 14; ++i)
+        many += object;
+    EXPECT_EQ(configFaults(many), "");
+    EXPECT_THAT(configFaults(many + object),
+                AllOf(StartsWith("test.toml:30:9: objects[14].model"), HasSubstr("more than 250")));
 }
 
 TEST(ObjectsConfig, UnreadableModelsAreReportedWithLineAndColumn) {
