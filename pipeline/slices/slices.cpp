@@ -21,7 +21,8 @@ int gathered(std::uint32_t v) {
     v &= 0x55555555;
     v = (v | v >> 1) & 0x33333333;
     v = (v | v >> 2) & 0x0f0f0f0f;
-    return static_cast<int>((v | v >> 4) & 0x000000ff);
+    v = (v | v >> 4) & 0x00ff00ff;
+    return static_cast<int>((v | v >> 8) & 0x0000ffff);
 }
 
 std::uint32_t rankOf(std::uint32_t pixel, int width) {

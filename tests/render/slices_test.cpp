@@ -94,6 +94,24 @@ TEST(Slices, EveryPixelWithinTheBoundsGetsTheConfiguredSamples) {
     }
 }
 
+TEST(Slices, EveryPixelOfALargePictureIsTracedOnce) {
+    constexpr Size kLarge{2400, 2400};
+    for (const PixelRect& bounds : {PixelRect{2030, 3, 2390, 9}, PixelRect{3, 2030, 9, 2390}}) {
+        Slices slices({Slicing::Time, 1, 1, 0, 2});
+        slices.begin(bounds, kLarge);
+        NoisyPicture picture([](std::uint32_t) { return 0.0F; });
+        traceAll(slices, picture, 1, 1000);
+        EXPECT_EQ(picture.samples().size(), 360U * 6U);
+        for (const auto& [pixel, samples] : picture.samples()) {
+            const int x = static_cast<int>(pixel) % kLarge.width;
+            const int y = static_cast<int>(pixel) / kLarge.width;
+            ASSERT_TRUE(x >= bounds.x0 && x < bounds.x1 && y >= bounds.y0 && y < bounds.y1)
+                << x << ' ' << y;
+            ASSERT_EQ(samples, 1) << x << ' ' << y;
+        }
+    }
+}
+
 TEST(Slices, NumbersOfSamplesDoNotDependOnSlicingOrThreads) {
     const SliceOptions time{Slicing::Time, 64, 4, 1, 8};
     SliceOptions spatial = time;
