@@ -82,7 +82,8 @@ Film::Resolved Film::resolvedFrom(const LightPixel& light, std::size_t pixel,
     if (light.id == kCatcherId) {
         if (light.first.isZero(0) && (layered || isWhole(p))) return {};
         m.without = light.second.matrix();
-        m.with = (light.first + light.second).matrix();
+        // Both parts were filtered separately, so their sum may be negative in a deep shadow.
+        m.with = (light.first + light.second).max(0.0F).matrix();
         m.catcherShare = 1;
     } else {
         const SurfaceLight onObject =
@@ -97,6 +98,10 @@ Film::Resolved Film::resolvedFrom(const LightPixel& light, std::size_t pixel,
     const bool mixed = !layered && !isWhole(p);
     Resolved out = resolved(p, mixed ? shown(p, exposure) : shown(m, exposure));
     out.light = words;
+    // A layered picture shows the surface at the pixel's centre. Here the shadow comes from the
+    // neighbours; the pixel's own samples may all have hit an object.
+    const bool onCatcher = light.id == kCatcherId && p.seen.hit.id == kCatcherId;
+    if (layered && onCatcher && out.hit.id != 0) out.hit = p.seen.hit;
     return out;
 }
 

@@ -208,6 +208,34 @@ TEST(Film, LayeredPictureDoesNotMixSurfacesAtEdges) {
     EXPECT_EQ(mixed.light, layered.light);
 }
 
+TEST(Film, AFilteredShadowIsNeverBrighterThanNoShadow) {
+    Film film({1, 1});
+    film.setCentre(0, {{2, kCatcherId}});
+    film.add(0, catcherSample({0.1F, 0.1F, 0.1F}, {0.5F, 0.5F, 0.5F}));
+    LightPixel light = film.light(0, {});
+    ASSERT_EQ(light.id, kCatcherId);
+    // Both parts are filtered separately, so the shadow may take more light than there is.
+    light.first.setConstant(-0.6F);
+    light.second.setConstant(0.5F);
+    const Film::Resolved shadow = film.resolvedFrom(light, 0, {});
+    EXPECT_EQ(shadow.colour, (Rgba{0, 0, 0, 255}));
+    EXPECT_EQ(shadow.hit.id, kCatcherId);
+}
+
+TEST(Film, ALayeredShadowFromNeighboursStaysOnTheCatcher) {
+    Film film({1, 1});
+    film.setCentre(0, {{2, kCatcherId}});
+    film.add(0, objectSample(0.5F));  // at the edge of an object
+    LightPixel light = film.light(0, {});
+    light.id = kCatcherId;
+    light.first.setConstant(-0.3F);
+    light.second.setConstant(0.5F);
+    const Film::Resolved layered = film.resolvedFrom(light, 0, {}, true);
+    EXPECT_GT(layered.colour[3], 0);
+    EXPECT_EQ(layered.hit.id, kCatcherId);
+    EXPECT_EQ(layered.hit.depth, 2);
+}
+
 TEST(Film, EachPixelKeepsItsOwnValue) {
     Film film({19, 11});  // not a multiple of the tile size
     const auto count = static_cast<std::uint32_t>(19 * 11);
