@@ -48,6 +48,26 @@ Eigen::Affine3d transformOf(const GltfDocument& document, const tinygltf::Node& 
     return T;
 }
 
+Eigen::Quaterniond rotationOf(const tinygltf::Node& node) {
+    if (node.rotation.empty()) return Eigen::Quaterniond::Identity();
+    return Eigen::Quaterniond(Eigen::Vector4d(node.rotation.data())).normalized();
+}
+
+bool isConstant(const GltfMotion::Tracks& tracks) {
+    return tracks.translation.isConstant() && tracks.rotation.isConstant();
+}
+
+/// Returns the transform of a node whose tracks are constant. `local`: the node's own transform.
+Eigen::Affine3d poseOf(const GltfMotion::Tracks& tracks, const tinygltf::Node& node,
+                       const Eigen::Affine3d& local) {
+    Eigen::Affine3d T = Eigen::Affine3d::Identity();
+    T.translate(tracks.translation.times.empty() ? local.translation()
+                                                 : tracks.translation.translationAt(0));
+    T.rotate(tracks.rotation.times.empty() ? rotationOf(node) : tracks.rotation.rotationAt(0));
+    if (!node.scale.empty()) T.scale(Eigen::Vector3d(node.scale.data()));
+    return T;
+}
+
 constexpr std::size_t kMostParts = 16;  // also stated in the text of a note in placeOf()
 
 /// Pose of a node in the model. `joints` are the moving nodes among the node and its ancestors, the
@@ -126,11 +146,13 @@ private:
 
     NodePlace placeOf(int index, const NodePlace& parent, const std::string& place) {
         const tinygltf::Node& node = document_.gltf.nodes[static_cast<std::size_t>(index)];
-        const Eigen::Affine3d local = transformOf(document_, node, place);
+        const GltfMotion::Tracks* tracks = motion_.of(index);
+        Eigen::Affine3d local = transformOf(document_, node, place);
+        const bool moves = tracks != nullptr && !isConstant(*tracks);
+        if (tracks != nullptr && !moves) local = poseOf(*tracks, node, local);
         NodePlace out = parent;
         out.T = parent.T * local;
-        const GltfMotion::Tracks* tracks = motion_.of(index);
-        if (tracks == nullptr) return out;
+        if (!moves) return out;
         double scale = 1;
         const std::optional<RigidTransform> above = rigidPart(parent.T, scale);
         if (!above || model_.paths.size() == kMostParts) {
@@ -143,9 +165,7 @@ private:
         RigidPath::Joint joint;
         joint.T_parent_joint = {above->rotation, parent.scale * above->translation};
         joint.rest.translation = out.scale * local.translation();
-        if (!node.rotation.empty())
-            joint.rest.rotation =
-                Eigen::Quaterniond(Eigen::Vector4d(node.rotation.data())).normalized();
+        joint.rest.rotation = rotationOf(node);
         joint.translation = tracks->translation.scaled(out.scale);
         joint.rotation = tracks->rotation;
         out.joints.push_back(std::move(joint));

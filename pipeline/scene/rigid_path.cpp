@@ -42,6 +42,13 @@ MotionTrack MotionTrack::scaled(double scale) const {
     return out;
 }
 
+bool MotionTrack::isConstant() const {
+    if (times.size() <= 1) return true;
+    // A spline between equal values may leave them, because of its tangents.
+    return between != Between::CubicSpline &&
+           std::ranges::all_of(values, [&](const auto& value) { return value == values[0]; });
+}
+
 Eigen::Vector3d MotionTrack::translationAt(double seconds) const {
     const Span span = spanAt(times, seconds);
     if (between == Between::CubicSpline) return onSpline(values, span).head<3>();

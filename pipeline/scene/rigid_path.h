@@ -26,6 +26,8 @@ struct MotionTrack {
     /// Between::CubicSpline is normalised.
     [[nodiscard]] Eigen::Quaterniond rotationAt(double seconds) const;
     [[nodiscard]] MotionTrack scaled(double scale) const;
+    /// True if the value is the same at all times.
+    [[nodiscard]] bool isConstant() const;
 };
 
 /// The pose of a rigid part over time; the motion repeats. The part hangs on a chain of moving

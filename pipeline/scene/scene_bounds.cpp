@@ -2,11 +2,29 @@
 
 #include "pipeline/scene/scene_parts.h"
 
+#include <cmath>
+#include <vector>
+
 namespace mfar {
 namespace {
 
-/// Number of poses, evenly spaced in time, from which the bounds of a moving object are computed.
+/// The bounds of a moving object are computed from its poses at this number of times, evenly
+/// spaced, and at its keyframes.
 constexpr int kPoses = 64;
+
+std::vector<double> timesOf(const RigidPath& path) {
+    std::vector<double> out;
+    for (int i = 0; i < kPoses; ++i)
+        out.push_back(path.length * i / kPoses);
+    for (const RigidPath::Joint& joint : path.joints)
+        for (const MotionTrack* track : {&joint.translation, &joint.rotation})
+            for (const double time : track->times) {
+                out.push_back(time);
+                // At its end, the motion has begun again.
+                out.push_back(std::nextafter(time, 0.0));
+            }
+    return out;
+}
 
 /// Returns the bounds of the object at all times, from the corners of its bounds at rest.
 Eigen::AlignedBox3d sweptBounds(const RigidTransform& T_frame_world, const SceneObject& object) {
@@ -15,9 +33,9 @@ Eigen::AlignedBox3d sweptBounds(const RigidTransform& T_frame_world, const Scene
     atRest.T_world_object = {};
     const Eigen::AlignedBox3d own = boundsIn({}, atRest);
     Eigen::AlignedBox3d box;
-    for (int pose = 0; pose < kPoses && !own.isEmpty(); ++pose) {
-        const RigidTransform T =
-            T_frame_world * object.path->at(object.path->length * pose / kPoses);
+    if (own.isEmpty()) return box;
+    for (const double time : timesOf(*object.path)) {
+        const RigidTransform T = T_frame_world * object.path->at(time);
         for (int corner = 0; corner < 8; ++corner)
             box.extend(T * own.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner)));
     }

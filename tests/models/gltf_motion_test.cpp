@@ -39,6 +39,21 @@ TEST(GltfMotion, ATranslationMovesThePartUpwards) {
     expectNear(vertexAt(model, 0, 1, 1), {2, 0, 0.5});
 }
 
+TEST(GltfMotion, AnAnimationWithoutMotionIsAPose) {
+    for (const bool once : {true, false}) {
+        GltfMaker maker = oneTriangle();
+        maker.root["nodes"][0]["scale"] = {3, 1, 1};
+        if (once)
+            maker.animate(0, "translation", {0}, {1, 2, 0});
+        else
+            maker.animate(0, "translation", {0, 4}, {1, 2, 0, 1, 2, 0});
+        const Model model = modelOf(maker);
+        EXPECT_TRUE(model.paths.empty());
+        EXPECT_EQ(model.meshes.at(0).part, 0);
+        expectNear(vertexAt(model, 0, 1, 0), {4, 0, 2});
+    }
+}
+
 TEST(GltfMotion, ARotationTurnsAboutTheNodesOrigin) {
     GltfMaker maker = oneTriangle();
     maker.root["nodes"][0]["translation"] = {5, 0, 0};

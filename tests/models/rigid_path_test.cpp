@@ -152,5 +152,20 @@ TEST(SceneParts, BoundsOfAMovingPartContainAllItsPoses) {
     EXPECT_LT(box.diagonal().norm(), 8);
 }
 
+TEST(SceneParts, BoundsOfAMovingPartContainAShortMotion) {
+    SceneObject moving = partsOf(movingModel()).at(1);
+    RigidPath path;
+    path.length = 120;
+    path.joints.resize(1);
+    path.joints[0].translation.times = {0, 60.5, 61, 61.5, 120};
+    path.joints[0].translation.values.assign(5, Eigen::Vector4d::Zero());
+    path.joints[0].translation.values[2].x() = 5;
+    path.joints[0].translation.values[4].y() = 7;
+    moving.path = std::make_shared<const RigidPath>(path);
+    const Eigen::AlignedBox3d box = boundsIn({}, moving);
+    EXPECT_GE(box.max().x(), 5);
+    EXPECT_GE(box.max().y(), 6.999);
+}
+
 }  // namespace
 }  // namespace mfar
