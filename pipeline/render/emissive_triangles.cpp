@@ -108,6 +108,11 @@ EmissiveTriangles::EmissiveTriangles(const TracedScene& scene)
     table_ = ShareTable(powers);
 }
 
+EmissiveTriangles::EmissiveTriangles(const EmissiveTriangles& other, const TracedScene& posed)
+    : EmissiveTriangles(other) {
+    scene_ = &posed;
+}
+
 EmissiveTriangles::Sample EmissiveTriangles::sample(const Eigen::Vector3f& from,
                                                     const Eigen::Vector2f& u, float fine) const {
     const auto [index, rest] = table_.draw(static_cast<double>(u.x()) + kLastBit * fine);

@@ -16,6 +16,9 @@ public:
     EmissiveTriangles() = default;
     /// The scene must outlive this object.
     explicit EmissiveTriangles(const TracedScene& scene);
+    /// For the same scene with objects in other poses. Areas and emission stay the same, so this
+    /// takes little time.
+    EmissiveTriangles(const EmissiveTriangles& other, const TracedScene& posed);
 
     /// True if no triangle emits light.
     [[nodiscard]] bool dark() const { return table_.empty(); }

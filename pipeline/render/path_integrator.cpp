@@ -23,11 +23,21 @@ constexpr float kWidestKnownSun = 0.05F;
 }  // namespace
 
 PathIntegrator::PathIntegrator(const TracedScene& scene, const PathTracerOptions& options,
-                               std::shared_ptr<const DistantLight> light)
+                               std::shared_ptr<const DistantLight> light,
+                               EmissiveTriangles emitters)
     : scene_(scene), options_(options), light_(std::move(light)), sun_(light_->sun),
       sunIsKnown_(sun_.angularRadius() <= kWidestKnownSun), environment_(light_->environment),
-      emitters_(options.emissionByChance ? EmissiveTriangles() : EmissiveTriangles(scene)),
-      far_(light_->far), leastFar_(std::max(kLeastFarShare * far_.brightness(), kLeastFar)) {}
+      emitters_(std::move(emitters)), far_(light_->far),
+      leastFar_(std::max(kLeastFarShare * far_.brightness(), kLeastFar)) {}
+
+PathIntegrator::PathIntegrator(const TracedScene& scene, const PathTracerOptions& options,
+                               std::shared_ptr<const DistantLight> light)
+    : PathIntegrator(scene, options, std::move(light),
+                     options.emissionByChance ? EmissiveTriangles() : EmissiveTriangles(scene)) {}
+
+PathIntegrator::PathIntegrator(const PathIntegrator& other, const TracedScene& posed,
+                               const PathTracerOptions& options)
+    : PathIntegrator(posed, options, other.light_, EmissiveTriangles(other.emitters_, posed)) {}
 
 PathIntegrator::Lights PathIntegrator::sampledLights(const PixelSampler& sampler,
                                                      std::uint32_t pair) const {

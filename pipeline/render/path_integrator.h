@@ -36,6 +36,9 @@ public:
     /// `scene` and `options` must outlive the integrator. `light` must belong to the scene.
     PathIntegrator(const TracedScene& scene, const PathTracerOptions& options,
                    std::shared_ptr<const DistantLight> light);
+    /// For the same scene with objects in other poses.
+    PathIntegrator(const PathIntegrator& other, const TracedScene& posed,
+                   const PathTracerOptions& options);
 
     /// Radiance from a point of an object towards the camera, the point's paint, and the light on
     /// the point.
@@ -66,6 +69,9 @@ public:
                                       const PixelSampler& sampler) const;
 
 private:
+    PathIntegrator(const TracedScene& scene, const PathTracerOptions& options,
+                   std::shared_ptr<const DistantLight> light, EmissiveTriangles emitters);
+
     struct World;
     struct Vertex;
     struct Carried;

@@ -83,7 +83,7 @@ struct PathTracer::Parts {
           moving(movingObjects(scene.scene())) {}
     Parts(const Parts& other, std::shared_ptr<const Scene> posed)
         : options(other.options), scene(other.scene, std::move(posed)), light(other.light),
-          integrator(scene, options, light), reach(other.reach), mirrors(other.mirrors),
+          integrator(other.integrator, scene, options), reach(other.reach), mirrors(other.mirrors),
           moving(other.moving) {
         const std::scoped_lock lock(other.lensMutex);
         lens = other.lens;
