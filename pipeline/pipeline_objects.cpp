@@ -42,8 +42,13 @@ void Pipeline::setScene(Scene scene, const TracedLayerOptions& options,
     State& s = *state_;
     s.sceneFollower.reset();
     s.lightFollower = std::move(light);
-    const bool isEmpty = scene.objects.empty();
-    if (!s.objects && isEmpty) return;
+    if (scene.objects.empty()) {
+        // Otherwise the last picture of these objects would be shown until the first picture of the
+        // next ones.
+        s.redraw = s.redraw || s.objects.has_value();
+        s.objects.reset();
+        return;
+    }
     s.needDepth();
     TracedLayerOptions wanted = options;
     if (wanted.size.width <= 0 || wanted.size.height <= 0)
@@ -54,7 +59,7 @@ void Pipeline::setScene(Scene scene, const TracedLayerOptions& options,
         s.traced = wanted;
         s.redraw = true;
     }
-    s.objects->setScene(isEmpty ? nullptr : s.sceneFollower.emplace().set(std::move(scene)));
+    s.objects->setScene(s.sceneFollower.emplace().set(std::move(scene)));
 }
 
 void Pipeline::State::followScene(const VideoFrame& frame, const std::optional<Pose>& pose,

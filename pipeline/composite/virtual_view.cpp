@@ -74,12 +74,11 @@ VirtualView::VirtualView(const CameraModel& video, Engine& engine, TracedLayerOp
 void VirtualView::setScene(std::shared_ptr<const Scene> scene) {
     // Exchanging one scene for another does not set changed_: the new scene only becomes visible
     // with its first traced picture.
-    if (!scene || !scene_) changed_ = true;
-    if (!scene || !scene_ || scene->objects != scene_->objects)
-        boxes_ = scene ? SceneBoxes(*scene) : SceneBoxes();
-    catcherBoxes_ = scene ? SceneBoxes(scene->catcher) : SceneBoxes();
+    if (!scene_) changed_ = true;
+    if (!scene_ || scene->objects != scene_->objects) boxes_ = SceneBoxes(*scene);
+    catcherBoxes_ = SceneBoxes(scene->catcher);
     scene_ = scene;
-    if (scene) traced_->setScene(std::move(scene));
+    traced_->setScene(std::move(scene));
 }
 
 void VirtualView::setObjects(std::vector<VirtualObject> objects) {

@@ -31,7 +31,7 @@ public:
     void setObjects(std::vector<VirtualObject> objects);
     void setSkips(const SkipOptions& skips) { skips_ = skips; }
     /// Sets the scene for path tracing. It becomes visible when its first traced picture is
-    /// finished. Null hides the scene.
+    /// finished.
     void setScene(std::shared_ptr<const Scene> scene);
     [[nodiscard]] TracedLayer* traced() { return traced_.get(); }
 
