@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include <system_error>
+
 #include <fstream>
 
 namespace mfar {
@@ -51,9 +53,15 @@ RigCalibration readEuroc(const fs::path& video, const fs::path& still, const Wan
     return out;
 }
 
+// False, too, if the path may not be read. Then opening it fails, with the reason.
+bool isFile(const fs::path& path) {
+    std::error_code ignored;
+    return fs::is_regular_file(path, ignored);
+}
+
 RigCalibration readFolder(const fs::path& folder, const WantedSizes& wanted) {
-    if (fs::is_regular_file(folder / kRigFile)) return loadRig(folder / kRigFile, wanted);
-    if (fs::is_regular_file(folder / "cam0" / "sensor.yaml"))
+    if (isFile(folder / kRigFile)) return loadRig(folder / kRigFile, wanted);
+    if (isFile(folder / "cam0" / "sensor.yaml"))
         return readEuroc(folder / "cam0" / "sensor.yaml", folder / "cam1" / "sensor.yaml", wanted);
     calibrationFault(folder, 0, "contains neither rig.yaml nor cam0/sensor.yaml");
 }
@@ -123,11 +131,12 @@ std::string rigText(const RigCalibration& c) {
 
 RigCalibration loadRig(std::span<const fs::path> paths, const WantedSizes& wanted) {
     for (const fs::path& path : paths)
-        if (fs::is_regular_file(path)) refuseXml(path);
+        if (isFile(path)) refuseXml(path);
     if (paths.size() == 2) return readTwo(paths[0], paths[1], wanted);
     if (paths.size() != 1)
         throw CalibrationError("a calibration consists of one or two files, or of one folder");
-    if (fs::is_directory(paths[0])) return readFolder(paths[0], wanted);
+    std::error_code unreadable;
+    if (fs::is_directory(paths[0], unreadable)) return readFolder(paths[0], wanted);
     RigCalibration out;
     readYaml(paths[0], [&](const YamlReader& in) { out = readOne(in, wanted); });
     return out;

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <system_error>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -123,7 +125,11 @@ std::vector<Pose> readPoses(const fs::path& folder, const RigidTransform& T_body
 }
 
 void requireFolder(const fs::path& folder) {
-    if (!fs::is_directory(folder)) recordingFault(folder, 0, "the folder is missing");
+    std::error_code error;
+    if (!fs::is_directory(folder, error))
+        recordingFault(folder, 0,
+                       error == std::errc::permission_denied ? error.message()
+                                                             : "the folder is missing");
 }
 
 std::optional<fs::path> existing(fs::path file) {

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <system_error>
+
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -80,7 +82,10 @@ void CsvRow::fail(std::string_view what) const {
 void forEachCsvRow(const std::filesystem::path& file,
                    const std::function<void(const CsvRow&)>& visit) {
     // Only regular files are opened, because opening a pipe would block.
-    if (!std::filesystem::is_regular_file(file)) recordingFault(file, 0, "is missing");
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(file, error))
+        recordingFault(file, 0,
+                       error == std::errc::permission_denied ? error.message() : "is missing");
     std::ifstream in(file);
     if (!in) recordingFault(file, 0, "cannot be read");
     std::array<char, kLongestLine + 1> text{};

@@ -147,6 +147,13 @@ TEST(RigFiles, DeeplyNestedOrVeryLongFilesAreRefusedBeforeParsing) {
     }
 }
 
+// Root may read every file, so a name that is too long stands for a file that may not be read.
+TEST(RigFiles, APathThatCannotBeLookedUpIsRefused) {
+    const std::string name(300, 'a');
+    EXPECT_NE(faultOf(name).find(name), std::string::npos);
+    EXPECT_NE(faultOf(name), "no fault found");
+}
+
 TEST(RigFiles, DevicesAndPipesAreRefused) {
     const TempFolder folder;
     ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
