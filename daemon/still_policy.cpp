@@ -1,11 +1,16 @@
 #include "daemon/still_policy.h"
 
+#include <algorithm>
+
 namespace mfar {
 namespace {
 
 /// Smallest share of changed tiles that counts as motion. Noise, flicker or a blinking light change
 /// a smaller share.
 constexpr double kMovedShare = 0.05;
+
+/// Longest pause after two lost stills. The cause may be a camera that is plugged in again.
+constexpr double kLongestPauseS = 10;
 
 std::chrono::nanoseconds toNanoseconds(double s) {
     return std::chrono::nanoseconds{Timestamp::fromSeconds(s).ns};
@@ -29,6 +34,7 @@ void StillPolicy::configure(const TriggerConfig& config) {
     if (config.mode == TriggerMode::Off && config_.mode != TriggerMode::Off) arrived_ = true;
     config_ = config;
     usedSince_.reset();
+    notBefore_.reset();
 }
 
 void StillPolicy::busy() {
@@ -65,7 +71,7 @@ bool StillPolicy::timedOut(Timestamp now) {
     repeated_ = !repeated_;
     repetitions_ += repeated_ ? 1 : 0;
     if (!repeated_ && config_.mode == TriggerMode::Demand)
-        notBefore_ = now + toNanoseconds(config_.maxAgeS);
+        notBefore_ = now + toNanoseconds(std::min(config_.maxAgeS, kLongestPauseS));
     return repeated_;
 }
 

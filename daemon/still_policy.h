@@ -31,8 +31,8 @@ struct TriggerConfig {
 /// frames. Only one thread may use it.
 ///
 /// If a still is lost, it is counted, and another still is requested at once. If that one is lost,
-/// too, the policy waits: for maxAgeS (mode demand), for the next period (mode rate) or for ask()
-/// (mode off).
+/// too, the policy waits: for maxAgeS, at most 10 s (mode demand), for the next period (mode rate)
+/// or for ask() (mode off).
 class StillPolicy {
 public:
     explicit StillPolicy(const TriggerConfig& config) : config_(config) {}

@@ -185,7 +185,7 @@ TEST(StillPolicy, ALostStillIsCountedAndRequestedAgain) {
     config.maxAgeS = 30;
     Simulation board(config);
     board.answers = false;
-    EXPECT_EQ(board.run(25, kRest), 2);
+    EXPECT_EQ(board.run(11, kRest), 2);
     EXPECT_EQ(board.policy.lost(), 2);
     EXPECT_EQ(board.policy.repetitions(), 1);
     EXPECT_NEAR(board.firedAt[1] - board.firedAt[0], 1, 2 * kFrame);
@@ -202,6 +202,28 @@ TEST(StillPolicy, AfterTwoLostStillsTheNextIsRequestedAtTheAgeLimit) {
     board.answers = true;
     EXPECT_EQ(board.run(60, kRest), 1);
     EXPECT_EQ(board.policy.lost(), 2);
+}
+
+TEST(StillPolicy, AfterTwoLostStillsTheNextIsRequestedWithinTenSeconds) {
+    TriggerConfig config;
+    config.timeoutS = 1;
+    config.maxAgeS = 3600;
+    Simulation board(config);
+    board.answers = false;
+    board.run(2.5, kRest);
+    ASSERT_EQ(board.firedAt.size(), 2U);
+    EXPECT_EQ(board.run(10, kRest), 1);
+}
+
+TEST(StillPolicy, AReloadEndsThePauseAfterTwoLostStills) {
+    TriggerConfig config;
+    config.timeoutS = 1;
+    Simulation board(config);
+    board.answers = false;
+    board.run(2.5, kRest);
+    ASSERT_EQ(board.firedAt.size(), 2U);
+    board.policy.configure(config);
+    EXPECT_EQ(board.run(0.5, kRest), 1);
 }
 
 TEST(StillPolicy, ALateStillIsNotMistakenForTheStillRequestedAgain) {
