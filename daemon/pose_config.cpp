@@ -65,7 +65,8 @@ TagMap readTagMap(const std::filesystem::path& file) {
 }
 
 TagMap configuredTags(const PoseConfig& pose) {
-    if (pose.source != PoseOrigin::Tags || pose.tags.empty()) return {};
+    // With recorded poses, objects on tags need the map, too.
+    if (pose.source == PoseOrigin::None || pose.tags.empty()) return {};
     return readTagMap(pose.tags);
 }
 

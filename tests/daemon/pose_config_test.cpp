@@ -43,6 +43,13 @@ TEST(PoseConfig, TheTagMapIsCheckedWithTheConfiguration) {
     EXPECT_EQ(fault(folder).code, ExitCode::Ok);
 }
 
+TEST(PoseConfig, WithRecordedPosesTheTagMapIsReadForTheObjects) {
+    const test::TempFolder folder;
+    test::writeFile(folder / "tags.toml", kTag);
+    const PoseConfig recorded{PoseOrigin::Recorded, (folder / "tags.toml").string()};
+    EXPECT_EQ(configuredTags(recorded).tags().size(), 1U);
+}
+
 TEST(PoseConfig, AnUnusedTagMapMayBeMissing) {
     const PoseConfig none{PoseOrigin::None, "/nonexistent/tags.toml"};
     EXPECT_TRUE(configuredTags(none).empty());
