@@ -19,9 +19,9 @@ std::string times(std::uint64_t count, std::chrono::nanoseconds span) {
 
 bool RepeatLimit::mayPass(std::string_view event, const Message& message, Timestamp now) {
     auto found = events_.find(event);
-    if (found == events_.end() && events_.size() >= kMostEvents) found = events_.find("");
+    const bool isFull = events_.size() + 1 >= kMostEvents;
+    if (found == events_.end() && isFull) found = events_.find("");
     if (found == events_.end()) {
-        const bool isFull = events_.size() + 1 >= kMostEvents;
         events_.emplace(isFull ? std::string() : std::string(event), Entry{now});
         return true;
     }

@@ -92,6 +92,17 @@ TEST_F(RepeatLimitTest, AStormOfDifferentEventsCausesABoundedNumberOfLines) {
     EXPECT_EQ(said.back(), "later") << "old events must be forgotten, so that a new one is logged";
 }
 
+TEST_F(RepeatLimitTest, ALongStormOfDifferentEventsIsLimitedInEveryPeriod) {
+    int event = 0;
+    for (int period = 0; period < 4; ++period) {
+        const std::size_t before = said.size();
+        for (int i = 0; i < 1000; ++i, ++event)
+            happen("event " + std::to_string(event), "error");
+        EXPECT_LE(said.size() - before, RepeatLimit::kMostEvents) << period;
+        pass(seconds(10));
+    }
+}
+
 TEST_F(RepeatLimitTest, PendingRepetitionsAreLoggedAtTheEnd) {
     happen("plug", "gone");
     happen("plug", "gone");
