@@ -9,8 +9,15 @@ namespace mfar {
 std::optional<std::string> TracingWatch::add(bool inView, const RenderCounters& counters,
                                              Timestamp frame) {
     if (counters.shown > 0) done_ = true;
-    if (done_ || !inView) return {};
-    if (!wait_) wait_ = Wait{frame, counters.cpuMs};
+    if (done_) return {};
+    if (!inView) {
+        wait_.reset();
+        return {};
+    }
+    if (!wait_) {
+        wait_ = Wait{frame, counters.cpuMs};
+        frames_ = 0;
+    }
     ++frames_;
     usedMs_ = counters.cpuMs - wait_->cpuMs;
     if (frame - wait_->since < kPatience) return {};

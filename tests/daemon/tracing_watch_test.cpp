@@ -38,6 +38,15 @@ TEST(TracingWatch, TimeWithoutObjectsInViewDoesNotCount) {
     EXPECT_NE(watch.add(true, counters(0, 0), kStart + seconds(66)), std::nullopt);
 }
 
+TEST(TracingWatch, TimeOutOfViewDoesNotCount) {
+    TracingWatch watch(8);
+    EXPECT_EQ(watch.add(true, counters(0, 0), kStart), std::nullopt);
+    EXPECT_EQ(watch.add(false, counters(0, 1), kStart + seconds(1)), std::nullopt);
+    EXPECT_EQ(watch.add(true, counters(0, 2), kStart + seconds(6)), std::nullopt);
+    EXPECT_EQ(watch.add(true, counters(0, 3), kStart + seconds(10)), std::nullopt);
+    EXPECT_NE(watch.add(true, counters(0, 4), kStart + seconds(11)), std::nullopt);
+}
+
 TEST(TracingWatch, APictureEndsTheWatch) {
     TracingWatch watch(8);
     EXPECT_EQ(watch.add(true, counters(0, 0), kStart), std::nullopt);
