@@ -244,6 +244,7 @@ void App::onTick() {
     const Health now = health(counted);
     logHealth(now);
     feedWatchdog(now);
+    logWarnings();
     log_.sayKept();
     leaveIfHanging();
     const Timestamp time = Timestamp::now();
@@ -309,14 +310,19 @@ void App::takeChanges(const Counted& counted) {
     }
 }
 
+void App::logWarnings() {
+    if (!running_) return;
+    for (const Warning& warning : stats_.takeWarnings())
+        log_.warning(warning.text, {}, warning.subject);
+}
+
 void App::showStatus(const Counted& counted, const Health& health) {
     if (!running_) return;
     const double elapsed = Timestamp::now().seconds() - running_->time.seconds();
     takeChanges(counted);
     if (counted.atFirstPicture && !std::exchange(firstPictureShown_, true))
         log_.notice(firstPictureLine(*counted.atFirstPicture));
-    for (const Warning& warning : stats_.takeWarnings())
-        log_.warning(warning.text, {}, warning.subject);
+    logWarnings();
     const std::string line = statusLine(counted, running_->description, elapsed, health);
     log_.status(line);
     if (!stopReason_) service_.status(line);

@@ -110,6 +110,7 @@ private:
     void feedWatchdog(const Health& health);
     void logHealth(const Health& health);
     void takeChanges(const Counted& counted);
+    void logWarnings();
     void showStatus(const Counted& counted, const Health& health);
     [[nodiscard]] ExitCode finish(std::future<std::string>& end);
     [[nodiscard]] bool writeResults(const std::string& reason, ExitCode code);

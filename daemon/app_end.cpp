@@ -184,7 +184,7 @@ bool App::writeResults(const std::string& reason, ExitCode code) {
     if (!options_.summary) return isWritten;
     std::ostream& out = summary_.is_open() ? summary_ : std::cout;
     errno = 0;
-    out << all.dump(2) << "\n" << std::flush;
+    out << all.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << "\n" << std::flush;
     if (!out)
         log_.error(fmt::format("the summary cannot be written: {}: {}", options_.summary->string(),
                                std::generic_category().message(errno != 0 ? errno : EIO)));
