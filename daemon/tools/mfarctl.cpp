@@ -1,4 +1,5 @@
 #include "daemon/exit_code.h"
+#include "daemon/output_checks.h"
 #include "daemon/tools/control_client.h"
 #include "daemon/tools/ctl_arguments.h"
 #include "daemon/tools/status_text.h"
@@ -61,9 +62,11 @@ int main(int argc, char** argv) {
     try {
         parser.app.parse(argc, argv);
         run(parser.app, parser.arguments);
-        return static_cast<int>(ExitCode::Ok);
+        return afterOutput(static_cast<int>(ExitCode::Ok), "mfarctl",
+                           static_cast<int>(ExitCode::OutputFailed));
     } catch (const CLI::ParseError& error) {
-        return parser.app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::Usage);
+        if (parser.app.exit(error) != 0) return static_cast<int>(ExitCode::Usage);
+        return afterOutput(0, "mfarctl", static_cast<int>(ExitCode::OutputFailed));
     } catch (const NotReachable& error) {
         fmt::print(stderr, "mfarctl: {}\n", error.what());
         return static_cast<int>(ExitCode::Unavailable);

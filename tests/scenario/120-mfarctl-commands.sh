@@ -28,6 +28,10 @@ says answer '^state +running$'
 says answer '^health +ok for [0-9.]+ s'
 says answer '^source +synthetic'
 says answer '^fault +none$'
+code=0
+"$ctl" --socket control status >/dev/full 2>err.ctl || code=$?
+[ "$code" = 74 ] || fail "mfarctl ended with exit code $code although its output could not be written"
+says err.ctl 'standard output cannot be written'
 run 69 --source synthetic:flat --control control --frames 1
 says err 'another process listens'
 
