@@ -37,10 +37,12 @@ minutes=$(sed -n 's/^StartLimitIntervalSec=\([0-9]*\)min$/\1/p' "$reboot")
 starts=$(sed -n 's/^StartLimitBurst=//p' "$reboot")
 wait=$(sed -n 's/^constexpr std::chrono::seconds kLongestWait{\([0-9]*\)};$/\1/p' \
     "$sources/../daemon/restart_pause.cpp")
+pause=$(sed -n 's/^RestartSec=//p' "$reboot")
 # A start takes up to 60 s (TimeoutStartSec=), then mfard waits, and ends after at most 5 s
-# (TimeoutStopSec=). systemd waits for 1 s more (RestartSec=) before the next start.
-((60 * minutes > starts * (60 + wait + 5 + 1))) ||
+# (TimeoutStopSec=). Then systemd waits, too.
+((60 * minutes > starts * (60 + wait + 5 + pause))) ||
     fault "reboot.conf can never count $starts starts within $minutes min"
+((starts * pause >= 600)) || fault "reboot.conf may reboot more often than every ten minutes"
 rm -r "$work/mfard.service.d"
 
 exposure=$(systemd-analyze security --offline=true --no-pager "$unit" |
