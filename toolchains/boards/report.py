@@ -58,10 +58,14 @@ def check(compiled, allowed, unknown):
     return len(faults) + len(unknown)
 
 
-def unknown_loops(model, program, compiled):
-    """Returns a message for each shader of a frame whose loops have no trip counts in model.toml."""
-    works = [work for case in collect.CASES for work in collect.gpu_work(program, case, model['frame']['readme_output'])]
-    return gpu_model.unknown_loops(works, compiled, model['loops'])
+def unknown_loops(model, works, compiled):
+    """Returns a message for each shader in `works` ({(case, width): draws and dispatches of a frame}) whose loops have
+    no trip counts in model.toml."""
+    return gpu_model.unknown_loops([one for frame in works.values() for one in frame], compiled, model['loops'])
+
+
+def gpu_works(program, widths):
+    return {(case, width): collect.gpu_work(program, case, width) for case in collect.CASES for width in widths}
 
 
 def outputs(model):
@@ -120,20 +124,17 @@ def check_host(args, model, plugin):
 
 
 def report(args, model, compiled):
-    if unknown := unknown_loops(model, args.frame_work, compiled):
+    works, cycles = gpu_works(args.frame_work, model['frame']['outputs']), {}
+    if unknown := unknown_loops(model, works, compiled):
         sys.exit('\n'.join(unknown))
     os.makedirs(args.out, exist_ok=True)
     plugin = collect.build_plugin(os.path.join(HERE, 'block_counts.c'), os.path.join(args.out, 'block_counts.so'))
-    works, cycles = {}, {}
-    count = len(collect.CASES) * len(model['frame']['outputs'])
-    for case in collect.CASES:
-        for width in model['frame']['outputs']:
-            PROGRESS.show(len(works), count + 1, f'{case}, {width} columns: counting passes and instructions')
-            works[case, width] = collect.gpu_work(args.frame_work, case, width)
-            counts = collect.frame_counts(['qemu-aarch64', '-cpu', 'max', '-L', args.sysroot], plugin,
-                                          args.arm_frame_work, case, width)
-            cycles[case, width] = cpu_model.frame_cycles(args.arm_frame_work, counts, model['cpus'], model['steps'],
-                                                         arm=True)
+    for case, width in works:
+        PROGRESS.show(len(cycles), len(works) + 1, f'{case}, {width} columns: counting instructions')
+        counts = collect.frame_counts(['qemu-aarch64', '-cpu', 'max', '-L', args.sysroot], plugin,
+                                      args.arm_frame_work, case, width)
+        cycles[case, width] = cpu_model.frame_cycles(args.arm_frame_work, counts, model['cpus'], model['steps'],
+                                                     arm=True)
     results = {'boards': {key: predict_board(board, model, works, compiled, cycles)
                           for key, board in model['boards'].items()},
                'instructions': {f'{case} {width}': one['instructions'] for (case, width), one in cycles.items()},
@@ -182,7 +183,8 @@ def main():
     if args.check:
         if not compiled:
             return 77
-        unknown = unknown_loops(model, args.frame_work, compiled) if args.frame_work else []
+        works = gpu_works(args.frame_work, [model['frame']['readme_output']]) if args.frame_work else {}
+        unknown = unknown_loops(model, works, compiled)
         return 1 if check(compiled, budget.read(args.budget), unknown) else 0
     report(args, model, compiled)
     return 0
