@@ -191,14 +191,20 @@ TEST(StillPolicy, ALostStillIsCountedAndRequestedAgain) {
     EXPECT_NEAR(board.firedAt[1] - board.firedAt[0], 1, 2 * kFrame);
 }
 
-TEST(StillPolicy, AfterTwoLostStillsTheNextIsRequestedAtTheAgeLimit) {
-    TriggerConfig config;
+/// A board whose last two stills were lost after a second each. It has run for `seconds`.
+Simulation withTwoLostStills(TriggerConfig config, double seconds) {
     config.timeoutS = 1;
-    config.maxAgeS = 3;
     Simulation board(config);
     board.answers = false;
-    board.run(4.5, kRest);
-    ASSERT_EQ(board.firedAt.size(), 2U);
+    board.run(seconds, kRest);
+    EXPECT_EQ(board.firedAt.size(), 2U);
+    return board;
+}
+
+TEST(StillPolicy, AfterTwoLostStillsTheNextIsRequestedAtTheAgeLimit) {
+    TriggerConfig config;
+    config.maxAgeS = 3;
+    Simulation board = withTwoLostStills(config, 4.5);
     board.answers = true;
     EXPECT_EQ(board.run(60, kRest), 1);
     EXPECT_EQ(board.policy.lost(), 2);
@@ -206,23 +212,14 @@ TEST(StillPolicy, AfterTwoLostStillsTheNextIsRequestedAtTheAgeLimit) {
 
 TEST(StillPolicy, AfterTwoLostStillsTheNextIsRequestedWithinTenSeconds) {
     TriggerConfig config;
-    config.timeoutS = 1;
     config.maxAgeS = 3600;
-    Simulation board(config);
-    board.answers = false;
-    board.run(2.5, kRest);
-    ASSERT_EQ(board.firedAt.size(), 2U);
+    Simulation board = withTwoLostStills(config, 2.5);
     EXPECT_EQ(board.run(10, kRest), 1);
 }
 
 TEST(StillPolicy, AReloadEndsThePauseAfterTwoLostStills) {
-    TriggerConfig config;
-    config.timeoutS = 1;
-    Simulation board(config);
-    board.answers = false;
-    board.run(2.5, kRest);
-    ASSERT_EQ(board.firedAt.size(), 2U);
-    board.policy.configure(config);
+    Simulation board = withTwoLostStills({}, 2.5);
+    board.policy.configure({});
     EXPECT_EQ(board.run(0.5, kRest), 1);
 }
 
