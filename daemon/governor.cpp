@@ -43,17 +43,16 @@ Governor::Governor(std::vector<QualityLevel> levels, double deadlineMs)
 
 void Governor::add(const Frame& frame) {
     if (!(frame.ms >= 0 && std::isfinite(frame.ms))) return;
-    if (pending_) {
-        const bool changed = frame.changedBefore > 0 && !pending_->redrawn;
-        restFrames_ = changed ? 0 : restFrames_ + 1;
-        if (changed) isPolished_ = false;
-        if (changed && pending_->counts) count(pending_->ms);
-    }
-    const bool isComplete = frame.usedStill || level().quality.mode == SuperResMode::Off;
-    const bool isTypical = isComplete && !frame.newStill && next_ == Choice{level_, false};
-    pending_ = Pending{frame.ms, isTypical, next_.redraw};
     framesSinceStill_ = frame.newStill ? 0 : framesSinceStill_ + 1;
     if (frame.newStill) stillMs_ = frame.ms;
+    if (frame.redrawn > 0 && !next_.redraw) {
+        restFrames_ = 0;
+        isPolished_ = false;
+        const bool isComplete = frame.usedStill || level().quality.mode == SuperResMode::Off;
+        if (isComplete && !frame.newStill) count(frame.ms);
+    } else {
+        ++restFrames_;
+    }
     rest();
 }
 

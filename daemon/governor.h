@@ -29,9 +29,9 @@ namespace mfar {
 /// the difference between both levels' times in the table. If this is at most 85 % of the deadline,
 /// the governor tries the better level.
 ///
-/// Three types of frames are not counted: frames in which nothing changed, frames with a new still,
-/// and frames without a still at a level that uses one. When the picture comes to rest, it is drawn
-/// once more at the best level. That frame may be late, because nothing moves in it.
+/// Three types of frames are not counted: frames in which nothing was drawn, frames with a new
+/// still, and frames without a still at a level that uses one. When the picture comes to rest, it
+/// is drawn once more at the best level. That frame may be late, because nothing moves in it.
 class Governor {
 public:
     /// `levels` must not be empty and must be sorted by time. `deadlineMs` must be greater than
@@ -51,7 +51,7 @@ public:
         double ms = 0;          ///< time from the start of processing to the shown picture
         bool newStill = false;  ///< a still became the reference just before this frame
         bool usedStill = true;
-        double changedBefore = 1;
+        double redrawn = 1;  ///< FrameStats::redrawn
     };
     /// Must be called for every frame. Frames whose time is negative or not finite are ignored.
     void add(const Frame& frame);
@@ -69,10 +69,6 @@ public:
 private:
     static constexpr std::size_t kWindow = 20;
 
-    struct Pending {
-        double ms;
-        bool counts, redrawn;
-    };
     void count(double ms);
     void rest();
     void goTo(std::size_t level);
@@ -87,8 +83,6 @@ private:
     double deadline_;
     std::size_t level_ = 0;
     Choice next_;
-    // The previous frame. Only the next call of add() tells whether anything changed in it.
-    std::optional<Pending> pending_;
     std::array<double, kWindow> ratios_{};  // measured time / table time, ring buffer
     std::size_t ratioCount_ = 0;
     std::uint64_t frame_ = 0;            // number of counted frames

@@ -263,7 +263,7 @@ void Session::process(CapturedFrame& captured) {
     if (rig_.cameraKind() == CameraKind::Sensor) since = std::min(time, shown);
     stats_.picture({result.stats, stages_, captured.arrived, shown, age, ms, since});
     if (governor_) {
-        governor_->add({ms, newStill, result.stats.usedStill, result.stats.changed});
+        governor_->add({ms, newStill, result.stats.usedStill, result.stats.redrawn});
         govern();
     }
     tell(time, result.stats);
@@ -312,10 +312,15 @@ void Session::askForStill() {
     policy_.ask();
 }
 
+bool Session::mayTakeStill() const {
+    const SuperResMode mode = quality_ ? quality_->mode : config_.superres.mode;
+    return mode != SuperResMode::Off && (!governor_ || governor_->mayTakeStill());
+}
+
 void Session::fireIfNeeded(Timestamp frame, const FrameStats& stats) {
     Trigger* trigger = rig_.trigger();
-    if (trigger == nullptr || (governor_ && !governor_->mayTakeStill())) return;
-    if (policy_.decide(frame, previous_.value_or(frame), stats)) {
+    if (trigger == nullptr) return;
+    if (policy_.decide(frame, previous_.value_or(frame), stats, mayTakeStill())) {
         try {
             trigger->fire();
         } catch (const TriggerBusy&) {

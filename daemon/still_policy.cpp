@@ -18,14 +18,14 @@ std::chrono::nanoseconds toNanoseconds(double s) {
 
 }  // namespace
 
-bool StillPolicy::decide(Timestamp now, Timestamp statsOf, const FrameStats& stats) {
+bool StillPolicy::decide(Timestamp now, Timestamp before, const FrameStats& stats,
+                         bool mayRequest) {
     if (still_ && !usedSince_) usedSince_ = now;
-    // After a new still or a change of the mode, the first frame is drawn completely. All its tiles
-    // count as changed, but that is not motion.
-    const bool changed = stats.changed > kMovedShare && statsOf != usedSince_;
-    if (changed && firedAt_ && statsOf > *firedAt_) movedSinceTrigger_ = true;
-    if (changed && usedSince_ && statsOf > *usedSince_) movedInUse_ = true;
-    const bool fires = pending() ? timedOut(now) : asked_ || wanted(now, statsOf, stats);
+    const bool moves = stats.changed > kMovedShare;
+    if (moves && !moved_ && firedAt_ && now > *firedAt_) moved_ = now;
+    if (moves && usedSince_ && now > *usedSince_) movedInUse_ = true;
+    const bool wants = asked_ || (mayRequest && wanted(now, before, stats));
+    const bool fires = pending() ? timedOut(now) : wants;
     if (fires) fire(now);
     return fires;
 }
@@ -53,7 +53,7 @@ void StillPolicy::stillArrived(Timestamp exposed) {
     notBefore_.reset();
 }
 
-bool StillPolicy::wanted(Timestamp now, Timestamp statsOf, const FrameStats& stats) const {
+bool StillPolicy::wanted(Timestamp now, Timestamp before, const FrameStats& stats) const {
     if (config_.mode == TriggerMode::Off || (notBefore_ && now < *notBefore_)) return false;
     if (config_.mode == TriggerMode::Rate) return !due_ || now >= *due_;
     if (!still_) return true;
@@ -61,7 +61,8 @@ bool StillPolicy::wanted(Timestamp now, Timestamp statsOf, const FrameStats& sta
     if (movedInUse_ && now - *still_ > toNanoseconds(config_.maxAgeS)) return true;
     // A still is requested only if the scene has moved since the last trigger. Without motion, a
     // new still would look like the current one and explain no more of the picture.
-    return movedSinceTrigger_ && statsOf >= *usedSince_ && stats.explained < config_.explainedBelow;
+    return moved_ && before >= *moved_ && before >= *usedSince_ &&
+           stats.explained < config_.explainedBelow;
 }
 
 bool StillPolicy::timedOut(Timestamp now) {
@@ -84,7 +85,7 @@ void StillPolicy::fire(Timestamp now) {
     firedAt_ = now;
     arrived_ = false;
     asked_ = false;
-    movedSinceTrigger_ = false;
+    moved_.reset();
     ++fired_;
 }
 

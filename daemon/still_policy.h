@@ -42,10 +42,13 @@ public:
     void configure(const TriggerConfig& config);
 
     /// Must be called once per frame. If it returns true, the caller must fire the trigger now.
-    /// `now` is the time of the newest frame. `stats` belong to the frame at time `statsOf`, which
-    /// may be older.
-    [[nodiscard]] bool decide(Timestamp now, Timestamp statsOf, const FrameStats& stats);
+    /// `stats` are those of the newest frame, at time `now`. FrameStats::explained may be that of
+    /// the frame before, at time `before`. If `mayRequest` is false, only ask() and a lost still
+    /// cause a trigger.
+    [[nodiscard]] bool decide(Timestamp now, Timestamp before, const FrameStats& stats,
+                              bool mayRequest = true);
 
+    /// Requests a still at the next call of decide(), in every mode.
     void ask() { asked_ = true; }
 
     /// Must be called if the trigger could not fire, because the previous pulse had not ended. The
@@ -64,7 +67,7 @@ public:
     [[nodiscard]] int repetitions() const { return repetitions_; }
 
 private:
-    [[nodiscard]] bool wanted(Timestamp now, Timestamp statsOf, const FrameStats& stats) const;
+    [[nodiscard]] bool wanted(Timestamp now, Timestamp before, const FrameStats& stats) const;
     [[nodiscard]] bool timedOut(Timestamp now);
     void fire(Timestamp now);
 
@@ -74,8 +77,8 @@ private:
     std::optional<Timestamp> firedAt_;
     bool arrived_ = true;  ///< true: the still of the last trigger has arrived or is lost
     bool repeated_ = false;
-    bool movedSinceTrigger_ = false;
-    bool movedInUse_ = false;  ///< true: the scene moved since the reference was first used
+    std::optional<Timestamp> moved_;  ///< first motion after the last trigger
+    bool movedInUse_ = false;         ///< true: the scene moved since the reference was first used
     bool asked_ = false;
     std::optional<Timestamp> due_;
     std::optional<Timestamp> notBefore_;  ///< earliest time of a trigger after two lost stills

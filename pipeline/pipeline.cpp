@@ -5,6 +5,7 @@
 #include "pipeline/gles/device_copies.h"
 #include "pipeline/pipeline_state.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -300,8 +301,11 @@ void Pipeline::State::tellReplaced() {
 
 void Pipeline::State::drawDetail(const VideoFrame& frame, const TileWork& work,
                                  const Match* match) {
-    const DetailOptions how{quality.mode, quality.cubic, options.skips.upscaledTiles,
-                            options.skips.plainTiles, quality.learned ? filterBank() : nullptr};
+    // In mode Blend, a tile that is only enlarged would differ visibly from a tile whose weight is
+    // small, because blended tiles are enlarged in another way.
+    const bool skipsUpscaled = options.skips.upscaledTiles && quality.mode != SuperResMode::Blend;
+    const DetailOptions how{quality.mode, quality.cubic, skipsUpscaled, options.skips.plainTiles,
+                            quality.learned ? filterBank() : nullptr};
     if (match != nullptr) {
         DetailStep::Matched matched{*newest.pictures, match->weights};
         std::optional<DetailStep::Matched> also;
@@ -333,12 +337,9 @@ void Pipeline::State::keepDrawn(const TileWork& work) {
 
 void Pipeline::State::publish(const TileWork& work, bool usedStill, bool usedPose) {
     FrameStats& stats = result.stats;
-    const TileSummary summary = detail->finishedSummary();
-    stats.tiles = summary.tiles;
-    stats.meanConfidence = summary.meanConfidence;
-    stats.explained = summary.explained;
-    stats.changed = summary.changed;
-    stats.showSecond = summary.second;
+    publishTiles(detail->finishedSummary(), stats);
+    stats.changed = plan.changedShare();
+    stats.redrawn = plan.redrawnShare();
     stats.usedStill = usedStill;
     stats.searched2d = newest.flow->finishedSearchedCount();
     if (usedPose) publishPose(*epipolar, stats);
@@ -354,6 +355,13 @@ void Pipeline::State::publish(const TileWork& work, bool usedStill, bool usedPos
     keepDrawn(work);
     redraw = false;
     if (gles) gles->finishReading();  // does not wait, because the GPU has read the frame long ago
+}
+
+void Pipeline::State::publishTiles(const TileSummary& tiles, FrameStats& stats) const {
+    stats.tiles = tiles.tiles;
+    stats.meanConfidence = tiles.meanConfidence;
+    stats.explained = std::max(1 - (1 - tiles.explained) * plan.structuredPerMatched(), 0.0);
+    stats.showSecond = tiles.second;
 }
 
 void Pipeline::State::lap(const char* stage) {

@@ -95,6 +95,7 @@ struct Pipeline::State {
     void showObjects(const VideoFrame& frame);
     void followScene(const VideoFrame& frame, const std::optional<Pose>& pose, Timestamp time);
     void publish(const TileWork& work, bool usedStill, bool usedPose);
+    void publishTiles(const TileSummary& tiles, FrameStats& stats) const;
 
     [[nodiscard]] PixelRect pixelsOf(const PixelRect& tiles) const;
     [[nodiscard]] bool inView() const { return objects && !objects->region().empty(); }

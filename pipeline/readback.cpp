@@ -32,12 +32,7 @@ std::size_t tileAt(int x, int y, Size video) {
 
 FrameStats Pipeline::readStats() const {
     FrameStats stats = state_->result.stats;
-    const TileSummary drawn = state_->detail->summary();
-    stats.tiles = drawn.tiles;
-    stats.meanConfidence = drawn.meanConfidence;
-    stats.explained = drawn.explained;
-    stats.changed = drawn.changed;
-    stats.showSecond = drawn.second;
+    state_->publishTiles(state_->detail->summary(), stats);
     stats.searched2d = state_->newest.flow->searchedCount();
     return stats;
 }

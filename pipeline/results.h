@@ -10,15 +10,26 @@
 
 namespace mfar {
 
-/// Statistics of one frame for the status line, the still policy and the summary. With the GLES
-/// engine, numbers that are counted on the GPU are those of the frame before; in the first frame,
-/// they are 0.
+/// Statistics of one frame for the status line, the still policy and the summary.
 struct FrameStats {
+    // With the GLES engine, the GPU counts these numbers, and they are those of the frame before.
+    // In the first frame, they are 0.
     std::array<int, kTileClasses> tiles{};
     double meanConfidence = 0;  ///< mean of the confidence (eq. 2 of the paper), [0, 1]
-    double explained = 0;       ///< share of tiles that are flat or match a still, [0, 1]
-    /// Share of tiles whose video has changed since they were last drawn.
-    double changed = 0;
+    /// Share of tiles that are flat or match a still, [0, 1]. If Quality::detailShare leaves out
+    /// some tiles with structure, they are assumed to match as often as the others. 0 without a
+    /// still.
+    double explained = 0;
+    /// showSecond: number of tiles that show some of the second still. It includes neighbours of
+    /// the tiles in matchedSecond. searched2d: number of tiles whose match along epipolar lines was
+    /// wrong, because an object moves or a pose is wrong. These tiles were then searched in both
+    /// dimensions. Without poses, all changed tiles are searched in both dimensions, and this
+    /// number is 0.
+    int showSecond = 0, searched2d = 0;
+
+    // These numbers are those of the frame itself.
+    double changed = 0;  ///< share of tiles whose video changed since they were last drawn, [0, 1]
+    double redrawn = 0;  ///< share of tiles that were drawn again for any reason, [0, 1]
     bool usedStill = false;
     bool usedPose = false;  ///< matched along epipolar lines, because still and frame have poses
     bool predicted = false;
@@ -27,14 +38,9 @@ struct FrameStats {
     /// median of their distances from their epipolar lines [px], or 0 without patches.
     int posePatches = 0;
     double epipolarError = 0;
-    /// Number of tiles whose match along epipolar lines was wrong, because an object moves or a
-    /// pose is wrong. These tiles were then searched in both dimensions. Without poses, all changed
-    /// tiles are searched in both dimensions, and this number is 0.
-    int searched2d = 0;
-    /// matchedSecond: number of tiles that were matched with the second still, because the newest
-    /// still does not show them. showSecond: number of tiles that show some of the second still. It
-    /// includes neighbours of matched tiles.
-    int matchedSecond = 0, showSecond = 0;
+    /// Number of tiles that were matched with the second still, because the newest still does not
+    /// show them.
+    int matchedSecond = 0;
     /// Number of tiles that need real depth, because a virtual object may be occluded there. Tiles
     /// that get the depth of an earlier frame count, too (see Quality::depthEvery).
     int depthTiles = 0;

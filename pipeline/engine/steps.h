@@ -149,9 +149,10 @@ public:
 struct TileSummary {
     std::array<int, kTileClasses> tiles{};
     double meanConfidence = 0;
-    double explained = 0;  ///< share of tiles that are flat or match a still, [0, 1]
-    double changed = 0;    ///< share of tiles that changed, [0, 1]
-    int second = 0;        ///< number of tiles that show the second still
+    /// Share of tiles that do not lack a match, [0, 1]. Tiles without structure and tiles that were
+    /// not matched count as explained, unless the frame was drawn without a still.
+    double explained = 0;
+    int second = 0;  ///< number of tiles that show the second still
 };
 
 struct DetailOptions {

@@ -230,7 +230,6 @@ TileSummary DetailPainter::summary(int which) const {
         total += s.tiles[i];
     }
     if (total == 0) return s;
-    s.changed = 1.0 - static_cast<double>(s.tiles[0]) / total;
     s.explained = 1.0 - static_cast<double>(block.counts[5]) / total;
     s.meanConfidence = block.counts[6] / (256.0 * total);
     s.second = static_cast<int>(block.counts[7]);

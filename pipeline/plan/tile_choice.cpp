@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 namespace mfar {
 namespace {
@@ -49,11 +50,11 @@ bool TileEnergy::drifted(double grain) const {
     return means > (1 + room) * grain * pixels + 0.01 * tiles;
 }
 
-TileEnergy markDrifted(std::span<TileMeasure> tiles, int columns, double grain, bool all) {
+TileEnergy markDrifted(std::span<TileMeasure> tiles, int columns, double grain) {
     TileEnergy total;
     for (const TileMeasure& tile : tiles)
         total.add(tile);
-    all = all || total.drifted(grain);
+    const bool all = total.drifted(grain);
     const int rows = static_cast<int>(tiles.size()) / columns;
     const auto forBlock = [&](int left, int top, const auto& body) {
         for (int y = top; y < std::min(top + kTileBlock, rows); ++y)
@@ -105,6 +106,7 @@ void StructuredTiles::choose(std::span<const TileMeasure> tiles, int columns, do
         around_[i] = kept * structureAround(tiles, columns, static_cast<int>(i));
         if (around_[i] > none) ++bins[structureBin(around_[i])];
     }
+    candidates_ = std::accumulate(bins.begin(), bins.end(), 0);
     int above = 0, least = kStructureBins;
     while (least > 0 && above + bins[least - 1] <= most)
         above += bins[--least];

@@ -23,10 +23,9 @@ struct TileEnergy {
 };
 
 /// Marks all tiles of a block of 8x8 tiles as changed if TileEnergy::drifted() is true for the
-/// block. Marks all tiles if it is true for the whole picture, or if `all` is true. `tiles` is
-/// row-major with `columns` tiles per row. Returns the sums over the tiles that were not marked
-/// before the call.
-TileEnergy markDrifted(std::span<TileMeasure> tiles, int columns, double grain, bool all);
+/// block. Marks all tiles if it is true for the whole picture. `tiles` is row-major with `columns`
+/// tiles per row. Returns the sums over the tiles that were not marked before the call.
+TileEnergy markDrifted(std::span<TileMeasure> tiles, int columns, double grain);
 
 /// Marks a tile as changed if, in an adjacent tile, a cell at the common border certainly changed.
 /// The tile must be drawn again, because enlarging it reads two pixels of the adjacent tile.
@@ -43,12 +42,15 @@ public:
     void choose(std::span<const TileMeasure> tiles, int columns, double none, int most);
     [[nodiscard]] bool operator[](std::size_t tile) const { return chosen_[tile]; }
     [[nodiscard]] int count() const;
+    /// Returns the number of tiles that could have been chosen, [count(), number of tiles].
+    [[nodiscard]] int candidates() const { return candidates_; }
     /// The smallest rectangle around all chosen tiles [tiles].
     [[nodiscard]] PixelRect bounds(int columns) const;
 
 private:
     std::vector<bool> chosen_;
     std::vector<float> around_;
+    int candidates_ = 0;
 };
 
 }  // namespace mfar

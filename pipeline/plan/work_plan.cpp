@@ -68,10 +68,10 @@ void WorkPlan::update(const RgbPlanes& now, const RgbPlanes& drawn, bool force) 
                  {static_cast<float>(1.0 + 2.0 * noise), static_cast<float>(1.5 + 4.0 * noise),
                   static_cast<float>(grain_)},
                  workers_.get(), measured_);
-    const TileEnergy unchanged = markDrifted(measured_, work_.tiles.width, grain_, force);
+    const TileEnergy unchanged = markDrifted(measured_, work_.tiles.width, grain_);
     markBeside(measured_, work_.tiles.width);
     chooseMatched();
-    chooseChanged(std::exchange(redraw_, Redraw::WithThem));
+    chooseChanged(std::exchange(redraw_, Redraw::WithThem), force);
     followNoise(unchanged);
     work_.noise = noise_;
 }
@@ -86,7 +86,7 @@ void WorkPlan::chooseMatched() {
                                   : PixelRect{0, 0, work_.tiles.width, work_.tiles.height};
 }
 
-void WorkPlan::chooseChanged(Redraw redraw) {
+void WorkPlan::chooseChanged(Redraw redraw, bool force) {
     const auto isDrawnOver = [&](std::size_t tile, int margin) {
         const int x = static_cast<int>(tile) % work_.tiles.width,
                   y = static_cast<int>(tile) / work_.tiles.width;
@@ -102,12 +102,13 @@ void WorkPlan::chooseChanged(Redraw redraw) {
         ++changes;
         beside = beside || isDrawnOver(i, 1);
     }
-    redraws_ = redraw == Redraw::Always || (redraw == Redraw::WithOthers && changes > 0) ||
+    changedShare_ = static_cast<double>(changes) / std::max(count, 1);
+    redraws_ = force || redraw == Redraw::Always || (redraw == Redraw::WithOthers && changes > 0) ||
                changes >= wholeFrom || beside;
     work_.changed = 0;
     work_.matched = 0;
     for (std::size_t i = 0; i < measured_.size(); ++i) {
-        const bool changed = measured_[i].changed || (redraws_ && isDrawnOver(i, 0));
+        const bool changed = force || measured_[i].changed || (redraws_ && isDrawnOver(i, 0));
         work_.changed += changed ? 1 : 0;
         work_.matched += changed && structured_[i] ? 1 : 0;
         work_.flags[i] = {static_cast<std::uint8_t>(changed),
@@ -120,6 +121,16 @@ void WorkPlan::chooseChanged(Redraw redraw) {
     work_.draw = !whole  ? TileWork::Draw::Tiles
                  : lists ? TileWork::Draw::WholeEnlarged
                          : TileWork::Draw::Whole;
+}
+
+double WorkPlan::redrawnShare() const {
+    if (work_.drawsWhole()) return 1;
+    return static_cast<double>(work_.changed) / static_cast<double>(work_.flags.size());
+}
+
+double WorkPlan::structuredPerMatched() const {
+    const int matched = structured_.count();
+    return matched > 0 ? static_cast<double>(structured_.candidates()) / matched : 1;
 }
 
 double WorkPlan::quietestDecile() const {

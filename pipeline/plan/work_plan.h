@@ -29,8 +29,8 @@ public:
     /// compares them.
     explicit WorkPlan(Size video, std::shared_ptr<Workers> workers = nullptr);
 
-    /// Compares `now` with `drawn`, both of the video's size. If `force` is true, every tile counts
-    /// as changed.
+    /// Compares `now` with `drawn`, both of the video's size. If `force` is true, every tile is
+    /// drawn again.
     void update(const RgbPlanes& now, const RgbPlanes& drawn, bool force);
     /// Changes of the video that make it necessary to draw an overlay (the virtual objects) again.
     /// WithThem: a change of one of the overlay's tiles or of an adjacent tile. WithOthers: a
@@ -42,7 +42,7 @@ public:
     };
     /// Must be called after an overlay was drawn over these tiles of the output picture. `redraw`
     /// determines after which changes the overlay must be drawn again, and applies to the next
-    /// update() only. If that update() finds such a change, all of these tiles count as changed.
+    /// update() only. If that update() finds such a change, all of these tiles are drawn again.
     /// Without a new call, WithThem applies.
     void drawnOver(const PixelRect& tiles, Redraw redraw);
     /// Sets the smallest share of changed tiles, [0, 1], for which the whole frame is drawn at
@@ -56,6 +56,14 @@ public:
     void matchEverything() { matchedShare_ = 0; }
     [[nodiscard]] const TileWork& work() const { return work_; }
     [[nodiscard]] bool redraws() const { return redraws_; }
+    /// Returns the share of tiles whose video changed since they were last drawn, [0, 1].
+    [[nodiscard]] double changedShare() const { return changedShare_; }
+    /// Returns the share of tiles that are drawn again for any reason, [0, 1].
+    [[nodiscard]] double redrawnShare() const;
+    /// Returns the number of tiles with structure, divided by the number of those that are matched.
+    /// It is above 1 only if matchStructured() limits the share of matched tiles. Returns 1 if no
+    /// tile is matched.
+    [[nodiscard]] double structuredPerMatched() const;
     [[nodiscard]] const std::vector<TileMeasure>& measured() const { return measured_; }
     [[nodiscard]] Size tileCount() const { return work_.tiles; }
     /// Standard deviation of the video's noise [grey levels], measured in the quietest tiles of
@@ -69,7 +77,7 @@ public:
 private:
     [[nodiscard]] bool mayList() const { return matchedShare_ > 0 && wholeShare_ > 0; }
     void chooseMatched();
-    void chooseChanged(Redraw redraw);
+    void chooseChanged(Redraw redraw, bool force);
     [[nodiscard]] double quietestDecile() const;
     void followNoise(const TileEnergy& unchanged);
 
@@ -80,6 +88,7 @@ private:
     std::vector<TileMeasure> measured_;
     StructuredTiles structured_;
     bool redraws_ = false;
+    double changedShare_ = 0;
     TileWork work_;
 };
 

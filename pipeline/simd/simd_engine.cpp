@@ -303,7 +303,6 @@ private:
     static TileSummary summaryOf(const simd::TileSummary& counts) {
         TileSummary out{counts.tiles};
         const double all = std::accumulate(counts.tiles.begin(), counts.tiles.end(), 0);
-        out.changed = 1 - counts.tiles[0] / all;
         out.explained = 1 - counts.unexplained / all;
         out.meanConfidence = counts.confidence / (256 * all);
         out.second = counts.second;

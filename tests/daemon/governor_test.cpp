@@ -36,8 +36,7 @@ public:
             if (changed > 0 || governor_.next().redraw)
                 ms = cost_(governor_.next().level) * (1 + 0.04 * noise_(random_));
             if (ms > governor_.deadlineMs()) ++late;
-            const double before = std::exchange(changed_, governor_.next().redraw ? 1 : changed);
-            governor_.add({.ms = ms, .changedBefore = before});
+            governor_.add({.ms = ms, .redrawn = governor_.next().redraw ? 1 : changed});
         }
         return static_cast<double>(late) / frames;
     }
@@ -47,7 +46,6 @@ public:
 private:
     Governor governor_;
     Cost cost_;
-    double changed_ = 1;
     std::mt19937 random_{1};
     std::normal_distribution<double> noise_;
 };

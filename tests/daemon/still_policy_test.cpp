@@ -29,12 +29,13 @@ public:
     int run(double seconds, FrameStats stats) {
         int fired = 0;
         for (const double end = now + seconds; now < end; now += kFrame) {
-            const Timestamp statsOf = Timestamp::fromSeconds(now - delay);
             if (answerAt && now >= *answerAt) {
                 policy.stillArrived(Timestamp::fromSeconds(*answerAt - latency / 2));
                 answerAt.reset();
             }
-            if (!policy.decide(Timestamp::fromSeconds(now), statsOf, stats)) continue;
+            if (!policy.decide(Timestamp::fromSeconds(now), Timestamp::fromSeconds(now - kFrame),
+                               stats, mayRequest))
+                continue;
             ++fired;
             firedAt.push_back(now);
             if (answers) answerAt = now + latency;
@@ -44,7 +45,7 @@ public:
 
     StillPolicy policy;
     double now = 100;
-    double delay = 0;  ///< delay of the statistics behind their frame [s]
+    bool mayRequest = true;
     double latency = 0.2;
     bool answers = true;
     std::optional<double> answerAt;
@@ -77,36 +78,24 @@ TEST(StillPolicy, WithACameraAtRestTheTriggerFiresOnceEvenIfNoPixelMatchesTheSti
     EXPECT_EQ(board.run(600, frame(0, 0.01)), 1);
 }
 
-// The first frame fires the trigger. Its statistics say that all of the frame has changed. They
-// arrive only after the trigger.
-TEST(StillPolicy, StatsOlderThanTheTriggerDoNotCountAsMotion) {
+// In the first frame, every tile has changed. That frame fires the trigger.
+TEST(StillPolicy, TheFirstFrameDoesNotCountAsMotion) {
     Simulation board({});
-    board.delay = kFrame;
-    EXPECT_EQ(board.run(kFrame * 1.5, frame(0, 1)), 1);
+    EXPECT_EQ(board.run(kFrame / 2, frame(0, 1)), 1);
     EXPECT_EQ(board.run(60, frame(0.1, 0)), 0);
 }
 
-// For a new still, the pipeline draws every tile again even if nothing moves.
-TEST(StillPolicy, TheRedrawForANewStillDoesNotCountAsMotion) {
-    TriggerConfig config;
-    config.maxAgeS = 0.5;
-    Simulation board(config);
-    board.delay = kFrame;
-    board.latency = 2.5 * kFrame;
-    board.run(3.5 * kFrame, kRest);
-    board.run(kFrame, frame(0.9, 1));
-    EXPECT_EQ(board.run(60, kRest), 0);
-    board.policy.configure(config);
-    board.run(kFrame, kRest);
-    board.run(kFrame, frame(0.9, 1));
-    EXPECT_EQ(board.run(60, kRest), 0) << "the redraw after a reload must not count as motion";
+TEST(StillPolicy, TheShareFromBeforeTheMotionIsIgnored) {
+    Simulation board({});
+    board.run(2, kRest);
+    EXPECT_EQ(board.run(kFrame / 2, frame(0.2, 0.8)), 0) << "0.2 is that of the frame before";
+    EXPECT_EQ(board.run(5, frame(0.9, 0)), 0);
 }
 
 TEST(StillPolicy, StatsOlderThanTheStillAreIgnored) {
     TriggerConfig config;
     config.minIntervalS = 0;
     Simulation board(config);
-    board.delay = kFrame;
     board.run(1, kRest);
     board.latency = 6.5 * kFrame;
     EXPECT_EQ(board.run(6.5 * kFrame, kMovingUnexplained), 1);
@@ -118,7 +107,26 @@ TEST(StillPolicy, StatsOlderThanTheStillAreIgnored) {
 TEST(StillPolicy, AViewThatTheStillDoesNotShowFiresTheTrigger) {
     Simulation board({});
     board.run(2, kRest);
-    EXPECT_EQ(board.run(kFrame / 2, kMovingUnexplained), 1);
+    EXPECT_EQ(board.run(kFrame * 1.5, kMovingUnexplained), 1);
+}
+
+TEST(StillPolicy, MotionWhileNoStillMayBeRequestedIsRemembered) {
+    Simulation board({});
+    board.run(2, kRest);
+    board.mayRequest = false;
+    EXPECT_EQ(board.run(1, kMovingUnexplained), 0);
+    board.mayRequest = true;
+    EXPECT_EQ(board.run(30, frame(0.2, 0)), 1);
+}
+
+TEST(StillPolicy, IfNoStillMayBeRequestedACommandStillFiresTheTrigger) {
+    for (const TriggerMode mode : {TriggerMode::Demand, TriggerMode::Rate, TriggerMode::Off}) {
+        Simulation board({.mode = mode});
+        board.mayRequest = false;
+        EXPECT_EQ(board.run(3, kMovingUnexplained), 0);
+        board.policy.ask();
+        EXPECT_EQ(board.run(3, kMovingUnexplained), 1);
+    }
 }
 
 TEST(StillPolicy, AfterMotionWithinTheViewOfTheStillTheTriggerFiresOnlyAtTheAgeLimit) {
@@ -135,7 +143,6 @@ TEST(StillPolicy, ChangesBeforeTheFirstUseOfAStillDoNotMakeTheStillTooOld) {
     TriggerConfig config;
     config.maxAgeS = 5;
     Simulation board(config);
-    board.delay = kFrame;
     board.run(0.1, frame(0, 1));
     EXPECT_EQ(board.run(60, kRest), 0);
 }

@@ -60,7 +60,7 @@ void checkPipeline(Context& c, const Pipeline& p, const StereoRig& rig) {
     for (const float v : p.readShownObjects())
         c.checks.within(v, 0, 1, "visible share of an object's pixel");
     const FrameStats s = p.readStats();
-    for (const double v : {s.meanConfidence, s.explained, s.changed})
+    for (const double v : {s.meanConfidence, s.explained, s.changed, s.redrawn})
         c.checks.within(v, 0, 1,
                         "mean confidence of a frame, or its share of matched or changed tiles");
     c.checks.within(s.epipolarError, 0, 1e7, "median distance from epipolar lines [px]");

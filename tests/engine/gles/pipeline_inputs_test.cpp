@@ -15,7 +15,7 @@ void expectFinite(const Pipeline& p) {
     for (const float v : p.readConfidence())
         ASSERT_TRUE(v >= 0 && v <= 1) << v;
     const FrameStats s = p.readStats();
-    for (const double v : {s.meanConfidence, s.explained, s.changed})
+    for (const double v : {s.meanConfidence, s.explained, s.changed, s.redrawn})
         EXPECT_TRUE(v >= 0 && v <= 1) << v;
 }
 

@@ -33,7 +33,7 @@ void expectSound(const Pipeline& p, const std::string& what) {
         ASSERT_TRUE(v >= 0 && v <= 1) << what << ": " << v;
     const FrameStats s = p.readStats();
     EXPECT_TRUE(s.usedPose) << what;
-    for (const double v : {s.meanConfidence, s.explained, s.changed})
+    for (const double v : {s.meanConfidence, s.explained, s.changed, s.redrawn})
         EXPECT_TRUE(v >= 0 && v <= 1) << what << ": " << v;
     EXPECT_TRUE(std::isfinite(s.epipolarError)) << what;
     EXPECT_EQ(static_cast<int>(p.readSearchedTiles().size()), 10 * 8) << what;
@@ -102,7 +102,7 @@ TEST_F(PipelinePose, AnIdenticalFrameIsNotSearched) {
     const auto flow = p.readFlow();
     // The pose changes but the picture does not. Nothing may be searched, because no tile changed.
     p.run(c.video({2, 0}).view(), {}, poseAt({0.3, 0.2, 0}, {0, 5, 0}));
-    EXPECT_EQ(p.readStats().changed, 0);
+    EXPECT_EQ(p.readStats().redrawn, 0);
     EXPECT_EQ(p.readStats().searched2d, 0);
     EXPECT_EQ(p.readImage(), image);
     EXPECT_EQ(p.readFlow(), flow);

@@ -124,7 +124,7 @@ TEST_F(PipelineTest, AnIdenticalFrameNeedsNoWorkAndChangesNothing) {
     const auto before = p.readImage();
     p.run(video.view(), {});
     EXPECT_EQ(unchangedTiles(p), tileCount(p));
-    EXPECT_EQ(p.readStats().changed, 0);
+    EXPECT_EQ(p.readStats().redrawn, 0);
     EXPECT_EQ(p.readImage(), before);
     p.setSkipUnchanged(false);
     p.run(video.view(), {});

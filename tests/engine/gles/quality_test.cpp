@@ -53,7 +53,7 @@ TEST_F(QualityTest, IfTheStillIsNotUsedAFrameMayBeEnlargedLinearly) {
             std::fill_n(frame.at(x, 40), 3, static_cast<std::uint8_t>(60 * (x - 50)));
         for (Pipeline* each : {&p, &cubic})
             each->run(frame.view(), {});
-        EXPECT_EQ(p.readStats().changed < 1, inTiles);
+        EXPECT_EQ(p.readStats().redrawn < 1, inTiles);
         const Image image = p.readImage();
         EXPECT_FALSE(image == cubic.readImage());
         const twin::Grey red = twin::greyOf(
@@ -132,7 +132,7 @@ TEST_F(QualityTest, UnchangedTilesKeepTheirPixels) {
     p.redraw();
     p.run(c.video({3, 0}).view(), {});
     EXPECT_TRUE(p.readImage() != sharp);
-    EXPECT_EQ(p.readStats().changed, 1);
+    EXPECT_EQ(p.readStats().redrawn, 1);
     p.setQuality({});
     p.redraw();
     p.run(c.video({3, 0}).view(), {});
@@ -239,6 +239,54 @@ std::vector<TileClass> classesAfterAChange(const SkipOptions& skips) {
             frame.at(x, y)[0] = static_cast<std::uint8_t>(255 - frame.at(x, y)[0]);
     p.run(frame.view(), {});
     return p.readTileClasses();
+}
+
+TEST_F(QualityTest, InModeBlendATileLooksTheSameWhetherItIsDrawnAloneOrWithAllOthers) {
+    const PipelineCase c;
+    Pipeline alone(c.rig, {}), whole(c.rig, {});
+    const TestPicture noise = randomPicture(c.rig.still.size, 1);
+    TestPicture frame = c.video({2, 0});
+    for (Pipeline* p : {&alone, &whole}) {
+        p->setMode(SuperResMode::Blend);
+        p->setStill(noise.view(), {});
+        p->run(frame.view(), {});
+    }
+    for (int y = 40; y < 52; ++y)
+        for (int x = 40; x < 52; ++x)
+            frame.at(x, y)[0] = static_cast<std::uint8_t>(255 - frame.at(x, y)[0]);
+    whole.redraw();
+    for (Pipeline* p : {&alone, &whole})
+        p->run(frame.view(), {});
+    EXPECT_LT(alone.readStats().redrawn, 0.2);
+    EXPECT_EQ(whole.readStats().redrawn, 1);
+    const Image a = alone.readImage(), b = whole.readImage();
+    int most = 0;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        most = std::max(most, std::abs(a[i] - b[i]));
+    EXPECT_LE(most, 2);
+}
+
+TEST_F(QualityTest, InModeBlendStillsOfEveryFormatKeepTheirColoursOnMixedEngines) {
+    const PipelineCase c;
+    EngineChoice mixed = EngineChoice::all(EngineKind::Simd);
+    mixed.still = EngineKind::Gles;
+    for (const PixelFormat format : {PixelFormat::Rgba8, PixelFormat::Bgra8, PixelFormat::Gray8}) {
+        TestPicture still(c.rig.still.size, format, 0);
+        TestPicture shown = c.still();
+        for (int y = 0; y < shown.size.height; ++y)
+            for (int x = 0; x < shown.size.width; ++x)
+                for (int i = 0; i < (format == PixelFormat::Gray8 ? 1 : 3); ++i)
+                    still.at(x, y)[i] = shown.at(x, y)[format == PixelFormat::Bgra8 ? 2 - i : i];
+        std::vector<Image> images;
+        for (const EngineChoice& engines : {EngineChoice::all(EngineKind::Simd), mixed}) {
+            Pipeline p(c.rig, {.output = {}, .engines = engines});
+            p.setMode(SuperResMode::Blend);
+            p.setStill(still.view(), {});
+            p.run(c.video({2, 0}).view(), {});
+            images.push_back(p.readImage());
+        }
+        EXPECT_GT(psnr(images[0], images[1]), 45) << static_cast<int>(format);
+    }
 }
 
 TEST_F(QualityTest, WithSkippingDisabledAllTilesAreProcessed) {

@@ -75,7 +75,7 @@ private:
             glFinish();
         });
         const Governor::Choice before = governor_.next();
-        governor_.add({ms, newStill, stats.usedStill, stats.changed});
+        governor_.add({ms, newStill, stats.usedStill, stats.redrawn});
         if (!(governor_.next() == before)) {
             pipeline_.setQuality(governor_.level().quality);
             if (governor_.next().redraw) pipeline_.redraw();

@@ -186,7 +186,7 @@ public:
         ms_.push_back(ms);
         total_.depthTiles += stats_.depthTiles;
         total_.framesInView += stats_.objectsInView ? 1 : 0;
-        total_.changed += pipeline_.readStats().changed;
+        total_.changed += pipeline_.readStats().redrawn;
     }
 
     void score(const FrameTruth& truth) {
