@@ -282,7 +282,10 @@ void App::feedWatchdog(const Health& health) {
 }
 
 void App::logHealth(const Health& health) {
-    if (health.state == told_.state && health.cause == told_.cause) return;
+    if (health.state == told_.state && health.cause == told_.cause) {
+        told_.sinceS = health.sinceS;
+        return;
+    }
     // During a shutdown, no new pictures are expected, so the state Stalled is not a fault.
     if (stopReason_ && health.state == HealthState::Stalled) return;
     // One camera may be opened later than the other, so a short fault at the start is not logged.

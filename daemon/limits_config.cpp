@@ -37,8 +37,11 @@ std::uint64_t controlGroupMemory() {
     for (std::string line; std::getline(groups, line);) {
         if (!line.starts_with("0::/")) continue;
         const std::filesystem::path top = "/sys/fs/cgroup";
-        for (auto group = std::filesystem::path(line.substr(4)); !group.empty();
-             group = group.parent_path()) {
+        std::filesystem::path group = line.substr(4);
+        // The empty path is the topmost group that this process sees. In a container, it is the
+        // container's own group, which may have a limit.
+        for (bool isTop = false; !isTop; group = group.parent_path()) {
+            isTop = group.empty();
             std::uint64_t bytes = 0;
             std::ifstream limit(top / group / "memory.max");
             if (limit >> bytes && bytes > 0) least = least == 0 ? bytes : std::min(least, bytes);

@@ -25,7 +25,7 @@ public:
     [[nodiscard]] std::optional<Pose> at(Timestamp t) const;
 
     static constexpr std::chrono::milliseconds kLongestGap{100};
-    static constexpr std::size_t kLength = 32;  ///< one second of video
+    static constexpr std::size_t kLength = 256;  ///< two seconds of video at 120 Hz
 
 private:
     [[nodiscard]] const Pose& pose(std::size_t i) const;  ///< i = 0: the oldest

@@ -74,16 +74,16 @@ Rendering Session::rendering() const {
     Rendering out{describe(drawing_->engines),
                   gl_.context ? gl_.context->description() : "without OpenGL ES",
                   rig_.description()};
+    const bool isRead = drawing_->engines.uses(EngineKind::Gles) && gl_.context->planeImporter();
     if (out.source.starts_with("cameras"))
-        out.source +=
-            gl_.context && gl_.context->planeImporter() ? ", read in place by the GPU" : ", copied";
+        out.source += isRead ? ", read in place by the GPU" : ", copied";
     return out;
 }
 
 // Keeps a copy of the still for the report, and for a loss of the GPU. After a loss, the still is
 // restored from this copy, because the next still may come late or never.
 void Session::keepUsedStill(const CapturedStill& still) {
-    const bool mayBeLost = gl_.context && drawing_->engines.uses(EngineKind::Gles);
+    const bool mayBeLost = gl_.context != nullptr;
     if (!mayBeLost && !stats_.keepsHistory()) return;
     std::swap(usedStill_, formerStill_);
     if (!usedStill_) usedStill_.emplace();

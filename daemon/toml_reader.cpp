@@ -297,19 +297,24 @@ void TomlReader::refuseUnknown(const toml::table& table, const std::string& pref
         refuseUnknown(key, value, prefix + std::string(key.str()));
 }
 
+bool TomlReader::isPrefix(std::string_view text) const {
+    return std::ranges::any_of(known_,
+                               [&](const std::string& known) { return known.starts_with(text); });
+}
+
 void TomlReader::refuseUnknown(const toml::key& key, const toml::node& value,
                                const std::string& name) {
     if (std::find(known_.begin(), known_.end(), name) != known_.end()) {
-        // If the section is a list, the keys of each entry are checked.
+        // If the section is a list, the keys of each entry are checked. If no key of an entry was
+        // looked for, sections() has refused the whole list.
         if (const toml::array* list = value.as_array())
             for (std::size_t i = 0; i < list->size(); ++i)
-                if (const toml::table* section = (*list)[i].as_table())
-                    refuseUnknown(*section, fmt::format("{}[{}].", name, i));
+                if (const std::string entry = fmt::format("{}[{}].", name, i); isPrefix(entry))
+                    if (const toml::table* section = (*list)[i].as_table())
+                        refuseUnknown(*section, entry);
         return;
     }
-    const bool isSection = std::any_of(known_.begin(), known_.end(), [&](const std::string& known) {
-        return known.starts_with(name + ".");
-    });
+    const bool isSection = isPrefix(name + ".");
     if (isSection && value.is_table()) return refuseUnknown(*value.as_table(), name + ".");
     if (isSection)
         return fault(key.source(),

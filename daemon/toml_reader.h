@@ -80,6 +80,8 @@ private:
     void fault(const toml::source_region& at, std::string message);
     void refuseUnknown(const toml::table& table, const std::string& prefix);
     void refuseUnknown(const toml::key& key, const toml::node& value, const std::string& name);
+    /// Returns true if some key that was looked for starts with `text`.
+    [[nodiscard]] bool isPrefix(std::string_view text) const;
 
     std::string file_;
     std::span<const OptionSection> table_;

@@ -37,7 +37,7 @@ void readSun(TomlReader& file, std::optional<Sun>& sun) {
     file.numbers("light.sun.direction", {towards.data(), 3}, directionFault);
     file.numbers("light.sun.irradiance", {irradiance.data(), 3});
     file.number("light.sun.radius_deg", radiusDeg);
-    if (towards.isZero() && irradiance.x() < 0 && radiusDeg == 0) return;
+    if (!file.placeOf("light.sun")) return;
     sun.emplace();
     sun->towards.normalize();
     if (!towards.isZero()) sun->towards = towards.normalized().cast<float>();

@@ -52,6 +52,14 @@ colour = [0.5, 0.5, 0.5]
         << "a single colour must apply to the whole object";
 }
 
+TEST(ObjectsConfig, OfTooManyObjectsOnlyTheNumberIsReported) {
+    std::string text;
+    for (int i = 0; i < 65; ++i)
+        text += "[[objects]]\nshape = \"sphere\"\n";
+    EXPECT_EQ(configFaults(text),
+              "test.toml:1:1: found 65 sections [[objects]]; at most 64 are allowed");
+}
+
 TEST(ObjectsConfig, FaultsAreReportedWithLineAndColumn) {
     EXPECT_THAT(configFaults("[[objects]]\nshape = \"teapot\"\n"),
                 StartsWith("test.toml:2:9: objects[0].shape = \"teapot\": must be one of \"box\""));

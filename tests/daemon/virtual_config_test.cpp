@@ -65,11 +65,18 @@ sun = { direction = [0, 0, 2], irradiance = [3, 2, 1], radius_deg = 1 }
 }
 
 TEST(LightConfig, MissingSunKeysHaveDefaults) {
-    const LightOptions light =
-        parseConfig("[light.sun]\nirradiance = [1, 1, 1]\n", "test.toml").light;
-    ASSERT_TRUE(light.sun);
-    EXPECT_NEAR(light.sun->towards.norm(), 1, 1e-6F);
-    EXPECT_GT(light.sun->angularRadius, 0);
+    for (const char* keys : {"", "irradiance = [1, 1, 1]\n"}) {
+        const LightOptions light =
+            parseConfig(std::string("[light.sun]\n") + keys, "test.toml").light;
+        ASSERT_TRUE(light.sun) << keys;
+        EXPECT_NEAR(light.sun->towards.norm(), 1, 1e-6F);
+        EXPECT_GT(light.sun->angularRadius, 0);
+        EXPECT_GT(light.sun->irradiance.minCoeff(), 0);
+    }
+}
+
+TEST(LightConfig, WithoutASunSectionThereIsNoSun) {
+    EXPECT_FALSE(parseConfig("[light]\nexposure = 1.0\n", "test.toml").light.sun);
 }
 
 TEST(LightConfig, PicturePathsAreRelativeToTheFile) {
