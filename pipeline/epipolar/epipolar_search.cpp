@@ -253,7 +253,7 @@ void EpipolarSearch::refine(const Matrix6& covariance, std::span<const float> pr
 // extends beyond the searched part of the frame by up to the longest parallax on each side.
 bool EpipolarSearch::turnStill(const Eigen::Matrix3d& R_still_video, int levels) {
     const double beyond = options_.longestParallax * whole_.size.width / video_.size.width;
-    turned_.place(video_, still_, R_still_video, beyond);
+    turned_.place(video_, whole_, still_, R_still_video, beyond);
     if (turned_.size().width < kSmallestCanvas || turned_.size().height < kSmallestCanvas)
         return false;
     Level& fine = levels_[0];

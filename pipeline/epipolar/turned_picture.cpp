@@ -37,10 +37,12 @@ simd::Lens lensOf(const CameraModel& camera) {
 
 }  // namespace
 
-void TurnedPicture::know(const CameraModel& camera, const CameraModel& source) {
-    if (!isSame(camera, known_.camera)) {
-        known_.camera = camera;
-        known_.rim = rimOf(camera);
+void TurnedPicture::know(const CameraModel& camera, const CameraModel& whole,
+                         const CameraModel& source) {
+    known_.camera = camera;
+    if (!isSame(whole, known_.whole)) {
+        known_.whole = whole;
+        known_.rim = rimOf(whole);
     }
     if (isSame(source, known_.source)) return;
     known_.source = source;
@@ -81,14 +83,15 @@ Eigen::AlignedBox2d TurnedPicture::boundsOf(const Eigen::Matrix3d& R_source_came
     return before ? bounds.intersection(whole) : Eigen::AlignedBox2d();
 }
 
-void TurnedPicture::place(const CameraModel& camera, const CameraModel& source,
-                          const Eigen::Matrix3d& R_source_camera, double beyond) {
-    know(camera, source);
+void TurnedPicture::place(const CameraModel& camera, const CameraModel& whole,
+                          const CameraModel& source, const Eigen::Matrix3d& R_source_camera,
+                          double beyond) {
+    know(camera, whole, source);
     const double reach = beyond * camera.size.width;
-    const Eigen::AlignedBox2d whole(
+    const Eigen::AlignedBox2d extended(
         Eigen::Vector2d(-reach, -reach),
         Eigen::Vector2d(camera.size.width - 1 + reach, camera.size.height - 1 + reach));
-    const Eigen::AlignedBox2d bounds = boundsOf(R_source_camera, whole);
+    const Eigen::AlignedBox2d bounds = boundsOf(R_source_camera, extended);
     const Eigen::Vector2d &low = bounds.min(), &high = bounds.max();
     size_ = {};
     if (!((high - low).minCoeff() >= 1)) return;

@@ -20,8 +20,8 @@ public:
     /// Sets the position and the size of the canvas. The picture of `camera` is extended on each
     /// side by `beyond` times its width. The canvas is the part of this extended picture that shows
     /// the source's picture. If there is no such part, its size is 0x0. `R_source_camera` rotates
-    /// rays from `camera` to `source`.
-    void place(const CameraModel& camera, const CameraModel& source,
+    /// rays from `camera` to `source`. The picture of `camera` is that of `whole` or a part of it.
+    void place(const CameraModel& camera, const CameraModel& whole, const CameraModel& source,
                const Eigen::Matrix3d& R_source_camera, double beyond);
 
     [[nodiscard]] Size size() const { return size_; }
@@ -35,14 +35,14 @@ public:
               std::vector<std::uint8_t>& seen) const;
 
 private:
-    /// A pair of cameras, and values that depend only on these. The values are computed again when
-    /// the pair changes.
+    /// The cameras, and values that depend only on these. The values are computed again when a
+    /// camera changes.
     struct Cameras {
-        CameraModel camera, source;
+        CameraModel camera, whole, source;
         double rim = 0, sourceRim = 0;
         std::vector<Eigen::Vector2d> outline;
     };
-    void know(const CameraModel& camera, const CameraModel& source);
+    void know(const CameraModel& camera, const CameraModel& whole, const CameraModel& source);
     [[nodiscard]] Eigen::AlignedBox2d boundsOf(const Eigen::Matrix3d& R_source_camera,
                                                const Eigen::AlignedBox2d& whole) const;
     void mapGrid(const Eigen::Matrix3d& R_source_camera);

@@ -37,7 +37,7 @@ private:
 /// The GPU's copy of a field, as a texture. In CPU memory, a texel has one byte for R8, two bytes
 /// for Rg8, four bytes for Rgba8, one float for R32F, and four floats for other formats. If
 /// `floats` is true, the texture is Rgba8, but a texel in CPU memory has four floats in [0, 1].
-class TextureCopy final : public DeviceCopy {
+class TextureCopy : public DeviceCopy {
 public:
     /// Refers to a step's texture, which must outlive this object.
     explicit TextureCopy(const gpu::Texture& texture, bool floats = false)

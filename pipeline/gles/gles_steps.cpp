@@ -11,8 +11,10 @@
 #include "pipeline/gles/subpixel_corrector.h"
 #include "pipeline/simd/luma_rows.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cstring>
+#include <utility>
 
 namespace mfar::gles {
 namespace {
@@ -62,6 +64,30 @@ private:
     const ToneTexture& tone_;
 };
 
+/// The GPU's copy of StillPictures::picture. The texture of a picture that is not reduced has the
+/// channels of the still's format.
+class StillPictureCopy final : public TextureCopy {
+public:
+    StillPictureCopy(const gpu::Texture& picture, PixelFormat format)
+        : TextureCopy(picture), format_(format) {}
+
+    void download(void* data, std::ptrdiff_t pitch) override {
+        const std::vector<std::uint8_t> read = texture().readRgba8();
+        const auto [width, height] = texture().size();
+        for (int y = 0; y < height; ++y) {
+            std::uint8_t* row = static_cast<std::uint8_t*>(data) + y * pitch;
+            std::copy_n(read.data() + 4UL * y * width, 4UL * width, row);
+            for (std::uint8_t* pixel = row; pixel < row + 4UL * width; pixel += 4) {
+                if (format_ == PixelFormat::Bgra8) std::swap(pixel[0], pixel[2]);
+                if (format_ == PixelFormat::Gray8) pixel[1] = pixel[2] = pixel[0];
+            }
+        }
+    }
+
+private:
+    PixelFormat format_;
+};
+
 class GlesStill final : public StillStep {
 public:
     GlesStill(const StepSetup& setup, FrameOnGpu& frame)
@@ -77,7 +103,8 @@ public:
         lumaCopy_.setFormat(still.format);
         pictures_.tone = tone;
         ++pictures_.number;
-        pictureCopy_.emplace(still_.picture());
+        const bool isReduced = &still_.picture() != &still_.whole();
+        pictureCopy_.emplace(still_.picture(), isReduced ? PixelFormat::Rgba8 : still.format);
         pictures_.luma.writtenOnDevice(lumaCopy_, still_.whole().size());
         pictures_.raised.writtenOnDevice(raisedCopy_, still_.raised().size());
         pictures_.picture.writtenOnDevice(*pictureCopy_, still_.picture().size());
@@ -90,7 +117,7 @@ private:
     StillLumaCopy lumaCopy_;
     TextureCopy raisedCopy_;
     // Created again for each still, because the next still can be in another texture.
-    std::optional<TextureCopy> pictureCopy_;
+    std::optional<StillPictureCopy> pictureCopy_;
     StillPictures pictures_;
 };
 

@@ -40,7 +40,7 @@ struct Canvas {
 Canvas turned(const CameraModel& camera, const Eigen::Matrix3d& rotation) {
     Canvas out;
     Workers workers(2);
-    out.placed.place(camera, camera, rotation, kBeyond);
+    out.placed.place(camera, camera, camera, rotation, kBeyond);
     if (out.placed.size() == Size{}) return out;
     out.placed.draw(smoothPicture(camera.size), workers, out.picture, out.seen);
     return out;
@@ -172,6 +172,18 @@ TEST(TurnedPicture, TheCanvasIsAlignedAndEndsWithinTheGivenMarginOfThePicture) {
     }
 }
 
+TEST(TurnedPicture, AroundASmallPartTheCanvasReachesAsFarAsAroundTheWholePicture) {
+    for (const CameraModel& camera : {test::oddPlain(), test::oddBarrel()}) {
+        CameraModel part = camera;
+        part.size = {8, 8};
+        part.cx = part.cy = 3.5;
+        TurnedPicture canvas;
+        canvas.place(part, camera, camera, Eigen::Matrix3d::Identity(), camera.size.width);
+        EXPECT_GE(canvas.size().width, camera.size.width);
+        EXPECT_GE(canvas.size().height, camera.size.height);
+    }
+}
+
 TEST(TurnedPicture, PointsBehindTheCameraAreUnseen) {
     for (const CameraModel& camera : {test::oddPlain(), test::oddBarrel(), folding()}) {
         for (const Eigen::Matrix3d& rotation :
@@ -186,9 +198,9 @@ TEST(TurnedPicture, CanBeReusedForAnotherRotation) {
     const CameraModel camera = test::oddBarrel();
     Canvas canvas = turned(camera, turn(0, 20, 30));
     Workers workers(3);
-    canvas.placed.place(camera, camera, turn(0, 180, 0), kBeyond);
+    canvas.placed.place(camera, camera, camera, turn(0, 180, 0), kBeyond);
     EXPECT_EQ(canvas.placed.size(), Size{});
-    canvas.placed.place(camera, camera, turn(2, 3, 4), kBeyond);
+    canvas.placed.place(camera, camera, camera, turn(2, 3, 4), kBeyond);
     canvas.placed.draw(smoothPicture(camera.size), workers, canvas.picture, canvas.seen);
     const Canvas fresh = turned(camera, turn(2, 3, 4));
     EXPECT_EQ(canvas.picture.pixels, fresh.picture.pixels);
