@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace mfar {
 namespace {
@@ -110,8 +111,24 @@ void StructuredTiles::choose(std::span<const TileMeasure> tiles, int columns, do
     int above = 0, least = kStructureBins;
     while (least > 0 && above + bins[least - 1] <= most)
         above += bins[--least];
-    for (std::size_t i = 0; i < tiles.size(); ++i)
-        chosen_[i] = around_[i] > none && structureBin(around_[i]) >= least;
+    alike_.clear();
+    for (std::size_t i = 0; i < tiles.size(); ++i) {
+        const int bin = around_[i] > none ? structureBin(around_[i]) : -1;
+        chosen_[i] = bin >= least;
+        if (bin >= 0 && bin == least - 1) alike_.push_back(static_cast<int>(i));
+    }
+    chooseCentral(columns, most - above);
+}
+
+void StructuredTiles::chooseCentral(int columns, int most) {
+    const auto rows = static_cast<int>(chosen_.size()) / columns;
+    const auto distance = [&](int tile) {
+        const int x = 2 * (tile % columns) - columns + 1, y = 2 * (tile / columns) - rows + 1;
+        return std::pair(x * x + y * y, tile);
+    };
+    const auto end = alike_.begin() + std::clamp(most, 0, static_cast<int>(alike_.size()));
+    std::ranges::nth_element(alike_, end, {}, distance);
+    std::for_each(alike_.begin(), end, [&](int tile) { chosen_[tile] = true; });
 }
 
 int StructuredTiles::count() const {

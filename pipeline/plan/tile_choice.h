@@ -33,7 +33,8 @@ void markBeside(std::span<TileMeasure> tiles, int columns);
 
 /// Chooses the tiles that are matched with the still. These are the tiles whose structure exceeds
 /// the noise, and the neighbours of such tiles. (The weight of a cell depends on pixels beyond its
-/// tile.) If there are more of them than `most`, the tiles with the most structure are chosen.
+/// tile.) If there are more of them than `most`, the tiles with the most structure are chosen, and
+/// of tiles with about the same structure those that are nearest to the centre of the picture.
 /// Tiles of the last choice are preferred, so that noise does not make detail appear and vanish.
 class StructuredTiles {
 public:
@@ -48,8 +49,11 @@ public:
     [[nodiscard]] PixelRect bounds(int columns) const;
 
 private:
+    void chooseCentral(int columns, int most);
+
     std::vector<bool> chosen_;
     std::vector<float> around_;
+    std::vector<int> alike_;  // tiles in the highest bin of which not all tiles are chosen
     int candidates_ = 0;
 };
 
