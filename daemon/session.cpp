@@ -312,7 +312,7 @@ void Session::askForStill() {
     policy_.ask();
 }
 
-bool Session::mayTakeStill() const {
+bool Session::mayDemandStill() const {
     const SuperResMode mode = quality_ ? quality_->mode : config_.superres.mode;
     return mode != SuperResMode::Off && (!governor_ || governor_->mayTakeStill());
 }
@@ -320,7 +320,7 @@ bool Session::mayTakeStill() const {
 void Session::fireIfNeeded(Timestamp frame, const FrameStats& stats) {
     Trigger* trigger = rig_.trigger();
     if (trigger == nullptr) return;
-    if (policy_.decide(frame, previous_.value_or(frame), stats, mayTakeStill())) {
+    if (policy_.decide(frame, previous_.value_or(frame), stats, mayDemandStill())) {
         try {
             trigger->fire();
         } catch (const TriggerBusy&) {

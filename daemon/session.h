@@ -126,7 +126,7 @@ private:
     void process(CapturedFrame& captured);
     void takeStill(CapturedStill still);
     void useStill();
-    [[nodiscard]] bool mayTakeStill() const;
+    [[nodiscard]] bool mayDemandStill() const;
     void fireIfNeeded(Timestamp frame, const FrameStats& stats);
     void setUpQuality(SuperResMode best);
     void setQuality(const QualityLevel& level);

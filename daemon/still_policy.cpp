@@ -18,13 +18,13 @@ std::chrono::nanoseconds toNanoseconds(double s) {
 
 }  // namespace
 
-bool StillPolicy::decide(Timestamp now, Timestamp before, const FrameStats& stats,
-                         bool mayRequest) {
+bool StillPolicy::decide(Timestamp now, Timestamp before, const FrameStats& stats, bool mayDemand) {
     if (still_ && !usedSince_) usedSince_ = now;
     const bool moves = stats.changed > kMovedShare;
     if (moves && !moved_ && firedAt_ && now > *firedAt_) moved_ = now;
     if (moves && usedSince_ && now > *usedSince_) movedInUse_ = true;
-    const bool wants = asked_ || (mayRequest && wanted(now, before, stats));
+    const bool isDue = config_.mode == TriggerMode::Rate && (!due_ || now >= *due_);
+    const bool wants = asked_ || isDue || (mayDemand && demanded(now, before, stats));
     const bool fires = pending() ? timedOut(now) : wants;
     if (fires) fire(now);
     return fires;
@@ -53,9 +53,8 @@ void StillPolicy::stillArrived(Timestamp exposed) {
     notBefore_.reset();
 }
 
-bool StillPolicy::wanted(Timestamp now, Timestamp before, const FrameStats& stats) const {
-    if (config_.mode == TriggerMode::Off || (notBefore_ && now < *notBefore_)) return false;
-    if (config_.mode == TriggerMode::Rate) return !due_ || now >= *due_;
+bool StillPolicy::demanded(Timestamp now, Timestamp before, const FrameStats& stats) const {
+    if (config_.mode != TriggerMode::Demand || (notBefore_ && now < *notBefore_)) return false;
     if (!still_) return true;
     if (firedAt_ && now - *firedAt_ < toNanoseconds(config_.minIntervalS)) return false;
     if (movedInUse_ && now - *still_ > toNanoseconds(config_.maxAgeS)) return true;

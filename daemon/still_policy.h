@@ -43,10 +43,10 @@ public:
 
     /// Must be called once per frame. If it returns true, the caller must fire the trigger now.
     /// `stats` are those of the newest frame, at time `now`. FrameStats::explained may be that of
-    /// the frame before, at time `before`. If `mayRequest` is false, only ask() and a lost still
-    /// cause a trigger.
+    /// the frame before, at time `before`. If `mayDemand` is false, mode demand requests no new
+    /// still, but continues to watch for motion.
     [[nodiscard]] bool decide(Timestamp now, Timestamp before, const FrameStats& stats,
-                              bool mayRequest = true);
+                              bool mayDemand = true);
 
     /// Requests a still at the next call of decide(), in every mode.
     void ask() { asked_ = true; }
@@ -67,7 +67,7 @@ public:
     [[nodiscard]] int repetitions() const { return repetitions_; }
 
 private:
-    [[nodiscard]] bool wanted(Timestamp now, Timestamp before, const FrameStats& stats) const;
+    [[nodiscard]] bool demanded(Timestamp now, Timestamp before, const FrameStats& stats) const;
     [[nodiscard]] bool timedOut(Timestamp now);
     void fire(Timestamp now);
 

@@ -34,7 +34,7 @@ public:
                 answerAt.reset();
             }
             if (!policy.decide(Timestamp::fromSeconds(now), Timestamp::fromSeconds(now - kFrame),
-                               stats, mayRequest))
+                               stats, mayDemand))
                 continue;
             ++fired;
             firedAt.push_back(now);
@@ -45,7 +45,7 @@ public:
 
     StillPolicy policy;
     double now = 100;
-    bool mayRequest = true;
+    bool mayDemand = true;
     double latency = 0.2;
     bool answers = true;
     std::optional<double> answerAt;
@@ -110,23 +110,26 @@ TEST(StillPolicy, AViewThatTheStillDoesNotShowFiresTheTrigger) {
     EXPECT_EQ(board.run(kFrame * 1.5, kMovingUnexplained), 1);
 }
 
-TEST(StillPolicy, MotionWhileNoStillMayBeRequestedIsRemembered) {
+TEST(StillPolicy, MotionWhileNoStillMayBeDemandedIsRemembered) {
     Simulation board({});
     board.run(2, kRest);
-    board.mayRequest = false;
+    board.mayDemand = false;
     EXPECT_EQ(board.run(1, kMovingUnexplained), 0);
-    board.mayRequest = true;
+    board.mayDemand = true;
     EXPECT_EQ(board.run(30, frame(0.2, 0)), 1);
 }
 
-TEST(StillPolicy, IfNoStillMayBeRequestedACommandStillFiresTheTrigger) {
-    for (const TriggerMode mode : {TriggerMode::Demand, TriggerMode::Rate, TriggerMode::Off}) {
+TEST(StillPolicy, IfNoStillMayBeDemandedCommandsAndModeRateStillFireTheTrigger) {
+    for (const TriggerMode mode : {TriggerMode::Demand, TriggerMode::Off}) {
         Simulation board({.mode = mode});
-        board.mayRequest = false;
+        board.mayDemand = false;
         EXPECT_EQ(board.run(3, kMovingUnexplained), 0);
         board.policy.ask();
         EXPECT_EQ(board.run(3, kMovingUnexplained), 1);
     }
+    Simulation rate({.mode = TriggerMode::Rate, .rateHz = 2});
+    rate.mayDemand = false;
+    EXPECT_EQ(rate.run(2.9, kRest), 6);
 }
 
 TEST(StillPolicy, AfterMotionWithinTheViewOfTheStillTheTriggerFiresOnlyAtTheAgeLimit) {
