@@ -292,11 +292,10 @@ void App::logHealth(const Health& health) {
     if (health.isDevice && !isProven_ && health.sinceS < kOpeningTime) return;
     if (health.state != HealthState::Ok)
         log_.warning(sentence(health), health.cause, subjectOf(health));
-    else if (told_.isDevice)
-        log_.change("all devices are available again", {}, {message::kRecovered});
     else
-        log_.change(fmt::format("works again after {:.1f} s", told_.sinceS), "works again",
-                    {message::kRecovered});
+        log_.change(told_.isDevice ? "all devices are available again"
+                                   : fmt::format("works again after {:.1f} s", told_.sinceS),
+                    "end of " + told_.cause, {message::kRecovered});
     told_ = health;
 }
 
