@@ -5,7 +5,6 @@
 #include "daemon/options.h"
 #include "daemon/restart_pause.h"
 #include "daemon/rig.h"
-#include "daemon/taken_line.h"
 
 #include <fmt/format.h>
 
@@ -13,22 +12,6 @@
 
 #include <cstdio>
 #include <cstdlib>
-#include <optional>
-
-namespace mfar {
-namespace {
-
-/// Returns the trigger line to release. If mfard runs as a service, this is the line in the
-/// service's note, see takenLineFile(); the configuration may have changed since that note was
-/// written. If mfard is no service, it is the configured line.
-TriggerLineConfig lineToRelease(const Options& options) {
-    const std::filesystem::path note = takenLineFile();
-    if (note.empty()) return effectiveConfig(options).cameras.trigger;
-    return takenLine(note).value_or(TriggerLineConfig{});
-}
-
-}  // namespace
-}  // namespace mfar
 
 int main(int argc, char** argv) {
     using namespace mfar;
@@ -49,7 +32,7 @@ int main(int argc, char** argv) {
             return static_cast<int>(ExitCode::Ok);
         }
         if (line.options.releaseTrigger) {
-            releaseTrigger(lineToRelease(line.options));
+            releaseTrigger(effectiveConfig(line.options).cameras.trigger);
             return static_cast<int>(ExitCode::Ok);
         }
         App app(line.options, log);

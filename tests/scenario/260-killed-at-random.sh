@@ -2,11 +2,12 @@
 # mfard is killed at random moments, also during a trigger pulse. Each start must show its first
 # picture within five seconds and replace the control socket of the dead process. The hook that
 # systemd runs after a crash must release the trigger line. Every recording must be readable. Usage:
-# 260-killed-at-random.sh MFARD MFAR-SIM PRETENDED.so [TIMES]
+# 260-killed-at-random.sh MFARD MFAR-SIM PRETENDED.so TIMES RELEASE-TRIGGER
 . "$(dirname "$0")/lib.sh"
 
 pretended=$3
-times=${4:-20}
+times=$4
+release=$5
 ctl="$(dirname "$sim")/mfarctl"
 RANDOM=${MFAR_SEED:-7}
 mkdir state run
@@ -53,9 +54,7 @@ for round in $(seq "$times"); do
     kill -KILL "$pid"
     wait "$pid" 2>/dev/null || true
     if is_active; then active=$((active + 1)); fi
-    export LD_PRELOAD=$pretended
-    run 0 --release-trigger
-    unset LD_PRELOAD
+    LD_PRELOAD=$pretended "$release" || fail "round $round: release-trigger failed"
     if is_active; then fail "round $round: the trigger line is still active"; fi
 done
 [ $active -ge $((times / 10)) ] || fail "only $active of $times kills happened during a trigger pulse; expected: a tenth or more"

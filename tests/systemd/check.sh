@@ -86,7 +86,8 @@ for key in MemoryMax OOMPolicy TasksMax LimitNOFILE; do
 done
 grep -Eq '^ExecStopPost=-?[^+!:@]' "$unit" ||
     fault "ExecStopPost= of the service runs outside its sandbox"
-grep -q '^ExecStopPost=.*--config' "$unit" && fault "ExecStopPost= reads the configuration"
+grep -q "^ExecStopPost=-/.*/lib/mfar/release-trigger$" "$unit" ||
+    fault "ExecStopPost= does not release the trigger line"
 
 # is-trigger-chip must accept only the GPIO chip of the configured line, by any of its names.
 isChip() {

@@ -61,7 +61,7 @@ while IFS= read -r program; do
     [[ -s $work/tree/docs/man/$program.1 ]] || fault "$program has no manual page"
     grep -q "[( ]$program[ )]" "$sources/systemd/CMakeLists.txt" ||
         fault "the package does not install the manual page $program.1"
-done < <(sed -n 's/^install(TARGETS \(.*\) RUNTIME.*/\1/p' "$sources"/daemon/CMakeLists.txt \
+done < <(sed -n 's/^install(TARGETS \(.*\) RUNTIME DESTINATION bin)/\1/p' "$sources"/daemon/CMakeLists.txt \
     "$sources"/daemon/tools/CMakeLists.txt | tr ' ' '\n')
 
 if command -v groff >/dev/null; then
