@@ -46,6 +46,13 @@ std::ofstream openSummary(const Options& options, const Config& config) {
     return file;
 }
 
+// The message names the camera, because the log writes the same message only once in ten seconds.
+// So if both cameras return within this time, both messages are written at once.
+std::string recovered(std::string_view camera) {
+    return camera == "video" || camera == "still" ? fmt::format("the {} camera works again", camera)
+                                                  : "all devices are available again";
+}
+
 }  // namespace
 
 App::App(const Options& options, Log& log)
@@ -292,10 +299,11 @@ void App::logHealth(const Health& health) {
     if (health.isDevice && !isProven_ && health.sinceS < kOpeningTime) return;
     if (health.state != HealthState::Ok)
         log_.warning(sentence(health), health.cause, subjectOf(health));
+    else if (told_.isDevice)
+        log_.change(recovered(subjectOf(told_).camera), {}, {message::kRecovered});
     else
-        log_.change(told_.isDevice ? "all devices are available again"
-                                   : fmt::format("works again after {:.1f} s", told_.sinceS),
-                    "end of " + told_.cause, {message::kRecovered});
+        log_.change(fmt::format("works again after {:.1f} s", told_.sinceS), "works again",
+                    {message::kRecovered});
     told_ = health;
 }
 
