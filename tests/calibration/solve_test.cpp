@@ -27,8 +27,7 @@ void expectCamera(const SensorResult& found, const CameraModel& truth) {
     EXPECT_LT(std::abs(c.distortion[0] - truth.distortion[0]), 4 * found.deviations[4]);
 }
 
-void expectRig(const Calibration& found) {
-    const StereoRig truth = trueRig();
+void expectRig(const Calibration& found, const StereoRig& truth = trueRig()) {
     expectCamera(found.video, truth.video);
     expectCamera(found.still, truth.still);
     const RigidTransform &T = found.rig.rig.T_still_video, &E = truth.T_still_video;
@@ -50,6 +49,19 @@ TEST(Calibrate, FindsLensesBaselineAndClockOffsetInNoise) {
     EXPECT_LT(found.offsetDeviation, 0.0002);
     EXPECT_NEAR(found.video.rms, motion.noise * std::sqrt(2), 0.02);
     EXPECT_NEAR(found.still.rms, motion.noise * std::sqrt(2), 0.02);
+}
+
+TEST(Calibrate, TiltedViewsOfAWideLensAreUsed) {
+    Motion motion;
+    motion.tilt = 0.8;
+    motion.aside = 0.3;
+    motion.distance = 0.5;
+    const BothViews views = makeViews(kGrid, motion, wideRig());
+    const Calibration found = calibrate(kGrid, views.video, views.still, {});
+    expectRig(found, wideRig());
+    for (const SensorResult* sensor : {&found.video, &found.still})
+        for (const ViewResult& view : sensor->views)
+            EXPECT_TRUE(view.used || view.corners.size() < 20) << view.time.seconds();
 }
 
 TEST(Calibrate, ClockOffsetsOfManyFrameIntervalsAreFound) {

@@ -62,9 +62,14 @@ StereoRig trueRig() {
     return synthetic::boardRig();
 }
 
-BothViews makeViews(const Target& target, const Motion& motion) {
+StereoRig wideRig() {
+    StereoRig rig = trueRig();
+    rig.still = {{4608, 2592}, 2100, 2105, 2290, 1310, {-0.08, 0.01, 0.0005, -0.0003, 0}};
+    return rig;
+}
+
+BothViews makeViews(const Target& target, const Motion& motion, const StereoRig& rig) {
     std::mt19937 random(static_cast<std::mt19937::result_type>(motion.seed));
-    const StereoRig rig = trueRig();
     BothViews out{{rig.video.size, {}}, {rig.still.size, {}}};
     const auto time = [](double t) { return Timestamp::fromSeconds(100 + t); };
     for (double t = 0; t < motion.seconds; t += 1 / kRateHz)

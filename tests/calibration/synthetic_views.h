@@ -19,11 +19,14 @@ struct Motion {
 };
 
 [[nodiscard]] StereoRig trueRig();
+/// A rig like trueRig(), but with a still camera of 4608x2592 pixels and 95 degrees.
+[[nodiscard]] StereoRig wideRig();
 
 struct BothViews {
     calibration::SensorViews video, still;
 };
 
-[[nodiscard]] BothViews makeViews(const calibration::Target& target, const Motion& motion);
+[[nodiscard]] BothViews makeViews(const calibration::Target& target, const Motion& motion,
+                                  const StereoRig& rig = trueRig());
 
 }  // namespace mfar::test

@@ -4,6 +4,7 @@
 #include <opencv2/calib3d.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -14,8 +15,12 @@ constexpr int kLeastCorners = 6;
 constexpr int kRounds = 4;          // each round fits a camera, then removes bad corners and views
 constexpr double kCornerLimit = 6;  // corners with a longer residual are removed [sigma]
 constexpr double kLeastSigma = 0.01;
-// Largest RMS error of a view [px]. A view with a larger error does not show the target.
-constexpr double kMaxViewError = 20;
+// Largest RMS error of a view, as a share of the picture's width. A view with a larger error does
+// not show the target.
+constexpr double kMaxViewError = 0.03;
+// Focal lengths of the first estimate, as multiples of the picture's width. They correspond to
+// horizontal fields of view from 106 to 18 degrees.
+constexpr std::array kFocalLengths{0.38, 0.54, 0.76, 1.07, 1.5, 2.1, 3.0};
 
 struct Points {
     std::vector<cv::Point3f> target;
@@ -89,7 +94,7 @@ std::vector<int> mostDifferent(const std::vector<TargetView>& views,
 }
 
 CameraModel calibrated(const Target& target, const std::vector<TargetView>& views,
-                       const std::vector<int>& chosen, Size picture) {
+                       const std::vector<int>& chosen, const CameraModel& guess) {
     std::vector<std::vector<cv::Point3f>> on;
     std::vector<std::vector<cv::Point2f>> seen;
     for (const int i : chosen) {
@@ -97,9 +102,8 @@ CameraModel calibrated(const Target& target, const std::vector<TargetView>& view
         on.push_back(std::move(p.target));
         seen.push_back(std::move(p.picture));
     }
-    const CameraModel guess = guessedCamera(picture);
     cv::Mat K(matrixOf(guess)), D = cv::Mat::zeros(5, 1, CV_64F), turns, places;
-    cv::calibrateCamera(on, seen, {picture.width, picture.height}, K, D, turns, places,
+    cv::calibrateCamera(on, seen, {guess.size.width, guess.size.height}, K, D, turns, places,
                         cv::CALIB_FIX_K3 | cv::CALIB_USE_INTRINSIC_GUESS);
     CameraModel out = guess;
     out.fx = K.at<double>(0, 0);
@@ -146,12 +150,18 @@ bool dropCorners(const Target& target, TargetView& view, const CameraFit& fit,
 }
 
 /// Computes the target's pose in each view with the fitted camera. Removes corners and views that
-/// do not fit. Returns true if a corner or view was removed.
-bool placeViews(const Target& target, std::vector<TargetView>& views, CameraFit& fit) {
-    for (std::size_t i = 0; i < views.size(); ++i)
-        if (fit.poses[i]) fit.poses[i] = targetPose(target, views[i], fit.camera);
-    fit.sigma = spreadOf(target, views, fit);
+/// do not fit. `outside`: true for each view that was removed before. Returns true if a corner or
+/// view was added or removed.
+bool placeViews(const Target& target, std::vector<TargetView>& views, CameraFit& fit,
+                std::vector<bool>& outside) {
     bool changed = false;
+    for (std::size_t i = 0; i < views.size(); ++i) {
+        if (outside[i]) continue;
+        const bool wasPlaced = fit.poses[i].has_value();
+        fit.poses[i] = targetPose(target, views[i], fit.camera);
+        changed = changed || fit.poses[i].has_value() != wasPlaced;
+    }
+    fit.sigma = spreadOf(target, views, fit);
     std::vector<double> errors;
     std::vector<std::size_t> placed;
     for (std::size_t i = 0; i < views.size(); ++i) {
@@ -168,6 +178,7 @@ bool placeViews(const Target& target, std::vector<TargetView>& views, CameraFit&
     for (std::size_t k = 0; k < placed.size(); ++k) {
         if (!bad[k]) continue;
         fit.poses[placed[k]].reset();
+        outside[placed[k]] = true;
         changed = true;
     }
     return changed;
@@ -188,7 +199,8 @@ std::optional<RigidTransform> targetPose(const Target& target, const TargetView&
         return std::nullopt;
     }
     RigidTransform T = transformOf(rotation, translation);
-    if (!(T.translation.z() > 0) || !(rms(residualsOf(target, view, camera, T)) < kMaxViewError))
+    const double error = rms(residualsOf(target, view, camera, T));
+    if (!(T.translation.z() > 0) || !(error < kMaxViewError * camera.size.width))
         return std::nullopt;
     return T;
 }
@@ -211,13 +223,26 @@ double rms(const std::vector<Eigen::Vector2d>& residuals) {
     return residuals.empty() ? 0 : std::sqrt(sum / static_cast<double>(residuals.size()));
 }
 
-CameraModel guessedCamera(Size picture) {
-    CameraModel out;
-    out.size = picture;
-    out.fx = out.fy = 1.07 * picture.width;
-    out.cx = 0.5 * (picture.width - 1);
-    out.cy = 0.5 * (picture.height - 1);
-    return out;
+CameraModel guessedCamera(const Target& target, const std::vector<TargetView>& views,
+                          Size picture) {
+    CameraModel camera, best;
+    camera.size = picture;
+    camera.cx = 0.5 * (picture.width - 1);
+    camera.cy = 0.5 * (picture.height - 1);
+    double least = std::numeric_limits<double>::infinity();
+    for (const double focal : kFocalLengths) {
+        camera.fx = camera.fy = focal * picture.width;
+        double sum = 0;
+        for (const TargetView& view : views) {
+            const auto pose = targetPose(target, view, camera);
+            sum += pose ? rms(residualsOf(target, view, camera, *pose))
+                        : kMaxViewError * picture.width;
+        }
+        if (!(sum < least)) continue;
+        least = sum;
+        best = camera;
+    }
+    return best;
 }
 
 std::vector<bool> outliers(const std::vector<double>& values) {
@@ -236,12 +261,14 @@ std::vector<bool> outliers(const std::vector<double>& values) {
 CameraFit fitCamera(const Target& target, std::vector<TargetView>& views, Size picture,
                     const std::string& sensor, int most) {
     CameraFit fit;
+    const CameraModel guess = guessedCamera(target, views, picture);
     for (const TargetView& view : views)
-        fit.poses.push_back(targetPose(target, view, guessedCamera(picture)));
+        fit.poses.push_back(targetPose(target, view, guess));
+    std::vector<bool> outside(views.size());
     for (int round = 0; round < kRounds; ++round) {
         fit.chosen = mostDifferent(views, fit.poses, picture, most);
         try {
-            fit.camera = calibrated(target, views, fit.chosen, picture);
+            fit.camera = calibrated(target, views, fit.chosen, guess);
         } catch (const cv::Exception& e) {
             throw Unsuitable(fmt::format("the views of the {} sensor do not determine its lens; "
                                          "take pictures of the target from more directions ({})",
@@ -251,7 +278,7 @@ CameraFit fitCamera(const Target& target, std::vector<TargetView>& views, Size p
             throw Unsuitable(fmt::format("the views of the {} sensor do not determine its lens; "
                                          "take pictures of the target from more directions",
                                          sensor));
-        if (!placeViews(target, views, fit)) break;
+        if (!placeViews(target, views, fit, outside)) break;
     }
     std::erase_if(fit.chosen, [&](int i) { return !fit.poses[i]; });
     return fit;

@@ -17,7 +17,7 @@ class Unsuitable : public std::runtime_error {
 };
 
 /// Returns the pose T_camera_target of the target in one view. Returns nothing if the view has
-/// fewer than six corners, or if its corners do not fit a plane.
+/// fewer than six corners, or if its RMS error exceeds 3 % of the picture's width.
 [[nodiscard]] std::optional<RigidTransform> targetPose(const Target& target, const TargetView& view,
                                                        const CameraModel& camera);
 
@@ -27,8 +27,10 @@ class Unsuitable : public std::runtime_error {
                                                        const RigidTransform& T_camera_target);
 [[nodiscard]] double rms(const std::vector<Eigen::Vector2d>& residuals);
 
-/// Returns a first estimate with a field of view of 50 degrees.
-[[nodiscard]] CameraModel guessedCamera(Size picture);
+/// Returns a first estimate of the camera: without distortion, and with the focal length, out of a
+/// few, that fits the views best.
+[[nodiscard]] CameraModel guessedCamera(const Target& target, const std::vector<TargetView>& views,
+                                        Size picture);
 
 /// Throws Unsuitable unless at least `leastViews` views cover the picture and show the target from
 /// different directions and at different depths. `sensor` names the sensor in the message.

@@ -84,9 +84,14 @@ std::string resultText(const Calibration& calibration) {
                          "clocks: add {:.3f} ms to still times to get video times, +- {:.3f} ms\n",
                          1000 * calibration.rig.stillTimeOffset,
                          1000 * calibration.offsetDeviation);
-    return out + "clocks: the offset of the still's clock was not measured and is taken as 0, "
-                 "because --max-offset is 0 or the camera moved too little while stills were "
-                 "taken\n";
+    const double recorded = calibration.rig.stillTimeOffset;
+    return out + fmt::format("clocks: the offset of the still's clock was not measured and {}, "
+                             "because --max-offset is 0 or the camera moved too little while "
+                             "stills were taken\n",
+                             recorded == 0
+                                 ? "is taken as 0"
+                                 : fmt::format("stays {:.3f} ms, as the stills were recorded",
+                                               1000 * recorded));
 }
 
 }  // namespace mfar::calibration

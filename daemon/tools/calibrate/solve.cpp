@@ -56,6 +56,7 @@ public:
         std::optional<RigBundle> bundle = adjusted(start_.offset, true, out);
         if (!out.offsetKnown) bundle = adjusted(0, false, out);
         if (leaveOut(*bundle)) bundle = adjusted(bundle->offset(), out.offsetKnown, out);
+        if (!out.offsetKnown && bundle->offset() != 0) bundle = adjusted(0, false, out);
         out.rig = {bundle->rig(), bundle->offset()};
         out.extrinsicDeviations = bundle->deviations().segment<6>(kExtrinsicAt);
         out.offsetDeviation = bundle->deviations()[kOffsetAt];

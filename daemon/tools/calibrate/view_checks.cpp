@@ -34,7 +34,7 @@ struct Spread {
 };
 
 Spread spreadOf(const Target& target, const std::vector<TargetView>& views, Size picture) {
-    const CameraModel camera = guessedCamera(picture);
+    const CameraModel camera = guessedCamera(target, views, picture);
     std::vector<Eigen::Vector3d> normals;
     std::vector<double> depths;
     for (const TargetView& view : views) {
