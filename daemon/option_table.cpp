@@ -210,7 +210,7 @@ constexpr Option kPose[] = {
          "of the recording or the tags of the simulated board; if there is no map, the largest tag "
          "of the first picture with a tag defines the world."),
     {"families", OptionType::Texts, R"(["tag36h11"])",
-     "Tag families that are searched when there is no map.", kFamilies},
+     "Tag families that are searched without a map; with a tags.yaml, its family.", kFamilies},
     number("tag_size", kTagSize, "0.1",
            "Edge length of the tag that defines the world when there is no map."),
     number("decimation", {1, 8, ""}, "2.0",

@@ -4,6 +4,8 @@
 #include "daemon/exit_code.h"
 #include "daemon/toml_reader.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -57,17 +59,22 @@ std::optional<PoseOrigin> poseOrigin(std::string_view word) {
     return std::nullopt;
 }
 
-TagMap readTagMap(const std::filesystem::path& file) {
+TagMap readTagMap(const std::filesystem::path& file, TagFamily ofRosMap) {
     std::error_code ignored;
     const bool there = std::filesystem::exists(file, ignored);
     return orFail<TagMapError>(there ? ExitCode::BadData : ExitCode::NoInput,
-                               [&] { return loadTagMap(file); });
+                               [&] { return loadTagMap(file, ofRosMap); });
 }
 
 TagMap configuredTags(const PoseConfig& pose) {
     // With recorded poses, objects on tags need the map, too.
     if (pose.source == PoseOrigin::None || pose.tags.empty()) return {};
-    return readTagMap(pose.tags);
+    if (isRosTagMap(pose.tags) && pose.families.size() != 1)
+        throw Failure(ExitCode::BadData,
+                      fmt::format("{}: the file does not name the family of its tags, so families "
+                                  "in [pose] must name only this one",
+                                  pose.tags.string()));
+    return readTagMap(pose.tags, pose.families.front());
 }
 
 TrackerOptions trackerOptions(const PoseConfig& pose, TagMap map, double rateHz) {

@@ -40,11 +40,13 @@ void readPose(TomlReader& file, PoseConfig& pose);
 [[nodiscard]] std::optional<PoseOrigin> poseOrigin(std::string_view word);
 
 /// Returns the configured tag map. It is empty if no map is configured or poses do not come from
-/// tags. Throws like readTagMap().
+/// tags. Throws like readTagMap(), and Failure(BadData) for the map of apriltag_ros if `families`
+/// does not have exactly one family.
 [[nodiscard]] TagMap configuredTags(const PoseConfig& pose);
 
 /// Throws Failure(NoInput) if the file does not exist, Failure(BadData) if it is invalid.
-[[nodiscard]] TagMap readTagMap(const std::filesystem::path& file);
+[[nodiscard]] TagMap readTagMap(const std::filesystem::path& file,
+                                TagFamily ofRosMap = TagFamily::Tag36h11);
 
 /// `rateHz`: frames per second of the video.
 [[nodiscard]] TrackerOptions trackerOptions(const PoseConfig& pose, TagMap map, double rateHz);

@@ -45,9 +45,13 @@ std::vector<TagFamily> TagMap::families() const {
     return out;
 }
 
-TagMap loadTagMap(const std::filesystem::path& file) {
-    const std::string text = readAll(file), ending = file.extension().string();
-    if (ending == ".yaml" || ending == ".yml") return tagMapFromRosYaml(text, file.string());
+bool isRosTagMap(const std::filesystem::path& file) {
+    return file.extension() == ".yaml" || file.extension() == ".yml";
+}
+
+TagMap loadTagMap(const std::filesystem::path& file, TagFamily ofRosMap) {
+    const std::string text = readAll(file);
+    if (isRosTagMap(file)) return tagMapFromRosYaml(text, file.string(), ofRosMap);
     return tagMapFromToml(text, file.string());
 }
 

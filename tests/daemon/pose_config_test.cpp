@@ -50,6 +50,15 @@ TEST(PoseConfig, WithRecordedPosesTheTagMapIsReadForTheObjects) {
     EXPECT_EQ(configuredTags(recorded).tags().size(), 1U);
 }
 
+TEST(PoseConfig, TheFamilyOfARosTagMapIsConfigured) {
+    const test::TempFolder folder;
+    test::writeFile(folder / "tags.yaml", "standalone_tags: [{id: 4, size: 0.3}]");
+    PoseConfig pose{PoseOrigin::Tags, folder / "tags.yaml", {TagFamily::Tag25h9}};
+    EXPECT_NE(configuredTags(pose).find({TagFamily::Tag25h9, 4}), nullptr);
+    pose.families.push_back(TagFamily::Tag36h11);
+    EXPECT_THROW((void)configuredTags(pose), Failure);
+}
+
 TEST(PoseConfig, AnUnusedTagMapMayBeMissing) {
     const PoseConfig none{PoseOrigin::None, "/nonexistent/tags.toml"};
     EXPECT_TRUE(configuredTags(none).empty());
