@@ -191,11 +191,12 @@ std::function<std::shared_ptr<Recorder>()>
 Rig::makeRecording(const std::filesystem::path& folder) const {
     const std::lock_guard lock(mutex_);
     requireNoRecorder();
-    return
-        [folder, rig = geometry(), rateHz = source_->video().info().rateHz, options = recording_] {
-            return orFail(ExitCode::OutputFailed,
-                          [&] { return std::make_shared<Recorder>(folder, rig, rateHz, options); });
-        };
+    RecorderOptions options = recording_;
+    options.stillTimeOffset = static_cast<double>(stillTimeOffset().count()) * 1e-9;
+    return [folder, rig = geometry(), rateHz = source_->video().info().rateHz, options] {
+        return orFail(ExitCode::OutputFailed,
+                      [&] { return std::make_shared<Recorder>(folder, rig, rateHz, options); });
+    };
 }
 
 void Rig::startRecording(std::shared_ptr<Recorder> recorder) {

@@ -46,7 +46,8 @@ RigCalibration readOwn(const YamlReader& in, const WantedSizes& wanted) {
 RigCalibration readEuroc(const fs::path& video, const fs::path& still, const WantedSizes& wanted) {
     const SensorYaml v = readSensorYaml(video, wanted.video);
     const SensorYaml s = readSensorYaml(still, wanted.still);
-    RigCalibration out{{v.camera, s.camera, s.T_body_sensor.inverse() * v.T_body_sensor}};
+    RigCalibration out{{v.camera, s.camera, s.T_body_sensor.inverse() * v.T_body_sensor},
+                       s.timeOffset};
     readYaml(still, [&](const YamlReader& in) {
         plausible::checkBaseline(in, in.at("T_BS"), out.rig.T_still_video);
     });

@@ -48,6 +48,8 @@ SensorYaml readSensor(const YamlReader& in, std::optional<Size> wanted) {
     const YAML::Node data = in.data(in.at("T_BS"), "T_BS");
     out.T_body_sensor = plausible::transform(in, data, in.matrix(data, 4, 4, "T_BS"), "T_BS");
     out.rateHz = readRate(in);
+    if (in.has("time_offset"))
+        out.timeOffset = plausible::timeOffset(in, in.at("time_offset"), "time_offset");
     return out;
 }
 
@@ -66,6 +68,11 @@ std::string sensorYamlText(const SensorYaml& sensor, std::string_view comment) {
     std::string rows;
     for (int i = 0; i < 3; ++i)
         rows += fmt::format("{}, {}, {}, {},\n         ", r(i, 0), r(i, 1), r(i, 2), t(i));
+    const std::string offset =
+        sensor.timeOffset == 0
+            ? ""
+            : fmt::format("time_offset: {} #s, was added to the camera's times\n",
+                          sensor.timeOffset);
     return fmt::format("sensor_type: camera\n"
                        "comment: {}\n"
                        "T_BS:\n  cols: 4\n  rows: 4\n  data: [{}0.0, 0.0, 0.0, 1.0]\n"
@@ -74,9 +81,10 @@ std::string sensorYamlText(const SensorYaml& sensor, std::string_view comment) {
                        "camera_model: pinhole\n"
                        "intrinsics: [{}, {}, {}, {}] #fu, fv, cu, cv\n"
                        "distortion_model: radial-tangential\n"
-                       "distortion_coefficients: [{}]\n",
+                       "distortion_coefficients: [{}]\n"
+                       "{}",
                        comment, rows, sensor.rateHz, c.size.width, c.size.height, c.fx, c.fy, c.cx,
-                       c.cy, fmt::join(c.distortion, ", "));
+                       c.cy, fmt::join(c.distortion, ", "), offset);
 }
 
 }  // namespace mfar

@@ -15,6 +15,7 @@ struct SensorYaml {
     CameraModel camera;
     RigidTransform T_body_sensor;  ///< T_BS: sensor coordinates -> body coordinates
     double rateHz = 0;             ///< 0: pictures on trigger only, or no rate_hz in the file
+    double timeOffset = 0;         ///< was added to the camera's times [s]; 0: no time_offset
 };
 
 /// Reads a sensor.yaml. Throws CalibrationError if the model is not a pinhole camera, a number is

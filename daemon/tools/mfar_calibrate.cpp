@@ -48,7 +48,8 @@ void run(const CalibrateArguments& a) {
     const Recording recording = loadRecording(a.recording);
     const SensorViews video = look(recording.video, recording.rig.video.size, target, "video");
     const SensorViews still = look(recording.stills, recording.rig.still.size, target, "still");
-    const Calibration calibration = calibrate(target, video, still, a.solve);
+    Calibration calibration = calibrate(target, video, still, a.solve);
+    calibration.rig.stillTimeOffset += recording.stillTimeOffset;
     fmt::print("{}{}", viewsText(calibration), resultText(calibration));
     saveRig(a.out, calibration.rig);
     saveResidualPicture(a.out / "residuals.png", calibration);

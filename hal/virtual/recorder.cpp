@@ -46,9 +46,10 @@ Recorder::Recorder(const fs::path& root, const StereoRig& rig, double videoRateH
       poses_{root / "state_groundtruth_estimate0"}, syncer_(1, options.writer),
       writer_(1, options.writer) {
     if (!(videoRateHz > 0)) throw std::runtime_error("a recording needs a video rate above 0 Hz");
-    beginCamera(video_.folder, {rig.video, {}, videoRateHz},
+    beginCamera(video_.folder, {rig.video, {}, videoRateHz, 0},
                 "video sensor; its frame is the body frame");
-    beginCamera(still_.folder, {rig.still, rig.T_still_video.inverse(), 0}, "still sensor");
+    beginCamera(still_.folder, {rig.still, rig.T_still_video.inverse(), 0, options.stillTimeOffset},
+                "still sensor");
     syncFileSystem(root_);
 }
 
@@ -163,8 +164,9 @@ void Recorder::checkSpace(std::uintmax_t bytes) {
 
 void Recorder::writePose(const Pose& pose) {
     if (poses_.written == 0) {
+        // Both are written at once, because a recording with the folder alone cannot be read.
         fs::create_directories(poses_.folder);
-        poses_.rows = kPoseHeader;
+        appendToFile(poses_.folder / "data.csv", kPoseHeader);
     }
     const Eigen::Vector3d& t = pose.T_world_video.translation;
     const Eigen::Quaterniond& q = pose.T_world_video.rotation;

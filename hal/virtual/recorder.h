@@ -23,6 +23,9 @@ struct RecorderOptions {
     /// Disk space that must stay free [bytes]. If less is free, the recording ends with an error.
     std::uint64_t leastFreeBytes = 64U << 20;
     std::uint64_t mostBytes = 0;  ///< largest size of a recording [bytes]; 0: no limit
+    /// This time was added to the times of the stills [s]. It is written to cam1/sensor.yaml,
+    /// because a calibration from this recording must add it to its result.
+    double stillTimeOffset = 0;
     WatchedThread writer{};
     /// Least interval between two synchronisations of the disk. What was recorded before a
     /// synchronisation is safe from a power cut. A new picture or pose starts a synchronisation if

@@ -150,6 +150,7 @@ Recording load(const fs::path& root, std::size_t most) {
     Recording out;
     out.root = root;
     out.videoRateHz = video.rateHz;
+    out.stillTimeOffset = still.timeOffset;
     out.rig = {video.camera, still.camera, still.T_body_sensor.inverse() * video.T_body_sensor};
     ListMemory memory(most);
     out.video = readImages(videoFolder, video.camera.size, memory);

@@ -69,6 +69,8 @@ TEST(MfarCalibrate, RecoversTheRigFromARecording) {
                             MFAR_SIM, recording));
     ASSERT_EQ(made.status, 0) << made.text;
     shiftStills(recording, 25'000'000);
+    const std::string stills = recording + "/cam1/sensor.yaml";
+    writeFile(stills, readFile(stills) + "time_offset: 0.1\n");
     const Outcome ran = execute(folder, fmt::format("{} {} --aprilgrid {}/aprilgrid.yaml --out {}",
                                                     MFAR_CALIBRATE, recording, recording, out));
     ASSERT_EQ(ran.status, 0) << ran.text;
@@ -77,7 +79,8 @@ TEST(MfarCalibrate, RecoversTheRigFromARecording) {
     expectCamera(found.rig.still, truth.rig.still);
     const double baseline = truth.rig.T_still_video.translation.norm();
     EXPECT_NEAR(found.rig.T_still_video.translation.norm(), baseline, 0.01 * baseline);
-    EXPECT_NEAR(found.stillTimeOffset, -0.025, 0.001);
+    EXPECT_NEAR(found.stillTimeOffset, 0.1 - 0.025, 0.001)
+        << "the offset with which the stills were recorded must be added";
     EXPECT_TRUE(fs::exists(fs::path(out) / "residuals.png"));
     for (const char* const words : {"% covered", "video views", "still views", "mm apart", "+-"})
         EXPECT_NE(ran.text.find(words), std::string::npos) << words << " in\n" << ran.text;

@@ -44,7 +44,9 @@ TEST(Recorder, ARecordingPlaysBackUnchanged) {
     const StereoRig rig = smallRig();
     const Pose pose{{20}, rig.T_still_video};
     {
-        Recorder recorder(folder / "new/run", rig, 29.97);
+        RecorderOptions options;
+        options.stillTimeOffset = 0.0123;
+        Recorder recorder(folder / "new/run", rig, 29.97, options);
         EXPECT_TRUE(recorder.video(plain(test::kSmallVideo, 11).view(), {10}));
         EXPECT_TRUE(recorder.video(plain(test::kSmallVideo, 22).view(), {20}));
         EXPECT_TRUE(recorder.still(plain(test::kSmallStill, 33, PixelFormat::Gray8).view(), {15}));
@@ -56,6 +58,7 @@ TEST(Recorder, ARecordingPlaysBackUnchanged) {
     }
     const Recording read = loadRecording(folder / "new/run");
     EXPECT_EQ(read.videoRateHz, 29.97);
+    EXPECT_EQ(read.stillTimeOffset, 0.0123);
     expectSame(read.rig.video, rig.video);
     expectSame(read.rig.still, rig.still);
     EXPECT_LT(read.rig.T_still_video.rotation.angularDistance(rig.T_still_video.rotation), 1e-12);
