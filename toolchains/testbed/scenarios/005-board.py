@@ -6,7 +6,9 @@ import statistics
 FRAMES = 60
 PULSES = 5
 STILL_BYTES = 2304 * 1728 * 3 // 2
-PULSE = 'gpioset -m time -u 10000 gpiochip0 5=1; gpioset gpiochip0 5=0'
+# For gpioset of libgpiod 2 (Debian 13) and of libgpiod 1 (Debian 12).
+PULSE = ('if gpioset --help | grep -q toggle; then gpioset --toggle 10ms,0 --chip gpiochip0 5=1; '
+         'else gpioset -m time -u 10000 gpiochip0 5=1 && gpioset gpiochip0 5=0; fi')
 
 
 def run(bed):
