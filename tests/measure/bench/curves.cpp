@@ -7,13 +7,13 @@
 #include "tests/measure/eval/paper_pipeline.h"
 #include "tests/measure/eval/picture.h"
 #include "tests/measure/eval/rig_resample.h"
+#include "tests/measure/eval/stage_share.h"
 #include "tests/measure/eval/stopwatch.h"
 
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
 #include <stdexcept>
-#include <string_view>
 
 namespace mfar::bench {
 namespace {
@@ -30,15 +30,6 @@ void addShare(CurvePoint& sum, const CurvePoint& part, std::size_t parts) {
     sum.bad1 += part.bad1 / n;
 }
 
-double flowMs(const std::vector<StageTime>& stages, bool alongLines) {
-    double out = 0;
-    for (const StageTime& stage : stages) {
-        const std::string_view name = stage.stage;
-        if (alongLines ? name == "epipolar" : name == "pyramid" || name == "flow") out += stage.ms;
-    }
-    return out;
-}
-
 CurvePoint measure(const CurveSample& sample, PipelineOptions options, bool alongLines) {
     options.output = sample.rig.video.size;
     options.skipUnchanged = false;
@@ -50,9 +41,11 @@ CurvePoint measure(const CurveSample& sample, PipelineOptions options, bool alon
         // Setting the still again discards the previous result, so no run starts from it.
         pipeline.setStill(eval::viewOf(still), sample.still.time,
                           alongLines ? sample.still.pose : std::nullopt);
-        pipeline.run(eval::viewOf(frame), sample.frame.time,
-                     alongLines ? sample.frame.pose : std::nullopt);
-        return flowMs(pipeline.stageTimes(), alongLines);
+        const double ms = eval::wallMs([&] {
+            pipeline.run(eval::viewOf(frame), sample.frame.time,
+                         alongLines ? sample.frame.pose : std::nullopt);
+        });
+        return ms * eval::shareOfStages(pipeline, eval::kFlowStages);
     };
     run();
     std::vector<float> vectors = pipeline.readFlow();
@@ -78,7 +71,10 @@ CurvePeer peer(const char* name, eval::DisPreset preset, const std::vector<Curve
         cv::cvtColor(sample.frame.picture, frame, cv::COLOR_BGR2GRAY);
         cv::cvtColor(eval::resampleStill(sample.still.picture, sample.rig), still,
                      cv::COLOR_BGR2GRAY);
-        const auto run = [&] { return eval::wallMs([&] { dis->calc(frame, still, flow); }); };
+        const auto run = [&] {
+            flow.release();  // otherwise DIS would start from the last result
+            return eval::wallMs([&] { dis->calc(frame, still, flow); });
+        };
         run();
         const double ms = summarise({run(), run(), run()}).median;
         addShare(out.point, pointOf(sample, flow, ms), samples.size());

@@ -4,6 +4,7 @@
 #include "daemon/number_range.h"
 #include "daemon/output_checks.h"
 #include "hal/gl_context.h"
+#include "tests/measure/eval/engine_option.h"
 #include "tests/measure/eval/report.h"
 
 #include <fmt/format.h>
@@ -50,7 +51,7 @@ void GovernorCommand::run(Progress& progress) {
     const auto context = createGlContext();
     const auto runs = measureGovernor(request_, levels);
     progress.clear();
-    fmt::print("{}\n\n{}", context->description(), governorTable(runs));
+    fmt::print("{}\n\n{}", eval::engineAndRenderer(*context), governorTable(runs));
     if (!svg_.empty()) eval::writeText(svg_, governorSvg(runs));
 }
 

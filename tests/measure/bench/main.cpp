@@ -7,6 +7,7 @@
 #include "tests/measure/bench/pareto_command.h"
 #include "tests/measure/bench/skip_command.h"
 #include "tests/measure/bench/workload.h"
+#include "tests/measure/eval/engine_option.h"
 #include "tests/measure/eval/program_end.h"
 #include "tests/measure/eval/report.h"
 
@@ -96,7 +97,7 @@ void drawCurves(const Options& o, Progress& progress) {
     const Curves curves = measureCurves(samples, ProgressPart(progress));
     progress.clear();
     writeCurves(curves, o.curves);
-    fmt::print("{}\n{}", context->description(), curvesCsv(curves));
+    fmt::print("{}\n{}", eval::engineAndRenderer(*context), curvesCsv(curves));
 }
 
 void addOptions(CLI::App& app, Options& o) {
@@ -107,10 +108,7 @@ void addOptions(CLI::App& app, Options& o) {
     app.add_option("--mode", o.mode, "super-resolution mode, see superres.mode in mfard's manual")
         ->check(CLI::IsMember({"detail", "blend"}))
         ->capture_default_str();
-    app.add_option("--engine", o.engine,
-                   "engine of all steps; auto: simd if OpenGL ES runs on the CPU, otherwise gles")
-        ->check(CLI::IsMember({"auto", "gles", "simd"}))
-        ->capture_default_str();
+    eval::addEngine(app, o.engine);
     app.add_flag("--as-shipped", o.shipped,
                  "use the shipped filters, as mfar does before the first still");
     app.add_flag("--scaling", o.scaling,
@@ -131,15 +129,21 @@ void addOptions(CLI::App& app, Options& o) {
         ->needs("--curves");
 }
 
-EngineKind engineOf(const Options& o, const GlContext& context) {
-    const bool isSimd = o.engine == "simd" || (o.engine == "auto" && context.isSoftware());
-    return isSimd ? EngineKind::Simd : EngineKind::Gles;
-}
-
 void write(const BenchResult& result, const Options& o) {
     fmt::print("{}", toTable(result));
     if (!o.json.empty()) eval::writeText(o.json, toJson(result).dump(2) + "\n");
     if (!o.svg.empty()) eval::writeText(o.svg, benchSvg(result));
+}
+
+/// Throws EvalError if a command is given after options that only the measurement without a command
+/// uses.
+void requireNoneBefore(const CLI::App& app) {
+    if (app.get_subcommands().empty()) return;
+    for (const CLI::Option* option : app.get_options())
+        if (option->count() > 0 && option->get_name() != "--engine")
+            throw eval::EvalError(fmt::format("{} has no effect on the command {}",
+                                              option->get_name(),
+                                              app.get_subcommands().front()->get_name()));
 }
 
 int run(int argc, char** argv) {
@@ -154,6 +158,8 @@ int run(int argc, char** argv) {
     } catch (const CLI::ParseError& e) {
         return app.exit(e) == 0 ? 0 : eval::kWrongInput;
     }
+    requireNoneBefore(app);
+    eval::useEngine(o.engine);
     Progress progress;
     const ProgressPart all(progress);
     if (pareto.asked()) return pareto.run(progress), 0;
@@ -167,11 +173,9 @@ int run(int argc, char** argv) {
         for (Workload* work : {&moving, &posed})
             work->filters = learnedFrom(*work);
     const SuperResMode mode = o.mode == "blend" ? SuperResMode::Blend : SuperResMode::Detail;
-    const EngineKind engine = engineOf(o, *context);
-    BenchResult result =
-        runBench(moving, posed, mode, engine,
-                 fmt::format("engine {}; {}", nameOf(engine), context->description()),
-                 all.part(0, o.scaling ? 2 : 1, ""));
+    const EngineKind engine = EngineChoice::fromEnvironment().detail;
+    BenchResult result = runBench(moving, posed, mode, engine, eval::engineAndRenderer(*context),
+                                  all.part(0, o.scaling ? 2 : 1, ""));
     if (o.scaling)
         result.scaling = runScaling(moving, posed, mode, engine, all.part(1, 2, "scaling"));
     all.part(9, 10, "").show(0, 1, "path tracer");

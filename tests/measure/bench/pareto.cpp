@@ -1,5 +1,7 @@
 #include "tests/measure/bench/pareto.h"
 
+#include "tests/measure/eval/report.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -79,10 +81,10 @@ std::string paretoCsv(const std::vector<ParetoStage>& stages) {
         const auto front = paretoFront(stage.points);
         for (std::size_t i = 0; i < stage.points.size(); ++i) {
             const ParetoPoint& p = stage.points[i];
-            out +=
-                fmt::format("{},{},{},{:.3f},{:.5f},{},{},{}\n", stage.name, p.name, word(p.kind),
-                            p.ms, p.error, stage.measure, std::ranges::count(front, i),
-                            fmt::join(dominatingPeers(stage, p), " "));
+            out += fmt::format("{},{},{},{:.3f},{:.5f},{},{},{}\n", stage.name,
+                               eval::csvField(p.name), word(p.kind), p.ms, p.error, stage.measure,
+                               std::ranges::count(front, i),
+                               fmt::join(dominatingPeers(stage, p), " "));
         }
     }
     return out;

@@ -4,6 +4,7 @@
 #include "daemon/quality_table.h"
 #include "hal/gl_context.h"
 #include "tests/measure/bench/pareto.h"
+#include "tests/measure/eval/engine_option.h"
 #include "tests/measure/eval/report.h"
 
 #include <fmt/format.h>
@@ -143,13 +144,14 @@ void ParetoCommand::run(Progress& progress) {
     const auto context = createGlContext();
     const std::vector<ParetoStage> stages = measure(ProgressPart(progress));
     progress.clear();
-    fmt::print("{}\n\n{}", context->description(), paretoSummary(stages));
+    fmt::print("{}\n\n{}", eval::engineAndRenderer(*context), paretoSummary(stages));
     if (!csv_.empty()) eval::writeText(csv_, paretoCsv(stages));
     if (!svg_.empty()) eval::writeText(svg_, paretoSvg(stages));
     for (const ParetoStage& stage : stages)
         if (!table_.empty() && stage.name == "super-resolution")
-            eval::writeText(table_, "# Measured by mfar-bench pareto: " + context->description() +
-                                        "\n\n" + toToml(levelsOf(stage)));
+            eval::writeText(
+                table_, "# Measured by mfar-bench pareto: " + eval::engineAndRenderer(*context) +
+                            "\n\n" + toToml(levelsOf(stage)));
 }
 
 }  // namespace mfar::bench

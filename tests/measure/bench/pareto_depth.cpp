@@ -74,9 +74,7 @@ public:
         const double ms = msOf(run.clock, [&] {
             pipeline_.run(eval::viewOf(frame_), shots.frame.time, shots.frame.pose);
         });
-        if (!scored)
-            return out.time(ms *
-                            shareOfStages(pipeline_, {"pyramid", "epipolar", "flow", "depth"}));
+        if (!scored) return out.time(ms * shareOfStages(pipeline_, eval::kDepthStages));
         const InverseDepthField& field = pipeline_.inverseDepth();
         cv::Mat rho(frame_.size(), CV_32F, cv::Scalar(0));
         for (std::size_t i = 0; i < field.inverseDepth.size(); ++i)

@@ -72,7 +72,7 @@ public:
             pipeline.run(eval::viewOf(frame_), sample_.frame.time,
                          withPoses_ ? sample_.frame.pose : std::nullopt);
         });
-        if (!scored) return out.time(ms * shareOfStages(pipeline, stages()));
+        if (!scored) return out.time(ms * shareOfStages(pipeline, eval::kFlowStages));
         std::vector<float> vectors = pipeline.readFlow();
         const cv::Mat flow(frame_.size(), CV_32FC2, vectors.data());
         out.error(100 * eval::flowError(flow, sample_.truth).bad1);
@@ -88,11 +88,6 @@ public:
     }
 
 private:
-    [[nodiscard]] std::vector<std::string_view> stages() const {
-        if (withPoses_) return {"epipolar"};
-        return {"pyramid", "flow"};
-    }
-
     const CurveSample& sample_;
     bool withPoses_;
     ParetoRun run_;

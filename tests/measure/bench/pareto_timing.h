@@ -5,15 +5,16 @@
 #include "tests/measure/bench/pareto.h"
 #include "tests/measure/bench/summary.h"
 #include "tests/measure/eval/shot.h"
+#include "tests/measure/eval/stage_share.h"
 
-#include <algorithm>
 #include <memory>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
 namespace mfar::bench {
+
+using eval::shareOfStages;
 
 class WayTimes {
 public:
@@ -53,26 +54,10 @@ private:
     return out;
 }
 
-/// Share (0 to 1) of the last run's time that the named stages took. Needs
-/// Pipeline::setMeasure(true).
-[[nodiscard]] inline double shareOfStages(const Pipeline& pipeline,
-                                          const std::vector<std::string_view>& names) {
-    double some = 0, all = 0;
-    for (const StageTime& stage : pipeline.stageTimes()) {
-        all += stage.ms;
-        if (std::ranges::find(names, std::string_view(stage.stage)) != names.end())
-            some += stage.ms;
-    }
-    return all > 0 ? some / all : 0;
-}
-
 template <class Method>
 [[nodiscard]] auto timed(Method& method, const eval::Shot& frame, Clock clock) {
-    constexpr double kRuns = 4;  // run() makes one untimed call and three timed calls
-    typename Method::Result out;
-    const double ms = msOf(clock, [&] { out = method.run(frame); });
-    if (clock == Clock::Processor) out.ms = ms / kRuns;
-    return out;
+    eval::methodClock = clock;
+    return method.run(frame);
 }
 
 /// Pipelines for one rig. Settings that can change between frames share a pipeline.

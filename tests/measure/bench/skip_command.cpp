@@ -2,6 +2,7 @@
 
 #include "daemon/output_checks.h"
 #include "hal/gl_context.h"
+#include "tests/measure/eval/engine_option.h"
 #include "tests/measure/eval/report.h"
 
 #include <fmt/format.h>
@@ -40,7 +41,7 @@ void SkipCommand::run(Progress& progress) {
     const auto context = createGlContext();
     const SkipReport report = measureSkips(request_);
     progress.clear();
-    fmt::print("{}\n\n{}", context->description(), skipTable(report));
+    fmt::print("{}\n\n{}", eval::engineAndRenderer(*context), skipTable(report));
     if (!csv_.empty()) eval::writeText(csv_, skipCsv(report));
     if (!svg_.empty()) eval::writeText(svg_, skipSvg(report));
 }

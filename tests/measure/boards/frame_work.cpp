@@ -20,7 +20,9 @@
 #include <hwy/targets.h>
 #include <map>
 #include <memory>
+#include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace mfar::boards {
@@ -129,16 +131,17 @@ double clockGhz() {
     return most;
 }
 
-/// Median, least and largest time of each stage and of the whole frame [ms]. The first three frames
-/// are not counted.
+constexpr int kWarmUp = 3;
+
+/// Median, least and largest time of each stage and of the whole frame [ms]. The first kWarmUp
+/// frames are not counted.
 Json timesOf(Frames& frames) {
-    constexpr std::size_t kWarmUp = 3;
     std::map<std::string, std::vector<double>> ms;
     frames.setStill();
     frames.pipeline().setMeasure(true);
     for (std::size_t i = 0; i < frames.count(); ++i) {
         frames.run(i);
-        if (i < kWarmUp) continue;
+        if (std::cmp_less(i, kWarmUp)) continue;
         double sum = 0;
         for (const StageTime& time : frames.pipeline().stageTimes()) {
             ms[time.stage].push_back(time.ms);
@@ -162,10 +165,12 @@ int run(int argc, char** argv) {
     Options o;
     app.add_option("--engine", o.engine, "engine of all steps")
         ->check(CLI::IsMember({"gles", "simd"}));
-    app.add_option("--case", o.shown, "moving: every frame differs; rest: all frames are equal")
-        ->check(CLI::IsMember({"moving", "rest"}));
+    CLI::Option* const shown =
+        app.add_option("--case", o.shown, "moving: every frame differs; rest: all frames are equal")
+            ->check(CLI::IsMember({"moving", "rest"}));
     app.add_option("--recording", o.recording,
-                   "use the pictures and poses of this recording instead of synthetic ones");
+                   "use the pictures and poses of this recording instead of synthetic ones")
+        ->excludes(shown);
     app.add_option("--frames", o.frames, "number of frames")->check(CLI::Range(1, 1000));
     app.add_option("--threads", o.threads, "number of threads")->check(CLI::Range(1, 64));
     app.add_option("--width", o.width, "width of the output [px]")->check(CLI::Range(64, 8192));
@@ -173,6 +178,9 @@ int run(int argc, char** argv) {
     app.add_flag("--avx2", o.avx2,
                  "use no instruction set newer than AVX2, the newest that the emulator has");
     CLI11_PARSE(app, argc, argv);
+    if (o.time && o.frames <= kWarmUp)
+        throw std::invalid_argument("--time needs --frames 4 or more, because the first three "
+                                    "frames are not counted");
     if (o.avx2) hwy::DisableTargets(HWY_AVX2 - 1);
     std::unique_ptr<GlContext> context;
     if (o.engine == "gles") context = createGlContext();

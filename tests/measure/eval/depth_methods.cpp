@@ -1,6 +1,7 @@
 #include "tests/measure/eval/depth_methods.h"
 
 #include "tests/measure/eval/pipeline_shot.h"
+#include "tests/measure/eval/stage_share.h"
 #include "tests/measure/eval/stopwatch.h"
 #include "tests/measure/triangulation/triangulation.h"
 
@@ -37,7 +38,7 @@ public:
         const RigidTransform T_b_a = turn * stillFromFrame(rig_, *frame.pose, *stillPose_);
         const std::span<const float> vectors(found.flow.ptr<float>(), 2 * found.flow.total());
         out.ms += medianOfThree(
-            [&] { return wallMs([&] { stage_.run(vectors, T_b_a, {.method = method_}); }); });
+            [&] { return methodMs([&] { stage_.run(vectors, T_b_a, {.method = method_}); }); });
         const auto& points = stage_.run(vectors, T_b_a, {.method = method_});
         for (std::size_t i = 0; i < points.size(); ++i)
             out.inverseDepth.ptr<float>()[i] = points[i].inverseDepth;
@@ -72,11 +73,10 @@ public:
             if (field.isKnown(i)) out.inverseDepth.ptr<float>()[i] = field.inverseDepth[i];
         out.variance = cv::Mat(frame.picture.size(), CV_32F);
         std::copy(field.variance.begin(), field.variance.end(), out.variance.begin<float>());
-        for (const StageTime& stage : pipeline_.stageTimes()) {
-            const std::string_view name = stage.stage;
-            if (name == "pyramid" || name == "epipolar" || name == "flow" || name == "depth")
+        for (const StageTime& stage : pipeline_.stageTimes())
+            if (std::ranges::find(kDepthStages, std::string_view(stage.stage)) !=
+                kDepthStages.end())
                 out.ms += stage.ms;
-        }
         return out;
     }
 

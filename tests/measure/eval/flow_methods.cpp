@@ -4,6 +4,7 @@
 #include "tests/measure/eval/pipeline_shot.h"
 #include "tests/measure/eval/rig_resample.h"
 #include "tests/measure/eval/shift_flow.h"
+#include "tests/measure/eval/stage_share.h"
 #include "tests/measure/eval/stereo_peer.h"
 #include "tests/measure/eval/stopwatch.h"
 
@@ -45,7 +46,7 @@ public:
         const PlainFlows found = flow_(video, still_);
         Result out{found.flow, 0};
         if (!found.back.empty()) out.confidence = twoWayConfidence(found.flow, found.back, kAlpha);
-        out.ms = medianOfThree([&] { return wallMs([&] { (void)flow_(video, still_); }); });
+        out.ms = medianOfThree([&] { return methodMs([&] { (void)flow_(video, still_); }); });
         return out;
     }
 
@@ -107,7 +108,8 @@ private:
 };
 
 /// mfar's flow: along epipolar lines if both poses are known, otherwise in two dimensions.
-/// The time is that of the search along the lines, or of the 2-D flow in both directions.
+/// The time is that of the pyramid, of the search along the lines and its refinement, or of the
+/// 2-D flow in both directions.
 class ProductMethod final : public FlowMethod {
 public:
     ProductMethod(const StereoRig& rig, bool usePoses)
@@ -129,23 +131,13 @@ public:
         std::vector<float> confidence = pipeline_.readConfidence();
         out.confidence = cv::Mat(size_.height, size_.width, CV_32F, confidence.data()).clone();
         out.ms = medianOfThree([&] {
-            shot.run(pipeline_);
-            return flowMs();
+            const double all = methodMs([&] { shot.run(pipeline_); });
+            return all * shareOfStages(pipeline_, kFlowStages);
         });
         return out;
     }
 
 private:
-    [[nodiscard]] double flowMs() const {
-        double search = 0, twoDimensional = 0;
-        for (const StageTime& stage : pipeline_.stageTimes()) {
-            const std::string_view name = stage.stage;
-            if (name == "epipolar") search += stage.ms;
-            if (name == "pyramid" || name == "flow") twoDimensional += stage.ms;
-        }
-        return search > 0 ? search : twoDimensional;
-    }
-
     Size size_;
     bool usePoses_;
     Pipeline pipeline_;

@@ -4,6 +4,7 @@
 #include "tests/measure/eval/bars.h"
 #include "tests/measure/eval/depth.h"
 #include "tests/measure/eval/depth_methods.h"
+#include "tests/measure/eval/engine_option.h"
 #include "tests/measure/eval/figure7_command.h"
 #include "tests/measure/eval/flow.h"
 #include "tests/measure/eval/flow_methods.h"
@@ -107,7 +108,7 @@ struct Options {
     OcclusionRequest occlusion;
     MetricRequest metric;
     Figure7Request figure7;
-    std::string degrade, degradeVideo;
+    std::string degrade, degradeVideo, engine = "auto";
     PoseNoise poseNoise;
     std::string csv;
     std::filesystem::path svg;
@@ -260,6 +261,9 @@ std::vector<EvalCommand> addCommands(CLI::App& app, Options& o) {
     add(addFigure7Command(app, o.figure7, o.csv), o.figure7,
         [&o] { return runFigure7(o.figure7); });
     out.back().hasOwnPlot = true;
+    addEngine(app, o.engine);
+    for (const EvalCommand& each : out)
+        each.command->fallthrough();  // so that --engine may stand after the command
     for (const EvalCommand& each : out)
         if (!each.hasOwnPlot)
             each.command->add_option("--svg", o.svg, "file to write a plot of the means into")
@@ -284,6 +288,8 @@ int run(int argc, char** argv) {
         commands, [](const EvalCommand& command) { return command.command->parsed(); });
     if (!o.csv.empty() && std::filesystem::path(o.csv) == o.svg)
         throw EvalError("--csv and --svg name the same file");
+    // The command metric compares files and draws nothing.
+    if (used->command->get_name() != "metric") useEngine(o.engine);
     Progress progress;
     const Report report = used->evaluate(ProgressPart(progress));
     progress.clear();

@@ -11,16 +11,6 @@
 namespace mfar::eval {
 namespace {
 
-std::string quoted(const std::string& field) {
-    if (field.find_first_of(",\"\n") == std::string::npos) return field;
-    std::string out = "\"";
-    for (const char c : field) {
-        if (c == '"') out += '"';
-        out += c;
-    }
-    return out + '"';
-}
-
 void addUnique(std::vector<std::string>& list, const std::string& value) {
     if (std::find(list.begin(), list.end(), value) == list.end()) list.push_back(value);
 }
@@ -42,6 +32,16 @@ std::string layOut(const std::vector<std::vector<std::string>>& lines) {
 }
 
 }  // namespace
+
+std::string csvField(const std::string& field) {
+    if (field.find_first_of(",\"\n") == std::string::npos) return field;
+    std::string out = "\"";
+    for (const char c : field) {
+        if (c == '"') out += '"';
+        out += c;
+    }
+    return out + '"';
+}
 
 void writeText(const std::filesystem::path& file, const std::string& text) {
     std::ofstream out(file);
@@ -130,7 +130,7 @@ std::string Report::csv() const {
         out += ',' + column.name;
     out += '\n';
     for (const Row& row : rows_) {
-        out += quoted(row.recording) + ',' + quoted(row.frame) + ',' + quoted(row.method);
+        out += csvField(row.recording) + ',' + csvField(row.frame) + ',' + csvField(row.method);
         for (const auto& value : row.values)
             out += value ? fmt::format(",{:.6f}", *value) : std::string(",");
         out += '\n';

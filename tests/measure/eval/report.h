@@ -22,6 +22,9 @@ struct Column {
     int decimals;
 };
 
+/// Returns the field of a CSV file, in quotes if necessary.
+[[nodiscard]] std::string csvField(const std::string& field);
+
 /// Results of an evaluation, with one row per recording, frame and method.
 class Report {
 public:

@@ -32,7 +32,7 @@ public:
         Result out;
         const auto correlate = [&] { shift = cv::phaseCorrelate(video, still_, window_); };
         correlate();
-        out.ms = medianOfThree([&] { return wallMs(correlate); });
+        out.ms = medianOfThree([&] { return methodMs(correlate); });
         out.flow = cv::Mat(video.size(), CV_32FC2, cv::Scalar(shift.x, shift.y));
         return out;
     }

@@ -92,7 +92,7 @@ StereoPeer::Result StereoPeer::run(const cv::Mat& video, const RigidTransform& T
     };
     match();
     return {flowOf(filled(disparity), *views, rig_.video.size),
-            medianOfThree([&] { return wallMs(match); })};
+            medianOfThree([&] { return methodMs(match); })};
 }
 
 }  // namespace mfar::eval

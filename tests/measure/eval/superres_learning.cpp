@@ -43,7 +43,8 @@ void learnFrom(const Recording& recording, const SuperResRequest& request, int& 
         const std::vector<Match> matches = matchesOf(recording, rank);
         if (matches.empty()) return;
         for (const auto& [frame, still] : matches) {
-            if (left-- == 0) return;
+            if (left == 0) return;
+            --left;
             const Timestamp at = recording.video[frame].time,
                             stillAt = recording.stills[still].time;
             const PosePair pose = poses.of(at, stillAt);

@@ -282,19 +282,17 @@ private:
             const RenderedPicture& truth = truth_.at(i, course_.at(i), timeOf(i));
             const Picture exact = overPaper(truth);
             Picture error = differenceOf(shown, exact);
-            if (isCompared(i) && i >= kFirstFrames) {
-                compare(method, i, {shown, exact, error}, truth, frames);
-            } else if (follows && errorBefore && i > kFirstFrames) {
-                report_.add(
-                    label_, std::to_string(i), method,
-                    valuesOf({.flicker = flickerOf(*errorBefore, *truthBefore, error, truth)}));
-            }
+            std::optional<double> flicker;
+            if (follows && errorBefore && i > kFirstFrames)
+                flicker = flickerOf(*errorBefore, *truthBefore, error, truth);
+            if (isCompared(i) && i >= kFirstFrames)
+                compare(method, i, {shown, exact, error, flicker}, truth, frames);
+            else if (flicker)
+                report_.add(label_, std::to_string(i), method, valuesOf({.flicker = flicker}));
             if (isCompared(i)) {
-                const auto nameOf = [&](const std::string& what) {
-                    return fmt::format("{}-{:03}-{}", fileStem(), i, what);
-                };
-                savePicture(request_.save, nameOf(method), request_.size, shown);
-                savePicture(request_.save, nameOf("truth"), request_.size, exact);
+                const std::string name = fmt::format("{}-{:03}-", fileStem(), i);
+                savePicture(request_.save, name + method, request_.size, shown);
+                savePicture(request_.save, name + "truth", request_.size, exact);
             }
             errorBefore = std::move(error);
             truthBefore = &truth;
@@ -314,6 +312,7 @@ private:
 
     struct Compared {
         const Picture &shown, &exact, &error;
+        std::optional<double> flicker;
     };
     void compare(const std::string& method, int frame, const Compared& compared,
                  const RenderedPicture& truth, const ShownFrames& frames) {
@@ -327,6 +326,7 @@ private:
         Values values;
         values.psnr = object.psnr();
         values.shadowPsnr = shadow.psnr();
+        values.flicker = compared.flicker;
         values.pictures = static_cast<double>(frames.counters().render.shown);
         values.warpMs = frames.warpMs();
         if (request_.hdrVdp)

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "hal/gl_context.h"
+
+#include <CLI/CLI.hpp>
+
+#include <string>
+
+namespace mfar::eval {
+
+/// Adds the option --engine.
+void addEngine(CLI::App& app, std::string& engine);
+
+/// Sets the engine of all pipelines that are created later without a choice of engines, see
+/// EngineChoice::fromEnvironment(). `wish` is "gles", "simd" or "auto". "auto" keeps the
+/// environment variable MFAR_ENGINE. If it is not set, "auto" means simd if OpenGL ES runs on the
+/// CPU, otherwise gles. Throws std::runtime_error if OpenGL ES is needed and not available.
+void useEngine(const std::string& wish);
+
+/// Returns for example "engine simd; Mesa llvmpipe ...", with the engine that useEngine() set.
+[[nodiscard]] std::string engineAndRenderer(const GlContext& context);
+
+}  // namespace mfar::eval
