@@ -36,6 +36,15 @@ EngineChoice chooseEngines(const Config& config, const GlContext* gl, const Ster
     if (config.validate) return withWishes(engine, EngineChoice::all(EngineKind::Gles));
     if (gl == nullptr || gl->isSoftware())
         return withWishes(engine, EngineChoice::all(EngineKind::Simd));
+    if (!fitsGpu(rig, output)) {
+        const EngineChoice choice = withWishes(engine, EngineChoice::all(EngineKind::Simd));
+        if (choice.detail == EngineKind::Gles)
+            throw Failure(ExitCode::Unavailable,
+                          fmt::format("engine gles: the pictures are too large for the textures of "
+                                      "{}; use engine simd or smaller pictures",
+                                      gl->description()));
+        return choice;
+    }
     const std::string key =
         fmt::format("{}; video {}x{}, still {}x{}, output {}x{}", gl->description(),
                     rig.video.size.width, rig.video.size.height, rig.still.size.width,

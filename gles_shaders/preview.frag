@@ -15,6 +15,7 @@ vec3 colourOf(Colour c) {
 }
 
 void main() {
+    vec2 width = fwidth(square);  // undefined after a discard
     // GL rounds the corners of triangles to a grid. If a triangle seen edge-on is thinner than this
     // grid, a pixel in the rounded triangle may be far outside the true one. Its colour and depth
     // are then meaningless.
@@ -27,7 +28,7 @@ void main() {
     // colour beyond it may be the same.
     vec2 inner = clamp(square, vec2(0.5), vec2(params.squares - 0.5));
     vec2 wave = 2.0 * abs(fract(0.5 * inner + 0.25) - 0.5) - 0.5;
-    vec2 side = clamp(wave / max(fwidth(square), 1e-6), vec2(-0.5), vec2(0.5));
+    vec2 side = clamp(wave / max(width, 1e-6), vec2(-0.5), vec2(0.5));
     shown = vec4(lit * mix(colourOf(params.colours[0]), colourOf(params.colours[1]), 0.5 - 2.0 * side.x * side.y), 1.0);
     depth = max(1.0 / gl_FragCoord.w, params.projection.nearPlane);
 }

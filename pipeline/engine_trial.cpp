@@ -1,11 +1,14 @@
 #include "pipeline/engine_trial.h"
 
+#include "base/gl/gl.h"
+#include "pipeline/engine/params/enlarge.h"
 #include "pipeline/engine_guess.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <limits>
+#include <utility>
 
 namespace mfar {
 namespace {
@@ -81,6 +84,15 @@ std::vector<EngineTrial> tryEngines(const std::vector<EngineChoice>& placements,
     }
     std::ranges::sort(trials, {}, &EngineTrial::frameMs);
     return trials;
+}
+
+bool fitsGpu(const StereoRig& rig, Size output) {
+    GLint most = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
+    const auto [video, still] = std::pair(rig.video.size, rig.still.size);
+    // The learned enlargement writes kGrid pictures of the video, one above the other.
+    return std::max({video.width, params::kGrid * video.height, still.width, still.height,
+                     output.width, output.height}) <= most;
 }
 
 }  // namespace mfar

@@ -24,4 +24,8 @@ struct EngineTrial {
                                                   const StereoRig& rig, Size output,
                                                   EngineKind shownFrom);
 
+/// Returns true if the textures of all steps are within the GPU's limit. Needs a current GL
+/// context.
+[[nodiscard]] bool fitsGpu(const StereoRig& rig, Size output);
+
 }  // namespace mfar

@@ -52,9 +52,10 @@ Flow2d::Flow2d(Size video, const Flow2dOptions& options)
 }
 
 void Flow2d::run(const LumaOnGpu& luma, const TileBuffer& tiles, bool usePrior) {
-    errorsGiven_ = false;
     searched_.clear();
+    // If nothing is matched, the memory of backward_ keeps what it contains: a flow or errors.
     if (tiles.work().matched == 0) return;
+    errorsGiven_ = false;
     run({luma.video, luma.still, forwardStages_, 0, options_.propagations, usePrior}, luma);
     run({luma.still, luma.video, backwardStages_, backward_.level, params::kBackwardPropagations,
          false},

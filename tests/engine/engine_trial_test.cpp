@@ -21,5 +21,13 @@ TEST_F(EngineTrials, EveryAssignmentOfStepsToEnginesIsMeasuredOnceAndTheFastestC
     EXPECT_GT(trials.front().frameMs, 0);
 }
 
+TEST_F(EngineTrials, PicturesBeyondTheGpusLargestTextureDoNotFit) {
+    GLint most = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
+    EXPECT_TRUE(fitsGpu(plainRig({640, 480}, {2304, 1728}), {2304, 1728}));
+    EXPECT_FALSE(fitsGpu(plainRig({640, most / 4 + 1}, {2304, 1728}), {2304, 1728}));
+    EXPECT_FALSE(fitsGpu(plainRig({640, 480}, {2304, 1728}), {most + 1, 1728}));
+}
+
 }  // namespace
 }  // namespace mfar

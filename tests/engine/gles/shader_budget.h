@@ -6,8 +6,10 @@
 
 namespace mfar {
 
-/// Limits that every OpenGL ES 3.1 driver guarantees (the portable floor). Tests check each shader
-/// against them, because the software renderer accepts far more.
+/// Limits of shaders, because the software renderer accepts far more than the GPUs of boards. All
+/// are guaranteed by OpenGL ES 3.1 for compute shaders, with two exceptions: a driver may allow
+/// only four storage blocks and images together, and none in fragment shaders. Mesa's drivers allow
+/// more.
 struct ShaderBudget {
     static constexpr int kStorageBlocks = 4;  ///< number of blocks; each binding must be below it
     static constexpr int kImages = 4;         ///< number of images; each binding must be below it
