@@ -130,9 +130,13 @@ std::unique_ptr<Camera> openCamera(const CameraConfig& config, const CameraWish&
     return std::make_unique<LibcameraCamera>(options);
 }
 
-std::unique_ptr<ReopeningCamera> waitingCamera(const CameraConfig& config, const CameraWish& wish,
-                                               const std::string& role, WatchedThread opener,
-                                               bool onTrigger,
+std::string chosenCamera(CameraDriver driver, const CameraWish& wish) {
+    return driver == CameraDriver::V4l2 ? chosenV4l2(wish) : chosenLibcamera(wish);
+}
+
+std::unique_ptr<ReopeningCamera> waitingCamera(const CameraConfig& config,
+                                               ReopeningCamera::Open open, const std::string& role,
+                                               WatchedThread opener, bool onTrigger,
                                                std::function<bool()> busyElsewhere) {
     ReopeningOptions options;
     options.opener = std::move(opener);
@@ -146,8 +150,7 @@ std::unique_ptr<ReopeningCamera> waitingCamera(const CameraConfig& config, const
                                : std::max(options.silent, periods(kSilentPeriods));
     if (!onTrigger) options.stalled = std::max(options.stalled, periods(kStalledPeriods));
     return std::make_unique<ReopeningCamera>(
-        CameraInfo{role, config.size, PixelFormat::Nv12, config.rateHz},
-        [config, wish] { return openCamera(config, wish); }, options);
+        CameraInfo{role, config.size, PixelFormat::Nv12, config.rateHz}, std::move(open), options);
 }
 
 // TriggeredStillCamera does not repeat the pulse of a lost still, because StillPolicy does that.
@@ -197,7 +200,7 @@ RigCalibration calibrationOf(const CamerasConfig& config) {
 CamerasSource::CamerasSource(const CamerasConfig& config, Heartbeats& hearts)
     : config_(config),
       video_(waitingCamera(
-          config.video, wishFor(config.video, config.still, false), "video camera",
+          config.video, [this] { return openVideo(); }, "video camera",
           {&hearts, "video camera opener", budget::kOpener, ThreadRole::Vital}, false,
           [this] { return config_.still.driver == CameraDriver::Libcamera && still_->absent(); })) {
     const RigCalibration calibration = calibrationOf(config);
@@ -205,7 +208,7 @@ CamerasSource::CamerasSource(const CamerasConfig& config, Heartbeats& hearts)
     geometry_ = calibration.rig;
     stillTimeOffset = nanoseconds(calibration.stillTimeOffset * 1e3);
     auto still = waitingCamera(
-        config.still, wishFor(config.still, config.video, true), "still camera",
+        config.still, [this] { return openStill(); }, "still camera",
         {&hearts, "still camera opener", budget::kOpener, ThreadRole::Helper},
         config.still.rateHz == 0 && !config.trigger.line.empty(),
         [this] { return config_.video.driver == CameraDriver::Libcamera && video_->absent(); });
@@ -220,6 +223,31 @@ CamerasSource::CamerasSource(const CamerasConfig& config, Heartbeats& hearts)
         matching = [this] { return triggered_->counters(); };
     }
     fault = [this] { return whatIsWrong(); };
+}
+
+bool CamerasSource::choosesBoth() const {
+    return config_.video.camera.empty() && config_.still.camera.empty() &&
+           config_.video.driver == config_.still.driver;
+}
+
+std::unique_ptr<Camera> CamerasSource::openVideo() {
+    auto camera = openCamera(config_.video, wishFor(config_.video, config_.still, false));
+    const std::lock_guard lock(mutex_);
+    videoName_ = camera->info().name;
+    return camera;
+}
+
+// If the camera with the larger pictures is connected first, it is used for the video. When the
+// other camera is connected, the video gives it up.
+std::unique_ptr<Camera> CamerasSource::openStill() {
+    if (choosesBoth() && !video_->absent()) {
+        const std::string smallest =
+            chosenCamera(config_.video.driver, wishFor(config_.video, config_.still, false));
+        const std::lock_guard lock(mutex_);
+        if (videoName_ != smallest)
+            video_->reopen("a camera with smaller pictures was connected and is used instead");
+    }
+    return openCamera(config_.still, wishFor(config_.still, config_.video, true));
 }
 
 Camera& CamerasSource::still() {

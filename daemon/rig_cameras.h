@@ -10,6 +10,7 @@
 
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 
@@ -42,8 +43,14 @@ public:
 
 private:
     [[nodiscard]] std::optional<std::string> whatIsWrong() const;
+    /// True if neither camera is named, so that both are chosen by their picture sizes.
+    [[nodiscard]] bool choosesBoth() const;
+    [[nodiscard]] std::unique_ptr<Camera> openVideo();
+    [[nodiscard]] std::unique_ptr<Camera> openStill();
 
     CamerasConfig config_;
+    std::mutex mutex_;
+    std::string videoName_;  ///< CameraInfo::name of the camera that was last opened for the video
     StereoRig geometry_;
     std::unique_ptr<ReopeningCamera> video_;
     std::unique_ptr<ReopeningCamera> freeStill_;

@@ -55,6 +55,10 @@ public:
     void stop() override;
     [[nodiscard]] bool ended() const override { return false; }
 
+    /// Closes the device if it is open. Then opens it again. `reason` becomes the fault. Any thread
+    /// may call it.
+    void reopen(const std::string& reason) { lose(reason); }
+
     [[nodiscard]] std::optional<std::string> fault() const;
     [[nodiscard]] bool absent() const;
     [[nodiscard]] std::uint64_t losses() const;

@@ -49,4 +49,8 @@ std::vector<ListedCamera> listLibcameras() {
     return listCameras(libcameraManager()->cameras());
 }
 
+std::string chosenLibcamera(const CameraWish& wish) {
+    return findLibcamera(*libcameraManager(), wish)->id();
+}
+
 }  // namespace mfar

@@ -76,4 +76,8 @@ private:
 
 [[nodiscard]] std::vector<ListedCamera> listLibcameras();
 
+/// Returns the CameraInfo::name that a LibcameraCamera with this wish would have now. Throws
+/// std::runtime_error if there is no such camera.
+[[nodiscard]] std::string chosenLibcamera(const CameraWish& wish);
+
 }  // namespace mfar

@@ -55,14 +55,18 @@ V4l2Layout negotiated(const V4l2Device& device, const V4l2Wish& wish) {
     return setFormat(device, chooseFormat(device, wish), wish.size);
 }
 
+std::string nameOf(const V4l2Device& device) {
+    return fmt::format("{} ({})", device.card(), device.path());
+}
+
 }  // namespace
 
 CameraV4l2::CameraV4l2(const CameraV4l2Options& options, V4l2Api& api) : options_(options) {
     V4l2Device device = openCapture(api, options.device);
     layout_ = negotiated(device, options.wish);
     const double rate = setRate(device, options.wish.rateHz);
-    info_ = {fmt::format("{} ({})", device.card(), device.path()), layout_.size,
-             layout_.format.picture, rate > 0 ? rate : options.wish.rateHz};
+    info_ = {nameOf(device), layout_.size, layout_.format.picture,
+             rate > 0 ? rate : options.wish.rateHz};
     stream_ = std::make_shared<V4l2Stream>(std::move(device), layout_, options.buffers);
     controls_ = std::make_unique<V4l2Controls>(stream_->device());
     for (const auto& [name, value] : options.controls)
@@ -250,6 +254,10 @@ CameraCounters CameraV4l2::cameraCounters() const {
 std::vector<std::string> CameraV4l2::takeWarnings() {
     const std::lock_guard lock(countsMutex_);
     return std::exchange(warnings_, {});
+}
+
+std::string chosenV4l2(const CameraWish& wish, V4l2Api& api) {
+    return nameOf(openCapture(api, wish));
 }
 
 }  // namespace mfar

@@ -94,4 +94,8 @@ private:
     std::vector<std::string> warnings_;
 };
 
+/// Returns the CameraInfo::name that a CameraV4l2 with this wish would have now. Throws
+/// std::runtime_error if there is no such device.
+[[nodiscard]] std::string chosenV4l2(const CameraWish& wish, V4l2Api& api = kernelV4l2());
+
 }  // namespace mfar

@@ -83,6 +83,27 @@ TEST_F(RigOfCameras, ARecorderWhoseDiskHangsIsReportedAsLate) {
         << "a recorder that waits for work is not late";
 }
 
+// The file gpiochip0 makes the simulated devices the only ones in /dev. Both cameras offer all
+// sizes; of two equal cameras, the one with the last path counts as the larger one.
+TEST_F(RigOfCameras, IfTheLargerOfTwoUnnamedCamerasIsConnectedFirstTheVideoGivesItUp) {
+    config_.cameras.video.camera.clear();
+    config_.cameras.still.camera.clear();
+    says("gpiochip0", "");
+    says("video91", "rate 100");
+    Heartbeats hearts;
+    Rig rig(config_, hearts);
+    rig.video().start();
+    rig.still().start();
+    ASSERT_TRUE(becomesTrue([&] { return rig.video().next(50ms).has_value(); }));
+    says("video90", "rate 100");
+    EXPECT_TRUE(becomesTrue([&] {
+        (void)rig.video().next(5ms);
+        return rig.still().next(5ms).has_value();
+    }));
+    EXPECT_TRUE(becomesTrue([&] { return rig.video().next(50ms) && !rig.fault(); }));
+    EXPECT_EQ(rig.video().cameraCounters().reopened, 1U);
+}
+
 /// Open files, threads and allocated bytes of this process.
 struct Used {
     static long entries(const char* folder) {

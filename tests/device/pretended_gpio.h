@@ -50,7 +50,6 @@ public:
         return !folder_.empty() && ::faccessat(AT_FDCWD, file("gpiochip0").c_str(), R_OK, 0) == 0;
     }
     [[nodiscard]] std::string file(const char* name) const { return folder_ + "/" + name; }
-    [[nodiscard]] const std::string& folder() const { return folder_; }
 
     static int describe(struct stat* out) {
         *out = {};

@@ -93,6 +93,13 @@ void* mapFile(void* at, std::size_t length, int protection, int flags, int fd, o
     return reinterpret_cast<void*>(out);
 }
 
+/// Returns the folder of the simulated devices if it contains a GPIO chip, otherwise "".
+std::string folderWithChip() {
+    const char* folder = std::getenv("MFAR_PRETENDED_V4L2");
+    if (folder == nullptr) return "";
+    return access((std::string(folder) + "/gpiochip0").c_str(), R_OK) == 0 ? folder : "";
+}
+
 bool isOfGpio(std::string_view path) {
     return (path == GpioChip::kPath || path == GpioChip::kNumbers) && GpioChip::get().isThere();
 }
@@ -128,8 +135,10 @@ int openat(int folder, const char* path, int flags, ...) {
     va_start(rest, flags);
     const auto mode = static_cast<mode_t>(va_arg(rest, int));
     va_end(rest);
-    if (std::string_view(path) == "/dev" && GpioChip::get().isThere())
-        path = GpioChip::get().folder().c_str();
+    // A program that is linked with this library may change the folder while it runs.
+    std::string devices;
+    if (std::string_view(path) == "/dev") devices = folderWithChip();
+    if (!devices.empty()) path = devices.c_str();
     return static_cast<int>(syscall(SYS_openat, folder, path, flags, mode));
 }
 
