@@ -46,8 +46,9 @@ bool isFresh(std::optional<Timestamp> shown, const Observed& seen) {
 // Returns the state Stalled if neither a new picture nor a banner about a faulty device was shown
 // recently. Otherwise returns nothing. Must be called only if no vital thread hangs.
 std::optional<Judged> standingStill(const Observed& seen) {
-    if (isFresh(seen.lastPicture, seen) || (seen.fault && isFresh(seen.lastBanner, seen)))
-        return std::nullopt;
+    // The last banner counts even if the device has just returned, because its first picture is not
+    // shown at once.
+    if (isFresh(seen.lastPicture, seen) || isFresh(seen.lastBanner, seen)) return std::nullopt;
     const std::optional<Timestamp> begin = std::max(seen.lastPicture, seen.started);
     if (!begin || isFresh(begin, seen)) return std::nullopt;
     std::string cause = seen.gpu.value_or("no new picture");

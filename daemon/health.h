@@ -59,7 +59,8 @@ struct Observed {
 ///
 /// A vital thread that hangs is reported before any other fault, because only a restart helps
 /// against it. If no vital thread hangs, a banner about a faulty device counts as a new picture,
-/// because mfard reopens the device.
+/// because mfard reopens the device. It counts even after the device has returned, until its first
+/// picture is due.
 class HealthRecord {
 public:
     [[nodiscard]] Health judge(const Observed& seen);

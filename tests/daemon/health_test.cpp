@@ -82,18 +82,19 @@ TEST_F(HealthTest, MfardIsAliveWhileItDrawsTheBannerForAMissingDevice) {
     EXPECT_EQ(sentence(look()), "video camera: is not there (degraded for 3599.0 s)");
 }
 
-TEST_F(HealthTest, WithoutPicturesMfardIsAliveOnlyWhileItDrawsABannerForAFault) {
-    banner = now;
-    pass(kStalePicture / 2);
-    EXPECT_TRUE(look().isAlive());
-    pass(kStalePicture);
-    banner = now;
-    EXPECT_FALSE(look().isAlive())
-        << "mfard must not count as alive if it draws a banner without a fault";
+TEST_F(HealthTest, WithoutPicturesMfardIsAliveOnlyIfItHasJustDrawnABannerForAFault) {
+    pass(kStalePicture + milliseconds(1));
+    EXPECT_FALSE(look().isAlive());
     EXPECT_EQ(look().cause, "no new picture");
     fault = "video camera: is not there";
+    banner = now;
     EXPECT_TRUE(look().isAlive());
-    pass(kStalePicture + milliseconds(1));
+    fault.reset();
+    pass(kStalePicture / 2);
+    EXPECT_EQ(look().state, HealthState::Ok) << "the device has returned, its first picture is due";
+    pass(kStalePicture);
+    EXPECT_FALSE(look().isAlive());
+    fault = "video camera: is not there";
     EXPECT_FALSE(look().isAlive())
         << "mfard must not count as alive if it no longer draws the banner";
 }
