@@ -4,7 +4,7 @@
 #include "daemon/log.h"
 #include "daemon/options.h"
 #include "daemon/restart_pause.h"
-#include "daemon/rig.h"
+#include "daemon/rig_trigger.h"
 
 #include <fmt/format.h>
 

@@ -3,8 +3,8 @@
 // end at once: mfard loads ten times as many libraries.
 
 #include "daemon/exit_code.h"
+#include "daemon/rig_trigger.h"
 #include "daemon/taken_line.h"
-#include "hal/device/trigger_safe_level.h"
 
 #include <fmt/format.h>
 
@@ -17,13 +17,7 @@ int main() {
         const std::filesystem::path file = takenLineFile();
         if (file.empty())
             throw Failure(ExitCode::Usage, "RUNTIME_DIRECTORY must be an absolute path");
-        const std::optional<TriggerLineConfig> taken = takenLine(file);
-        if (!taken) return static_cast<int>(ExitCode::Ok);
-        TriggerOptions line;
-        line.chip = taken->chip;
-        line.line = taken->line;
-        line.activeLow = taken->activeLow;
-        orFail(ExitCode::Unavailable, [&] { driveSafe(line); });
+        releaseTrigger(takenLine(file).value_or(TriggerLineConfig{}));
         return static_cast<int>(ExitCode::Ok);
     } catch (const std::exception& error) {
         fmt::print(stderr, "the trigger line was not released: {}\n", error.what());

@@ -6,7 +6,6 @@
 #include "daemon/rig_source.h"
 #include "daemon/rig_words.h"
 #include "hal/device/display_auto.h"
-#include "hal/device/trigger_safe_level.h"
 #include "hal/virtual/display_files.h"
 #include "hal/virtual/recorder.h"
 #include "hal/virtual/recording_player.h"
@@ -286,11 +285,6 @@ std::filesystem::path newRecordingIn(const std::filesystem::path& directory) {
     for (int i = 2; std::filesystem::exists(folder, ignored); ++i)
         folder = directory / fmt::format("{}-{}", name, i);
     return folder;
-}
-
-void releaseTrigger(const TriggerLineConfig& line) {
-    if (line.line.empty()) return;
-    orFail(ExitCode::Unavailable, [&] { driveSafe(triggerOptions(line)); });
 }
 
 std::unique_ptr<Display> openDisplay(const Config& config, double rateHz, std::stop_token cancel,

@@ -115,9 +115,6 @@ private:
 /// time (UTC).
 [[nodiscard]] std::filesystem::path newRecordingIn(const std::filesystem::path& directory);
 
-/// Drives a trigger line to its inactive level. Throws Failure.
-void releaseTrigger(const TriggerLineConfig& line);
-
 /// Opens the configured display. A stop request to `cancel` ends the display's waits. Throws
 /// Failure.
 [[nodiscard]] std::unique_ptr<Display> openDisplay(const Config& config, double rateHz,

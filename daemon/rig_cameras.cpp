@@ -2,6 +2,7 @@
 
 #include "daemon/budgets.h"
 #include "daemon/config.h"
+#include "daemon/rig_trigger.h"
 #include "daemon/taken_line.h"
 #include "hal/device/camera_libcamera.h"
 #include "hal/device/camera_v4l2.h"
@@ -170,17 +171,6 @@ CameraModel nominalCamera(Size size) {
 }
 
 }  // namespace
-
-TriggerOptions triggerOptions(const TriggerLineConfig& line) {
-    TriggerOptions out;
-    out.chip = line.chip;
-    out.line = line.line;
-    out.activeLow = line.activeLow;
-    out.pulse = std::chrono::microseconds(std::llround(line.pulseMs * 1e3));
-    out.loopbackChip = line.loopbackChip;
-    out.loopback = line.loopback;
-    return out;
-}
 
 StereoRig nominalRig(Size video, Size still) {
     StereoRig rig{nominalCamera(video), nominalCamera(still), {}};

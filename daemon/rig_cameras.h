@@ -4,7 +4,6 @@
 #include "base/heartbeats.h"
 #include "daemon/cameras_config.h"
 #include "daemon/rig_source.h"
-#include "hal/device/trigger_gpiod.h"
 #include "hal/reopening_camera.h"
 #include "hal/triggered_stills.h"
 
@@ -24,8 +23,6 @@ namespace mfar {
 /// Returns the configured calibration, or nominalRig() without one. Throws Failure if the
 /// calibration is missing, invalid or made for other picture sizes.
 [[nodiscard]] RigCalibration calibrationOf(const CamerasConfig& config);
-
-[[nodiscard]] TriggerOptions triggerOptions(const TriggerLineConfig& line);
 
 /// The two cameras of this machine, and the GPIO line that triggers the still camera. If a camera
 /// is not connected, this object waits for it.

@@ -308,10 +308,11 @@ void TomlReader::refuseUnknown(const toml::key& key, const toml::node& value,
         // If the section is a list, the keys of each entry are checked. If no key of an entry was
         // looked for, sections() has refused the whole list.
         if (const toml::array* list = value.as_array())
-            for (std::size_t i = 0; i < list->size(); ++i)
-                if (const std::string entry = fmt::format("{}[{}].", name, i); isPrefix(entry))
-                    if (const toml::table* section = (*list)[i].as_table())
-                        refuseUnknown(*section, entry);
+            for (std::size_t i = 0; i < list->size(); ++i) {
+                const toml::table* section = (*list)[i].as_table();
+                const std::string prefix = fmt::format("{}[{}].", name, i);
+                if (section != nullptr && isPrefix(prefix)) refuseUnknown(*section, prefix);
+            }
         return;
     }
     const bool isSection = isPrefix(name + ".");

@@ -119,7 +119,7 @@ std::optional<Frame> ReopeningCamera::next(std::chrono::milliseconds timeout) {
         reason = error.what();
     }
     camera.reset();
-    lose(reason);
+    reopen(reason);
     return std::nullopt;
 }
 
@@ -145,7 +145,7 @@ bool ReopeningCamera::hasStalled() {
     return Timestamp::now() - lastFrame_ >= (isExcused ? options_.excused : options_.stalled);
 }
 
-void ReopeningCamera::lose(const std::string& reason) {
+void ReopeningCamera::reopen(const std::string& reason) {
     {
         const std::lock_guard lock(mutex_);
         answer_.reset();

@@ -57,7 +57,7 @@ public:
 
     /// Closes the device if it is open. Then opens it again. `reason` becomes the fault. Any thread
     /// may call it.
-    void reopen(const std::string& reason) { lose(reason); }
+    void reopen(const std::string& reason);
 
     [[nodiscard]] std::optional<std::string> fault() const;
     [[nodiscard]] bool absent() const;
@@ -71,7 +71,6 @@ private:
     void sent();
     [[nodiscard]] bool hangs() const;
     [[nodiscard]] bool hasStalled();
-    void lose(const std::string& reason);
     [[nodiscard]] std::shared_ptr<Camera> opened(std::chrono::milliseconds timeout);
     [[nodiscard]] std::shared_ptr<Camera> tryOpen();
 

@@ -258,15 +258,14 @@ std::vector<bool> outliers(const std::vector<double>& values) {
     return out;
 }
 
-CameraFit fitCamera(const Target& target, std::vector<TargetView>& views, Size picture,
+CameraFit fitCamera(const Target& target, std::vector<TargetView>& views, const CameraModel& guess,
                     const std::string& sensor, int most) {
     CameraFit fit;
-    const CameraModel guess = guessedCamera(target, views, picture);
     for (const TargetView& view : views)
         fit.poses.push_back(targetPose(target, view, guess));
     std::vector<bool> outside(views.size());
     for (int round = 0; round < kRounds; ++round) {
-        fit.chosen = mostDifferent(views, fit.poses, picture, most);
+        fit.chosen = mostDifferent(views, fit.poses, guess.size, most);
         try {
             fit.camera = calibrated(target, views, fit.chosen, guess);
         } catch (const cv::Exception& e) {

@@ -33,9 +33,10 @@ class Unsuitable : public std::runtime_error {
                                         Size picture);
 
 /// Throws Unsuitable unless at least `leastViews` views cover the picture and show the target from
-/// different directions and at different depths. `sensor` names the sensor in the message.
-void checkViews(const Target& target, const std::vector<TargetView>& views, Size picture,
-                const std::string& sensor, int leastViews);
+/// different directions and at different depths. `guess`: see guessedCamera(). `sensor` names the
+/// sensor in the message.
+void checkViews(const Target& target, const std::vector<TargetView>& views,
+                const CameraModel& guess, const std::string& sensor, int leastViews);
 
 struct CameraFit {
     CameraModel camera;
@@ -47,9 +48,9 @@ struct CameraFit {
 
 /// Fits intrinsics and distortion (k3 stays 0) to at most `most` views. The views are chosen so
 /// that they differ as much as possible. Views that do not fit are ignored. Corners that do not fit
-/// are removed from `views`. Throws Unsuitable.
+/// are removed from `views`. `guess`: see guessedCamera(). Throws Unsuitable.
 [[nodiscard]] CameraFit fitCamera(const Target& target, std::vector<TargetView>& views,
-                                  Size picture, const std::string& sensor, int most);
+                                  const CameraModel& guess, const std::string& sensor, int most);
 
 /// Returns true for each value that is an outlier: more than twice the median, and more than 4
 /// robust standard deviations above the median.

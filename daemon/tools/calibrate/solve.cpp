@@ -28,13 +28,17 @@ struct Member {
     int index = 0;
 };
 
+struct Guesses {
+    CameraModel video, still;
+};
+
 class Assembly {
 public:
     Assembly(const Target& target, const SensorViews& video, const SensorViews& still,
-             const SolveOptions& options)
+             const Guesses& guesses, const SolveOptions& options)
         : target_(target), video_(video), still_(still), options_(options),
-          videoFit_(fitCamera(target, video_.views, video.picture, "video", options.videoViews)),
-          stillFit_(fitCamera(target, still_.views, still.picture, "still", options.stillViews)) {
+          videoFit_(fitCamera(target, video_.views, guesses.video, "video", options.videoViews)),
+          stillFit_(fitCamera(target, still_.views, guesses.still, "still", options.stillViews)) {
         for (int i = 0; i < static_cast<int>(video_.views.size()); ++i) {
             if (!videoFit_.poses[i]) continue;
             track_.add(video_.views[i].time, *videoFit_.poses[i]);
@@ -233,9 +237,11 @@ void checkCertainty(const Calibration& c) {
 
 Calibration calibrate(const Target& target, const SensorViews& video, const SensorViews& still,
                       const SolveOptions& options) {
-    checkViews(target, video.views, video.picture, "video", kLeastVideoViews);
-    checkViews(target, still.views, still.picture, "still", kLeastStillViews);
-    Calibration out = Assembly(target, video, still, options).run();
+    const Guesses guesses{guessedCamera(target, video.views, video.picture),
+                          guessedCamera(target, still.views, still.picture)};
+    checkViews(target, video.views, guesses.video, "video", kLeastVideoViews);
+    checkViews(target, still.views, guesses.still, "still", kLeastStillViews);
+    Calibration out = Assembly(target, video, still, guesses, options).run();
     checkCertainty(out);
     return out;
 }

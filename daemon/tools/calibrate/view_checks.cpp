@@ -33,8 +33,8 @@ struct Spread {
     double depth = 1;
 };
 
-Spread spreadOf(const Target& target, const std::vector<TargetView>& views, Size picture) {
-    const CameraModel camera = guessedCamera(target, views, picture);
+Spread spreadOf(const Target& target, const std::vector<TargetView>& views,
+                const CameraModel& camera) {
     std::vector<Eigen::Vector3d> normals;
     std::vector<double> depths;
     for (const TargetView& view : views) {
@@ -59,14 +59,14 @@ Spread spreadOf(const Target& target, const std::vector<TargetView>& views, Size
 
 }  // namespace
 
-void checkViews(const Target& target, const std::vector<TargetView>& views, Size picture,
-                const std::string& sensor, int leastViews) {
+void checkViews(const Target& target, const std::vector<TargetView>& views,
+                const CameraModel& guess, const std::string& sensor, int leastViews) {
     const int count = static_cast<int>(views.size());
     if (count < leastViews)
         throw Unsuitable(fmt::format(
             "too few views: {} pictures of the {} sensor show the target; at least {} are needed",
             count, sensor, leastViews));
-    const Spread spread = spreadOf(target, views, picture);
+    const Spread spread = spreadOf(target, views, guess);
     if (!(spread.tilt >= kLeastTilt))
         throw Unsuitable(fmt::format(
             "the {} sensor saw the target from nearly one direction (it was tilted by {:.0f} "
@@ -78,7 +78,7 @@ void checkViews(const Target& target, const std::vector<TargetView>& views, Size
             "{:.2f} times as far away as its nearest; at least {:.2f} times are needed): "
             "show it closer and farther away",
             sensor, spread.depth, kLeastDepth));
-    Coverage coverage(picture);
+    Coverage coverage(guess.size);
     for (const TargetView& view : views)
         coverage.add(view.corners);
     if (!(coverage.share() >= kLeastCoverage))

@@ -11,7 +11,6 @@
 #include <optional>
 #include <span>
 #include <stdexcept>
-#include <string_view>
 #include <utility>
 
 namespace mfar::eval {
@@ -73,10 +72,7 @@ public:
             if (field.isKnown(i)) out.inverseDepth.ptr<float>()[i] = field.inverseDepth[i];
         out.variance = cv::Mat(frame.picture.size(), CV_32F);
         std::copy(field.variance.begin(), field.variance.end(), out.variance.begin<float>());
-        for (const StageTime& stage : pipeline_.stageTimes())
-            if (std::ranges::find(kDepthStages, std::string_view(stage.stage)) !=
-                kDepthStages.end())
-                out.ms += stage.ms;
+        out.ms = msOfStages(pipeline_, kDepthStages);
         return out;
     }
 

@@ -14,17 +14,23 @@ inline constexpr std::array<std::string_view, 3> kFlowStages{"pyramid", "epipola
 inline constexpr std::array<std::string_view, 4> kDepthStages{"pyramid", "epipolar", "flow",
                                                               "depth"};
 
+/// Returns the time of the named stages in the last run [ms]. Needs Pipeline::setMeasure(true).
+[[nodiscard]] inline double msOfStages(const Pipeline& pipeline,
+                                       std::span<const std::string_view> names) {
+    double out = 0;
+    for (const StageTime& stage : pipeline.stageTimes())
+        if (std::ranges::find(names, std::string_view(stage.stage)) != names.end()) out += stage.ms;
+    return out;
+}
+
 /// Returns the share (0 to 1) of the last run's time that the named stages took. Needs
 /// Pipeline::setMeasure(true).
 [[nodiscard]] inline double shareOfStages(const Pipeline& pipeline,
                                           std::span<const std::string_view> names) {
-    double some = 0, all = 0;
-    for (const StageTime& stage : pipeline.stageTimes()) {
+    double all = 0;
+    for (const StageTime& stage : pipeline.stageTimes())
         all += stage.ms;
-        if (std::ranges::find(names, std::string_view(stage.stage)) != names.end())
-            some += stage.ms;
-    }
-    return all > 0 ? some / all : 0;
+    return all > 0 ? msOfStages(pipeline, names) / all : 0;
 }
 
 }  // namespace mfar::eval
