@@ -14,6 +14,7 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include <cmath>
 #include <functional>
 #include <stdexcept>
 #include <utility>
@@ -67,6 +68,8 @@ struct PlayedSource final : RigSource {
         handOver = handOverAt(playerPace(config.pace, SourcePace::Consumer));
         failure = ExitCode::BadData;
         videoFrames = player.recording().video.size();
+        recordedTimeOffset =
+            std::chrono::nanoseconds(std::llround(player.recording().stillTimeOffset * 1e9));
         if (const auto file = player.recording().root / "tags.toml"; std::filesystem::exists(file))
             tags = readTagMap(file);
         if (!player.recording().poses.empty())
@@ -191,7 +194,8 @@ Rig::makeRecording(const std::filesystem::path& folder) const {
     const std::lock_guard lock(mutex_);
     requireNoRecorder();
     RecorderOptions options = recording_;
-    options.stillTimeOffset = static_cast<double>(stillTimeOffset().count()) * 1e-9;
+    const std::chrono::duration<double> added = stillTimeOffset() + source_->recordedTimeOffset;
+    options.stillTimeOffset = added.count();
     return [folder, rig = geometry(), rateHz = source_->video().info().rateHz, options] {
         return orFail(ExitCode::OutputFailed,
                       [&] { return std::make_shared<Recorder>(folder, rig, rateHz, options); });

@@ -25,10 +25,13 @@ poses=run/state_groundtruth_estimate0/data.csv
 [ "$(grep -vc '^#' $poses)" -ge 8 ] || fail "the recording has fewer than 8 poses"
 run 0 --recording run --summary summary.json
 says err 'poses from a map of [0-9]+ tags; '
+echo 'time_offset: 0.0125' >>run/cam1/sensor.yaml
 run 0 --recording run --pose recorded --record copy --summary summary.json
 summary_has tracked 8
 summary_has stills_tracked 1
 cmp $poses copy/${poses#run/} || fail "a recording of the replay has other poses"
+grep '^time_offset: 0.0125 ' copy/cam1/sensor.yaml ||
+    fail "a recording of the replay lacks the clock offset that its stills' times contain"
 
 run 74 --recording run --record run
 says err 'not empty'
