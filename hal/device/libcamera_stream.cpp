@@ -74,6 +74,7 @@ void LibcameraCamera::Stream::open() {
     configured_ = configureLibcamera(*camera_, options_);
     controls_ = controlsFor(*camera_, options_);
     stream_ = configured_.configuration->at(0).stream();
+    times_.emplace(leastBytes(configured_.layout), options_.rateHz);
     allocate();
     camera_->requestCompleted.connect(this, &Stream::completed);
     camera_->disconnected.connect(this, &Stream::disconnected);
@@ -126,7 +127,7 @@ void LibcameraCamera::Stream::start() {
     }
     controlsDue_ = true;
     const std::lock_guard lock(mutex_);
-    drops_.pause();
+    times_->pause();
 }
 
 int LibcameraCamera::Stream::queue(std::size_t slot) {
@@ -167,53 +168,23 @@ void LibcameraCamera::Stream::completed(libcamera::Request* request) {
 
 std::optional<RequestCycle::Done> LibcameraCamera::Stream::judge(std::size_t slot,
                                                                  libcamera::Request& request) {
-    const std::lock_guard lock(mutex_);
-    const libcamera::FrameMetadata& metadata = request.findBuffer(stream_)->metadata();
-    if (isSound(metadata)) return describe(slot, request, metadata);
-    drops_.addUntimed(metadata.sequence);
-    return std::nullopt;
-}
-
-bool LibcameraCamera::Stream::isSound(const libcamera::FrameMetadata& metadata) {
-    if (libcamera_compat::isStartup(metadata)) {
-        ++counters_.startup;
-        return false;
-    }
-    std::size_t bytes = 0;
-    for (const auto& plane : metadata.planes())
-        bytes += plane.bytesused;
-    const bool sound = metadata.status == libcamera::FrameMetadata::FrameSuccess &&
-                       bytes >= leastBytes(configured_.layout);
-    if (!sound) ++counters_.broken;
-    return sound;
-}
-
-std::optional<RequestCycle::Done>
-LibcameraCamera::Stream::describe(std::size_t slot, libcamera::Request& request,
-                                  const libcamera::FrameMetadata& metadata) {
     namespace controls = libcamera::controls;
+    const libcamera::FrameMetadata& metadata = request.findBuffer(stream_)->metadata();
     const libcamera::ControlList& told = request.metadata();
-    const auto stamp =
+    PictureTimes::Reported picture;
+    picture.isStartup = libcamera_compat::isStartup(metadata);
+    picture.failed = metadata.status != libcamera::FrameMetadata::FrameSuccess;
+    for (const auto& plane : metadata.planes())
+        picture.bytes += plane.bytesused;
+    picture.sequence = metadata.sequence;
+    picture.stamp =
         told.get(controls::SensorTimestamp).value_or(static_cast<std::int64_t>(metadata.timestamp));
-    const auto now = SensorClock::Now::read();
-    const auto exposure = std::chrono::microseconds(told.get(controls::ExposureTime).value_or(0));
-    const bool timed = stamp != 0;
-    std::optional<Timestamp> time = now.monotonic;
-    if (timed) time = clock_.toMonotonic({stamp}, now);
-    if (timed && time) time = *time + exposure / 2;
-    if (!time || (last_ && *time <= *last_)) {
-        ++counters_.badTimes;
-        drops_.addUntimed(metadata.sequence);
-        return std::nullopt;
-    }
-    if (!timed) ++counters_.untimed;
-    if (timed && options_.rateHz > 0)
-        drops_.add(*time, metadata.sequence);
-    else
-        drops_.addUntimed(metadata.sequence);
-    last_ = time;
+    picture.exposure = std::chrono::microseconds(told.get(controls::ExposureTime).value_or(0));
+    const std::lock_guard lock(mutex_);
+    const std::optional<Timestamp> time = times_->add(picture, SensorClock::Now::read());
+    if (!time) return std::nullopt;
     checkView(told);
-    return RequestCycle::Done{slot, *time, exposure};
+    return RequestCycle::Done{slot, *time, picture.exposure};
 }
 
 void LibcameraCamera::Stream::checkView(const libcamera::ControlList& told) {
@@ -244,12 +215,10 @@ std::optional<Frame> LibcameraCamera::Stream::next(std::chrono::milliseconds tim
 LibcameraCounters LibcameraCamera::Stream::counters() const {
     const std::uint64_t frames = cycle_.delivered(), restarts = cycle_.restarts();
     const std::lock_guard lock(mutex_);
-    LibcameraCounters counters = counters_;
-    counters.frames = frames;
-    counters.restarted = restarts;
-    counters.dropped = drops_.dropped();
-    counters.clock = clock_.kind();
-    return counters;
+    const PictureTimes::Counters& pictures = times_->counters();
+    return {frames,           times_->dropped(), pictures.broken,
+            pictures.startup, pictures.badTimes, pictures.untimed,
+            restarts,         times_->clock()};
 }
 
 }  // namespace mfar

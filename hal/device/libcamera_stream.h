@@ -3,8 +3,8 @@
 #include "hal/device/camera_libcamera.h"
 #include "hal/device/libcamera_buffers.h"
 #include "hal/device/libcamera_setup.h"
+#include "hal/device/picture_times.h"
 #include "hal/device/request_cycle.h"
-#include "hal/frame_drops.h"
 
 #include <atomic>
 #include <memory>
@@ -49,10 +49,6 @@ private:
     void disconnected();
     [[nodiscard]] std::optional<RequestCycle::Done> judge(std::size_t slot,
                                                           libcamera::Request& request);
-    [[nodiscard]] bool isSound(const libcamera::FrameMetadata& metadata);
-    [[nodiscard]] std::optional<RequestCycle::Done>
-    describe(std::size_t slot, libcamera::Request& request,
-             const libcamera::FrameMetadata& metadata);
     void checkView(const libcamera::ControlList& told);
 
     LibcameraOptions options_;
@@ -71,10 +67,7 @@ private:
     mutable std::mutex mutex_;  ///< lock order: first the mutex of cycle_, then mutex_
     bool viewChecked_ = false;
     std::string viewFault_;
-    LibcameraCounters counters_;
-    FrameDrops drops_;
-    SensorClock clock_;
-    std::optional<Timestamp> last_;
+    std::optional<PictureTimes> times_;  ///< set by open()
 };
 
 }  // namespace mfar

@@ -217,7 +217,7 @@ int FakeV4l2::requestBuffers(v4l2_requestbuffers& request) {
         const auto bytes = planeBytes();
         b.planes.resize(bytes.size());
         for (std::size_t p = 0; p < bytes.size(); ++p) {
-            b.planes[p].length = static_cast<std::uint32_t>(bytes[p]);
+            b.planes[p].length = static_cast<std::uint32_t>(bytes[p]) + dataOffset;
             b.planes[p].m.mem_offset = static_cast<std::uint32_t>(kPiece * (3 * i + p));
         }
     }
@@ -302,7 +302,9 @@ bool FakeV4l2::deliver(const FakePicture& picture) {
     next->said.timestamp.tv_usec = ns % 1'000'000'000 / 1000;
     for (v4l2_plane& plane : next->planes) {
         std::uint8_t* to = bytes_ + plane.m.mem_offset;
-        std::memset(to, picture.level, plane.length);
+        std::memset(to, 0, dataOffset);
+        std::memset(to + dataOffset, picture.level, plane.length - dataOffset);
+        plane.data_offset = dataOffset;
         plane.bytesused = static_cast<std::uint32_t>(plane.length - picture.missingBytes);
         if (picture.jpeg.empty()) continue;
         std::copy(picture.jpeg.begin(), picture.jpeg.end(), to);

@@ -81,6 +81,8 @@ public:
     bool rounds = false;  ///< S_FMT answers with another size than requested
     std::uint32_t clock = V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC;
     std::size_t padding = 0;  ///< padding of rows [bytes]
+    /// Each plane begins this number of bytes after the start of its memory. Needs multiPlanar.
+    std::uint32_t dataOffset = 0;
     std::uint32_t mostBuffers = 16;
     /// If true, requests for more than mostBuffers buffers fail with ENOMEM. Otherwise mostBuffers
     /// buffers are granted.

@@ -1,4 +1,5 @@
 #include "hal/device/jpeg_decoder.h"
+#include "tests/device/jpeg_of.h"
 
 #include <gtest/gtest.h>
 
@@ -26,17 +27,7 @@ Bytes rgbRamp() {
 }
 
 Bytes encoded(int subsampling) {
-    const Bytes rgb = rgbRamp();
-    tjhandle handle = tjInitCompress();
-    unsigned char* jpeg = nullptr;
-    unsigned long bytes = 0;
-    EXPECT_EQ(tjCompress2(handle, rgb.data(), kJpegSize.width, 0, kJpegSize.height, TJPF_RGB, &jpeg,
-                          &bytes, subsampling, 95, 0),
-              0);
-    Bytes out(jpeg, jpeg + bytes);
-    tjFree(jpeg);
-    tjDestroy(handle);
-    return out;
+    return test::jpegOf(rgbRamp(), kJpegSize, subsampling);
 }
 
 /// Removes the Huffman tables. Many cameras omit the tables that the standard suggests.

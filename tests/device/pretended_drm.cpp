@@ -8,6 +8,7 @@
 #include <drm_fourcc.h>
 #include <fstream>
 #include <map>
+#include <set>
 #include <string_view>
 #include <thread>
 #include <utility>
@@ -25,7 +26,6 @@ constexpr std::array<std::string_view, 12> kProperties = {"CRTC_ID", "MODE_ID", 
                                                           "SRC_X",   "SRC_Y",   "SRC_W",  "SRC_H",
                                                           "CRTC_X",  "CRTC_Y",  "CRTC_W", "CRTC_H"};
 constexpr std::uint32_t kType = kFirstProperty + kProperties.size();
-constexpr std::uint32_t kFramebufferProperty = kFirstProperty + 3;
 
 struct DumbBuffer {
     std::uint64_t offset = 0;
@@ -38,7 +38,8 @@ struct Driver {
     std::map<std::uint32_t, DumbBuffer> buffers;
     std::map<std::uint32_t, std::uint32_t> framebuffers;
     std::uint32_t next = 1;
-    std::uint32_t asked = 0;
+    std::map<std::pair<std::uint32_t, std::string_view>, std::uint64_t> asked;
+    std::set<std::uint64_t> modes;
     void* flipping = nullptr;
     std::uint64_t end = 0;
 };
@@ -61,6 +62,23 @@ std::uint32_t* twoFrom(std::uint32_t first) {
     out[0] = first;
     out[1] = first + 1;
     return out;
+}
+
+/// True if the request shows the whole framebuffer on the whole screen. Sources are in 16.16 fixed
+/// point.
+bool isModeSet() {
+    const std::uint64_t width = driver.seen.width, height = driver.seen.height;
+    const auto is = [](std::uint32_t object, std::string_view property, std::uint64_t value) {
+        const auto at = driver.asked.find({object, property});
+        return at != driver.asked.end() && at->second == value;
+    };
+    const auto mode = driver.asked.find({kCrtc, "MODE_ID"});
+    return mode != driver.asked.end() && driver.modes.contains(mode->second) &&
+           is(kConnector, "CRTC_ID", kCrtc) && is(kCrtc, "ACTIVE", 1) &&
+           is(kPlane, "CRTC_ID", kCrtc) && is(kPlane, "SRC_X", 0) && is(kPlane, "SRC_Y", 0) &&
+           is(kPlane, "SRC_W", width << 16) && is(kPlane, "SRC_H", height << 16) &&
+           is(kPlane, "CRTC_X", 0) && is(kPlane, "CRTC_Y", 0) && is(kPlane, "CRTC_W", width) &&
+           is(kPlane, "CRTC_H", height);
 }
 
 int refused(int error) {
@@ -171,9 +189,11 @@ drmModePropertyPtr drmModeGetProperty(int /*fd*/, std::uint32_t id) {
 int drmModeCreatePropertyBlob(int /*fd*/, const void* /*data*/, std::size_t /*size*/,
                               std::uint32_t* id) {
     *id = driver.next++;
+    driver.modes.insert(*id);
     return 0;
 }
-int drmModeDestroyPropertyBlob(int /*fd*/, std::uint32_t /*id*/) {
+int drmModeDestroyPropertyBlob(int /*fd*/, std::uint32_t id) {
+    driver.modes.erase(id);
     return 0;
 }
 
@@ -226,21 +246,26 @@ int drmModeRmFB(int /*fd*/, std::uint32_t id) {
     return 0;
 }
 
-int drmModeAtomicAddProperty(drmModeAtomicReqPtr /*request*/, std::uint32_t /*object*/,
+int drmModeAtomicAddProperty(drmModeAtomicReqPtr /*request*/, std::uint32_t object,
                              std::uint32_t property, std::uint64_t value) {
-    if (property == kFramebufferProperty) driver.asked = static_cast<std::uint32_t>(value);
+    driver.asked[{object, kProperties.at(property - kFirstProperty)}] = value;
     return 1;
 }
 int drmModeAtomicCommit(int /*fd*/, const drmModeAtomicReqPtr /*request*/, std::uint32_t flags,
                         void* data) {
-    if (driver.framebuffers.count(driver.asked) == 0) return refused(ENOENT);
+    const auto framebuffer = static_cast<std::uint32_t>(driver.asked[{kPlane, "FB_ID"}]);
+    const bool setsMode = isModeSet();
+    driver.asked.clear();
+    if (driver.framebuffers.count(framebuffer) == 0) return refused(ENOENT);
     if ((flags & DRM_MODE_ATOMIC_ALLOW_MODESET) != 0) {
+        if (!setsMode) return refused(EINVAL);
         ++driver.seen.modeSets;
     } else {
         if (driver.seen.refusesFlips || driver.flipping != nullptr) return refused(EBUSY);
-        driver.flipping = data;
+        if ((flags & DRM_MODE_PAGE_FLIP_EVENT) != 0) driver.flipping = data;
+        if ((flags & DRM_MODE_ATOMIC_NONBLOCK) == 0) ++driver.seen.blockingFlips;
     }
-    driver.seen.shown = driver.asked;
+    driver.seen.shown = framebuffer;
     driver.seen.console = false;
     return 0;
 }

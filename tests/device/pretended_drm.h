@@ -8,7 +8,8 @@ namespace mfar::test {
 
 /// A simulated KMS driver. A program that links pretended_drm.cpp calls it instead of libdrm. It
 /// has one card with one connector, CRTC and plane, or with two of each (`secondScreen`). Dumb
-/// buffers are in the card's file. A program has one driver, used by one thread.
+/// buffers are in the card's file. It refuses a mode set that does not show the whole framebuffer
+/// on the whole screen. A program has one driver, used by one thread.
 struct PretendedDrm {
     bool connected = true;
     std::uint16_t width = 64, height = 48;
@@ -16,6 +17,7 @@ struct PretendedDrm {
     int otherEvents = 0;  ///< number of other events before the event of the flip, 10 ms apart
     bool refusesFlips = false;
     int modeSets = 0, flipped = 0, buffers = 0, framebuffers = 0;
+    int blockingFlips = 0;  ///< number of flips for which the caller had to wait
     std::uint32_t shown = 0;
     /// A second connector exists, and its screen shows the first CRTC. The first connector has
     /// none.

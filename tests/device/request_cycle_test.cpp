@@ -5,6 +5,8 @@
 #include <atomic>
 #include <condition_variable>
 #include <deque>
+#include <functional>
+#include <future>
 #include <mutex>
 #include <stdexcept>
 #include <string>
@@ -16,7 +18,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr milliseconds kPatience{10'000};
+constexpr milliseconds kPatience{10'000}, kLong{60'000};
 constexpr std::size_t kRequests = 4;
 
 /// Completes requests in the test's thread, when the test calls fill(). libcamera completes them in
@@ -119,6 +121,43 @@ TEST(RequestCycle, CancellationOfAllRequestsRestartsTheCameraAndIsCounted) {
         EXPECT_EQ(camera.starts().size(), static_cast<std::size_t>(i) + 1);
     }
     EXPECT_TRUE(takes(camera, 21));
+}
+
+/// Runs `call` in another thread, then `wake` while that thread waits. Returns false if this does
+/// not end the wait.
+bool wakes(const std::function<void()>& call, const std::function<void()>& wake) {
+    auto waiting = std::async(std::launch::async, call);
+    EXPECT_EQ(waiting.wait_for(milliseconds(20)), std::future_status::timeout);
+    wake();
+    return waiting.wait_for(kLong / 2) == std::future_status::ready;
+}
+
+TEST(RequestCycle, ACompletedRequestWakesTheWaitingReader) {
+    FakeDriver camera;
+    camera.cycle.start();
+    EXPECT_TRUE(wakes([&] { EXPECT_TRUE(camera.cycle.next(kLong)); }, [&] { camera.fill(); }));
+}
+
+TEST(RequestCycle, StopWakesTheWaitingReader) {
+    FakeDriver camera;
+    camera.cycle.start();
+    EXPECT_TRUE(
+        wakes([&] { EXPECT_FALSE(camera.cycle.next(kLong)); }, [&] { camera.cycle.stop(); }));
+}
+
+TEST(RequestCycle, ALossWakesTheWaitingReader) {
+    FakeDriver camera;
+    camera.cycle.start();
+    EXPECT_TRUE(wakes([&] { EXPECT_THROW((void)camera.cycle.next(kLong), DeviceLost); },
+                      [&] { camera.cycle.lose("unplugged"); }));
+}
+
+TEST(RequestCycle, CancellationOfAllRequestsWakesTheWaitingReader) {
+    FakeDriver camera(kPatient);
+    camera.cycle.start();
+    EXPECT_TRUE(
+        wakes([&] { EXPECT_FALSE(camera.cycle.next(kLong)); }, [&] { camera.cancelAll(); }));
+    EXPECT_EQ(camera.cycle.restarts(), 1U);
 }
 
 TEST(RequestCycle, ReadyPicturesAreDeliveredBeforeTheRestart) {
