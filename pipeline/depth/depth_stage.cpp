@@ -66,7 +66,7 @@ void DepthStage::run(const Rows<const std::uint8_t>& luma, const Pose& pose,
             filter_.fuse(measured_, where);
             source_ = DepthSource::Still;
         }
-        findNeeds(pose, brightness, still ? still->unit : 0, where);
+        findNeeds(pose, brightness, source_ == DepthSource::Still ? still->unit : 0, where);
         searchKeyframe(luma, pose);
         if (source_ != DepthSource::None && source_ != DepthSource::Carried) {
             measuredPose_ = pose.T_world_video;

@@ -109,15 +109,15 @@ TracedStep TracedPictures::chosenStep() const {
         sinceShown = std::max(*sinceShown, motionSince(pictures_[shown_]));
     const bool rests = restLooks_ == kRestLooks;
     const bool hasBegun = hasNext_ && !toBegin_;
-    if (hasBegun && nextRests_ && rests) return TracedStep::Continue;
+    const std::optional<double> sinceNext =
+        hasBegun ? changeSince(pictures_[1 - shown_]) : std::nullopt;
+    if (sinceNext && nextRests_ && rests) return TracedStep::Continue;
     const bool isElsewhere =
         sinceShown && pixelChange(pictures_[shown_].view, now_, scene_->balls) > kElsewherePixels;
     const Picture& shown = pictures_[shown_];
     if (!hasBegun && rests && (isElsewhere || (shown.wasShown && !shown.rests)))
         return TracedStep::Start;
-    const TracedStep step =
-        nextStep(sinceShown, hasBegun ? changeSince(pictures_[1 - shown_]) : std::nullopt,
-                 policy_.soon ? kSoon : 1);
+    const TracedStep step = nextStep(sinceShown, sinceNext, policy_.soon ? kSoon : 1);
     // A new picture reuses the light of the shown picture, which has none before its first samples.
     // So the shown picture gets these samples first, if it still is near enough to the present
     // view.
@@ -234,6 +234,8 @@ void TracedPictures::begin() {
 TracedPictures::Portion TracedPictures::next(std::int64_t mostSamples) {
     Picture& picture = pictures_[working()];
     if (toBegin_ || !picture.scene || toShow()) return {};
+    // Portions of a dropped picture can still read the shown picture's film as their history.
+    if (pictures_[1 - working()].portions > 0) return {};
     Portion out{picture.slices.next(mostSamples), working()};
     if (!out.slice.pixels.empty()) ++picture.portions;
     return out;

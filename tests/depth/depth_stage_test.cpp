@@ -36,6 +36,14 @@ public:
         pose_ = T_world_video;
         stage_.run(scene_.render(barrelCamera(), T_world_video.inverse()), nextPose(), {}, where_);
     }
+    /// Runs a frame with a still that is not used, because its baseline is not known well.
+    void goBesideUnusableStill(const RigidTransform& T_world_video) {
+        pose_ = T_world_video;
+        const EpipolarSearch search = test::searchWith(barrelCamera(), 2);
+        stage_.run(scene_.render(barrelCamera(), T_world_video.inverse()), nextPose(),
+                   DepthStage::StillSearch{search, Eigen::Matrix3f::Identity(), 1, 0.5, {}},
+                   where_);
+    }
     /// Runs a frame at the last pose, with a still that a camera beside the video camera took.
     void rest() {
         const RigidTransform T_still_video = motion({0, 0, 0}, {0.06, 0.02, 0});
@@ -115,6 +123,14 @@ TEST(DepthStage, DepthIsUnknownWithoutParallax) {
 TEST(DepthStage, MeasuresAgainstKeyframesWhileTheCameraMoves) {
     Walk walk;
     walk.goSideways(10, 0.01);
+    expectGood(walk.errors());
+}
+
+TEST(DepthStage, AStillThatCannotBeUsedDoesNotPreventMeasurementsAgainstKeyframes) {
+    Walk walk;
+    for (int i = 1; i <= 10; ++i)
+        walk.goBesideUnusableStill(Walk::at(0.01 * i));
+    EXPECT_EQ(walk.stage().source(), DepthSource::Keyframe);
     expectGood(walk.errors());
 }
 

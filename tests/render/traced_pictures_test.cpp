@@ -193,6 +193,37 @@ TEST(TracedPictures, NewObjectsAreShownAtOnceButNewLightOnlyWithEnoughSamples) {
     EXPECT_EQ(driver.shown.back().samples, 1);
 }
 
+TEST(TracedPictures, NewObjectsReplaceAPictureThatWasBegunAtRest) {
+    Driver driver(kThirtyTwo);
+    driver.look(20);
+    driver.settle();
+    for (int i = 0; i < 12; ++i)
+        driver.look(22);
+    for (int i = 0; i < 3; ++i)
+        ASSERT_TRUE(driver.step());
+    const std::size_t before = driver.shown.size();
+    driver.pictures.setScene(preparedStillLife(2, 2));
+    driver.look(22);
+    EXPECT_TRUE(driver.pictures.toBegin());
+    driver.untilShown(before + 1);
+    EXPECT_EQ(driver.shown.back().samples, 1);
+}
+
+TEST(TracedPictures, NothingIsTracedWhileADroppedPictureReadsTheShownFilm) {
+    Driver driver(kThirtyTwo);
+    driver.look(20);
+    driver.untilShown(3);
+    driver.look(26);
+    ASSERT_TRUE(driver.step());
+    const TracedPictures::Portion dropped = driver.pictures.next(1000);
+    ASSERT_FALSE(dropped.slice.pixels.empty());
+    driver.look(20.2);
+    EXPECT_TRUE(driver.pictures.next(1000).slice.pixels.empty());
+    driver.pictures.trace(dropped);
+    driver.pictures.done(dropped, {});
+    EXPECT_FALSE(driver.pictures.next(1000).slice.pixels.empty());
+}
+
 TEST(TracedPictures, WaitsForPortionsOfTheReplacedPicture) {
     Driver driver(kThirtyTwo);
     driver.look(20);

@@ -207,7 +207,8 @@ TEST(TracedRenderer, TheDestructorInterruptsTracing) {
                 frames->frame(render_scenes::viewFrom(kRenderSize, 20 + 5 * k));
             const auto begin = steady_clock::now();
             frames.reset();
-            EXPECT_LT(steady_clock::now() - begin, std::chrono::seconds(1));
+            // Without the interruption, the destructor would wait for minutes.
+            EXPECT_LT(steady_clock::now() - begin, std::chrono::seconds(30));
         }
 }
 
