@@ -240,7 +240,7 @@ Pipeline::State::Match Pipeline::State::matchStill(const VideoFrame& frame, cons
     lap("flow");
     const CellWeights& weights = weighed(newest, frame, pyramids, *found, work);
     lap("weigh");
-    newest.lastFlow = found;
+    if (work.matched > 0) newest.lastFlow = found;  // without matched tiles, nothing was searched
     newest.lastWeights = &weights;
     listen(weights);
     return {*found, weights};
@@ -256,7 +256,10 @@ const CellWeights& Pipeline::State::weighed(const Reference& still, const VideoF
 }
 
 const CellWeights* Pipeline::State::matchSecond(const VideoFrame& frame, const TileWork& work) {
-    if (!keepsSecond() || work.matched == 0) return nullptr;
+    if (keepsSecond() && work.matched == 0) return nullptr;
+    // A frame without this match makes the flow too old for later frames to start a search from it.
+    const FlowCells* const lastFlow = std::exchange(second.lastFlow, nullptr);
+    if (!keepsSecond()) return nullptr;
     if (newest.first.empty()) newest.keepFirst();
     const SecondTiles::Match shown{newest.lastWeights->weighed.host(),
                                    newest.lastWeights->trust.host()};
@@ -264,12 +267,9 @@ const CellWeights* Pipeline::State::matchSecond(const VideoFrame& frame, const T
     const int most = static_cast<int>(std::ceil(share * static_cast<double>(work.flags.size())));
     const TileWork& missed = secondTiles.choose(work, plan.measured(), shown, most);
     newest.count(secondTiles.matched(), secondTiles.shownByNewest());
-    if (missed.matched == 0) {
-        second.lastFlow = nullptr;  // later frames must not start their search from the old flow
-        return nullptr;
-    }
+    if (missed.matched == 0) return nullptr;
     const LumaPyramid& pyramids = second.pyramid->video(frame, missed);
-    const bool usePrior = second.lastFlow != nullptr && options.skips.knownFlow;
+    const bool usePrior = lastFlow != nullptr && options.skips.knownFlow;
     second.lastFlow = &second.flow->run({frame, *second.pictures}, pyramids, missed, usePrior);
     second.lastWeights = &weighed(second, frame, pyramids, *second.lastFlow, missed);
     secondTiles.judge(shown, second.lastWeights->weighed.host());
@@ -280,7 +280,7 @@ const CellWeights* Pipeline::State::matchSecond(const VideoFrame& frame, const T
 }
 
 void Pipeline::State::listen(const CellWeights& weights) {
-    if (!isNewStill || quality.mode != SuperResMode::Detail) return;
+    if (!isNewStill || newest.lastFlow == nullptr || quality.mode != SuperResMode::Detail) return;
     isNewStill = false;
     if (matchListener == nullptr || !quality.learned) return;
     matchListener->matched(now, newest.pictures->luma.host(), weights.lookUps.host(), lookedUp());
@@ -314,7 +314,7 @@ void Pipeline::State::drawDetail(const VideoFrame& frame, const TileWork& work,
         detail->draw(frame, &matched, work, how);
     } else {
         detail->draw(frame, nullptr, work, how);
-        newest.lastFlow = nullptr;
+        newest.lastFlow = second.lastFlow = nullptr;
     }
     if (gles) gles->flush();
     lap("detail");

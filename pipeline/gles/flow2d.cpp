@@ -65,13 +65,13 @@ void Flow2d::run(const LumaOnGpu& luma, const TileBuffer& tiles, bool usePrior) 
 }
 
 void Flow2d::refine(const LumaOnGpu& luma, const TileBuffer& tiles, Cells forward, Cells errors) {
-    errorsGiven_ = true;
-    cells_.write(forward, 16UL * seed_);
-    cells_.write(errors, 16UL * backward_.offset);
     if (tiles.work().matched == 0) {
         searched_.clear();
         return;
     }
+    errorsGiven_ = true;
+    cells_.write(forward, 16UL * seed_);
+    cells_.write(errors, 16UL * backward_.offset);
     const Stage& stage = forwardStages_[0];
     align(seed_, luma, tiles);
     searched_.find({cells_, stage.area[0], backward_.offset}, tiles);

@@ -197,9 +197,9 @@ void Flow2d::searchLevel(Ways ways, int level) {
 }
 
 void Flow2d::run(const Luma& luma, const TileWork& work, bool usePrior) {
-    errorsGiven_ = false;
     searched_.clear();
     if (work.matched == 0) return;
+    errorsGiven_ = false;
     const Way forward{forwards_,  luma.video, luma.still,
                       luma.words, usePrior,   options_.propagations};
     const Way backward{backwards_, luma.still, luma.video,
@@ -238,9 +238,9 @@ void Flow2d::alignRow(const AlignStep& step, const TileWork& work, int row) {
 }
 
 void Flow2d::refine(const Luma& luma, const TileWork& work, Cells forward, Cells errors) {
-    errorsGiven_ = true;
     searched_.clear();
     if (work.matched == 0) return;
+    errorsGiven_ = true;
     // Width of the margin around the wanted tiles in which vectors are also needed [tiles]. The
     // clean-up reads neighbouring vectors, and TileSearch needs them to choose the searched tiles.
     constexpr int kMargin = 2;

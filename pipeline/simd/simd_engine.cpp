@@ -135,8 +135,8 @@ public:
     const FlowCells& run(const Pictures& pictures, const LumaPyramid& luma, const TileWork& work,
                          bool usePrior) override {
         flow_.run(lumaOf(luma), work, usePrior);
-        copy(flow_.backward());
         if (work.matched > 0) {
+            copy(flow_.backward());
             takeForward();
             correct(pictures, work, nullptr);
         }
@@ -145,11 +145,8 @@ public:
     const FlowCells& refine(const Pictures& pictures, const LumaPyramid& luma, const TileWork& work,
                             const AlongLines& along) override {
         flow_.refine(lumaOf(luma), work, along.vectors, along.errors);
-        const Rows<const ErrorCell> given = flow_.errors();
-        ErrorCell* to = errors();
-        for (int y = 0; y < given.size.height; ++y)
-            to = std::copy_n(given[y], given.size.width, to);
         if (work.matched > 0) {
+            copy(flow_.errors());
             takeForward();
             matchDirectly(pictures, work, along.vectors);
             correct(pictures, work, errors());
@@ -183,13 +180,18 @@ private:
     void correct(const Pictures& pictures, const TileWork& work, const ErrorCell* errors) {
         subpixel_.run(pictures.video.planes, stills_->of(pictures.still), work, row_[0], errors);
     }
+    // copy() and takeForward() must not be called if no tile is matched: row_ then contains the
+    // corrected flow of the last frame and its errors, which are still valid.
+    void copy(Rows<const ErrorCell> given) {
+        ErrorCell* to = errors();
+        for (int y = 0; y < given.size.height; ++y)
+            to = std::copy_n(given[y], given.size.width, to);
+    }
     void copy(Rows<const FlowCell> backward) {
         FlowCell* to = row_[0] + cells_.count();
         for (int y = 0; y < backward.size.height; ++y)
             to = std::copy_n(backward[y], backward.size.width, to);
     }
-    // Must not be called if no tile is matched: row_ then contains the corrected flow of the last
-    // frame, which is still valid and would be overwritten.
     void takeForward() {
         const Rows<const FlowCell> forward = flow_.forward();
         FlowCell* to = row_[0];
@@ -245,7 +247,7 @@ public:
     }
     const CellWeights& confirm(const VideoFrame& frame, const StillPictures& still,
                                const TileWork& work, const FineMatch& match) override {
-        if (work.changed == 0 || work.matched == 0) return weights_;
+        if (work.changed == 0) return weights_;
         weigh_.confirm(fine_.run(frame.planes, stills_->of(still), weigh_.lookUps(), weigh_.bent(),
                                  work, match));
         return written();

@@ -5,13 +5,6 @@
 namespace mfar {
 namespace {
 
-StereoRig simpleRig() {
-    StereoRig rig;
-    rig.video = {{256, 192}, 240, 240, 127.5, 95.5, {}};
-    rig.still = {{1024, 768}, 960, 960, 511.5, 383.5, {}};
-    return rig;
-}
-
 struct Heard final : MatchListener {
     int times = 0, weighed = 0, replacements = 0;
     void replaced(const RgbPlanes& video, Rows<const std::uint8_t> still,
@@ -27,8 +20,8 @@ struct Heard final : MatchListener {
                  Rows<const LookUpCell> lookUps,
                  const MatchedPictures::LookedUp& lookedUp) override {
         ++times;
-        EXPECT_EQ(video.size(), (Size{256, 192}));
-        EXPECT_EQ(still.size, (Size{1024, 768}));
+        EXPECT_EQ(video.size(), kDiscsVideo);
+        EXPECT_EQ(still.size, kDiscsStill);
         EXPECT_NEAR(lookedUp.scaleX * still.size.width / lookedUp.size.width, 4, 1e-6);
         for (int y = 0; y < lookUps.size.height; ++y)
             for (int x = 0; x < lookUps.size.width; ++x)
@@ -48,7 +41,7 @@ protected:
         return true;
     }
     static Pipeline made() {
-        return {simpleRig(), {.output = {}, .engines = EngineChoice::all(GetParam())}};
+        return {discsRig(), {.output = {}, .engines = EngineChoice::all(GetParam())}};
     }
     void setStill(Pipeline& pipeline) const {
         pipeline.setStill(
@@ -93,6 +86,18 @@ TEST_P(PipelineLearning, EachMatchedStillIsReportedOnce) {
     pipeline_.setMode(SuperResMode::Detail);
     (void)picture(pipeline_);
     EXPECT_EQ(heard.times, 2);
+}
+
+TEST_P(PipelineLearning, AStillIsReportedOnlyAfterAFrameWithMatchedTiles) {
+    Heard heard;
+    pipeline_.setMatchListener(&heard);
+    setStill(pipeline_);
+    const std::vector<std::uint8_t> dark(video_.size(), 3);
+    pipeline_.run({dark.data(), low_.size, std::size_t(low_.size.width), PixelFormat::Gray8}, {});
+    EXPECT_EQ(heard.times, 0);
+    (void)picture(pipeline_);
+    EXPECT_EQ(heard.times, 1);
+    EXPECT_GT(heard.weighed, 1000) << "more than 1000 of 3072 cells must have a weight above 0.5";
 }
 
 TEST_P(PipelineLearning, ReplacedStillIsReportedWithTheLastFrame) {

@@ -77,6 +77,17 @@ Grey sharpDiscs(unsigned seed, Size video) {
     return blurred(out);
 }
 
+StereoRig discsRig() {
+    StereoRig rig;
+    rig.video = {kDiscsVideo, 240, 240, 127.5, 95.5, {}};
+    rig.still = {kDiscsStill, 960, 960, 511.5, 383.5, {}};
+    return rig;
+}
+
+std::vector<std::uint8_t> bytesOf(const Grey& picture) {
+    return {picture.values.begin(), picture.values.end()};
+}
+
 Grey videoOf(const Grey& sharp, const SensorPair& pair) {
     Grey out =
         twin::greyOf({sharp.size.width / kGrid, sharp.size.height / kGrid}, [&](int x, int y) {

@@ -1,8 +1,12 @@
 #pragma once
 
+#include "base/geometry.h"
 #include "pipeline/enlarge/filter_bank.h"
 #include "pipeline/enlarge/match_listener.h"
 #include "tests/oracle/upscale.h"
+
+#include <cstdint>
+#include <vector>
 
 namespace mfar {
 
@@ -20,11 +24,16 @@ struct SensorPair {
     unsigned seed = 1;
 };
 
+inline constexpr Size kDiscsVideo{256, 192}, kDiscsStill{1024, 768};
+
 /// Random discs, with edges in all directions. The sides of the picture are four times as long as
 /// those of the video.
-[[nodiscard]] twin::Grey sharpDiscs(unsigned seed, Size video = {256, 192});
+[[nodiscard]] twin::Grey sharpDiscs(unsigned seed, Size video = kDiscsVideo);
 /// Returns the frame that the video sensor takes of `sharp`, in whole grey levels.
 [[nodiscard]] twin::Grey videoOf(const twin::Grey& sharp, const SensorPair& pair);
+/// Sensors of kDiscsVideo and kDiscsStill at the same place, without lens distortion.
+[[nodiscard]] StereoRig discsRig();
+[[nodiscard]] std::vector<std::uint8_t> bytesOf(const twin::Grey& picture);
 /// Calls listener.matched() with the video frame of `sharp` and with `still`.
 void showTo(MatchListener& listener, const twin::Grey& sharp, const twin::Grey& still,
             const SensorPair& pair);

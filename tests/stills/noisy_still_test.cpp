@@ -20,7 +20,6 @@ protected:
     /// Mean squared error of the picture that is drawn with a still with this noise [grey
     /// levels^2].
     static double error(double sigma) {
-        constexpr Size kVideo{256, 192}, kStill{1024, 768};
         const Grey scene = sharpDiscs(1);
         std::mt19937 random(2);
         std::normal_distribution<double> noise(0, 1);
@@ -28,15 +27,12 @@ protected:
         for (const double level : scene.values)
             still.push_back(static_cast<std::uint8_t>(
                 std::clamp(std::round(level + sigma * noise(random)), 0.0, 255.0)));
-        const Grey frame = videoOf(scene, {});
-        const Bytes video(frame.values.begin(), frame.values.end());
-        StereoRig rig;
-        rig.video = {kVideo, 240, 240, 127.5, 95.5, {}};
-        rig.still = {kStill, 960, 960, 511.5, 383.5, {}};
-        Pipeline pipeline(rig, {.output = {}, .engines = EngineChoice::all(GetParam())});
-        pipeline.setStill({still.data(), kStill, std::size_t(kStill.width), PixelFormat::Gray8},
-                          {});
-        pipeline.run({video.data(), kVideo, std::size_t(kVideo.width), PixelFormat::Gray8}, {});
+        const Bytes video = bytesOf(videoOf(scene, {}));
+        Pipeline pipeline(discsRig(), {.output = {}, .engines = EngineChoice::all(GetParam())});
+        pipeline.setStill(
+            {still.data(), kDiscsStill, std::size_t(kDiscsStill.width), PixelFormat::Gray8}, {});
+        pipeline.run(
+            {video.data(), kDiscsVideo, std::size_t(kDiscsVideo.width), PixelFormat::Gray8}, {});
         const Bytes picture = pipeline.readImage();
         double sum = 0;
         for (std::size_t i = 0; i < scene.values.size(); ++i)

@@ -12,17 +12,9 @@ namespace {
 using twin::Grey;
 using Bytes = std::vector<std::uint8_t>;
 
-constexpr Size kVideo{256, 192}, kStill{1024, 768};
 const PixelRect kHidden{0, 0, 400, 768};
 // Pixels are not compared within this distance of a border of the picture or of kHidden [px].
 constexpr int kRoom = 24;
-
-StereoRig simpleRig() {
-    StereoRig rig;
-    rig.video = {kVideo, 240, 240, 127.5, 95.5, {}};
-    rig.still = {kStill, 960, 960, 511.5, 383.5, {}};
-    return rig;
-}
 
 Grey hidden(const Grey& scene) {
     const Grey front = sharpDiscs(77);
@@ -30,35 +22,32 @@ Grey hidden(const Grey& scene) {
         scene.size, [&](int x, int y) { return x < kHidden.x1 ? front.at(x, y) : scene.at(x, y); });
 }
 
-Bytes bytesOf(const Grey& picture) {
-    return {picture.values.begin(), picture.values.end()};
-}
-
 /// Base of tests with a scene, a still that shows all of it, and a still that lacks its left part.
 class SecondStillTest : public GlTest {
 protected:
     static Pipeline made(double share, const EngineChoice& engines) {
-        Pipeline out(simpleRig(), {.output = {}, .engines = engines});
+        Pipeline out(discsRig(), {.output = {}, .engines = engines});
         out.setQuality({.secondShare = share});
         return out;
     }
     static void setStill(Pipeline& pipeline, const Bytes& still) {
-        pipeline.setStill({still.data(), kStill, std::size_t(kStill.width), PixelFormat::Gray8},
-                          {});
+        pipeline.setStill(
+            {still.data(), kDiscsStill, std::size_t(kDiscsStill.width), PixelFormat::Gray8}, {});
     }
     FrameStats run(Pipeline& pipeline) {
         pipeline.redraw();
-        pipeline.run({video_.data(), kVideo, std::size_t(kVideo.width), PixelFormat::Gray8}, {});
+        pipeline.run(
+            {video_.data(), kDiscsVideo, std::size_t(kDiscsVideo.width), PixelFormat::Gray8}, {});
         return pipeline.readStats();
     }
     double error(const Pipeline& pipeline, bool inHidden) const {
         const Bytes picture = pipeline.readImage();
         double sum = 0, count = 0;
-        for (int y = kRoom; y < kStill.height - kRoom; ++y)
-            for (int x = kRoom; x < kStill.width - kRoom; ++x) {
+        for (int y = kRoom; y < kDiscsStill.height - kRoom; ++y)
+            for (int x = kRoom; x < kDiscsStill.width - kRoom; ++x) {
                 if (inHidden ? x >= kHidden.x1 - kRoom : x < kHidden.x1 + kRoom) continue;
                 const double off =
-                    picture[4 * (std::size_t(y) * kStill.width + x)] - scene_.at(x, y);
+                    picture[4 * (std::size_t(y) * kDiscsStill.width + x)] - scene_.at(x, y);
                 sum += off * off;
                 ++count;
             }
@@ -125,7 +114,8 @@ TEST_P(SecondStillOfEngines, IsNotMatchedWhereTheNewestStillShowsAll) {
         EXPECT_LE(run(pipeline).matchedSecond, 2)
             << "only tiles at the picture's border may be matched";
     pipeline.setMeasure(true);
-    pipeline.run({video_.data(), kVideo, std::size_t(kVideo.width), PixelFormat::Gray8}, {});
+    pipeline.run({video_.data(), kDiscsVideo, std::size_t(kDiscsVideo.width), PixelFormat::Gray8},
+                 {});
     for (const StageTime& stage : pipeline.stageTimes())
         EXPECT_STRNE(stage.stage, "second still")
             << "an unchanged frame must not be matched with the second still";
@@ -219,8 +209,9 @@ TEST_F(SecondStillTest, AllEnginesGiveTheSamePicture) {
 }
 
 TEST_F(SecondStill, ADifferentExposureDoesNotIncreaseTheError) {
-    const Bytes dark = bytesOf(twin::greyOf(
-        kStill, [&](int x, int y) { return 255 * 0.7 * std::pow(scene_.at(x, y) / 255, 1.3); }));
+    const Bytes dark = bytesOf(twin::greyOf(kDiscsStill, [&](int x, int y) {
+        return 255 * 0.7 * std::pow(scene_.at(x, y) / 255, 1.3);
+    }));
     Pipeline one = made(0), two = made(1);
     for (Pipeline* pipeline : {&one, &two}) {
         setStill(*pipeline, dark);

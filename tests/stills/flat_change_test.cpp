@@ -1,0 +1,130 @@
+#include "pipeline/pipeline.h"
+#include "tests/engine/gl_test.h"
+#include "tests/learn/sensor_pair.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <thread>
+#include <vector>
+
+namespace mfar {
+namespace {
+
+using twin::Grey;
+using Bytes = std::vector<std::uint8_t>;
+
+constexpr int kFlatFrom = 768, kChangedFrom = 832;  // columns of the still
+constexpr int kShift = 24;                          // motion of the video camera [px of the still]
+constexpr int kComparedCells = 40;  // the cells left of the flat part, without a margin
+
+/// Keeps the look-ups with which the last frame was drawn.
+struct LastLookUps final : MatchListener {
+    void matched(const RgbPlanes&, Rows<const std::uint8_t>, Rows<const LookUpCell>,
+                 const MatchedPictures::LookedUp&) override {}
+    void replaced(const RgbPlanes&, Rows<const std::uint8_t>, Rows<const LookUpCell> lookUps,
+                  const MatchedPictures::LookedUp&) override {
+        cells.clear();
+        for (int y = 0; y < lookUps.size.height; ++y)
+            cells.insert(cells.end(), lookUps[y], lookUps[y] + kComparedCells);
+    }
+    std::vector<LookUpCell> cells;
+};
+
+/// A scene with discs and, at its right side, a surface without structure. The camera has moved
+/// between still and video. `rise`: rise of the flat surface's level towards its right side. The
+/// level rises slowly, so that no tile gets structure.
+Grey scene(double rise, int shift) {
+    static const Grey discs = sharpDiscs(1);
+    return twin::greyOf(kDiscsStill, [&](int x, int y) {
+        return x >= kFlatFrom
+                   ? 100 + rise * std::max(x - kChangedFrom, 0) / (kDiscsStill.width - kChangedFrom)
+                   : discs.at(std::min(x + shift, kDiscsStill.width - 1), y);
+    });
+}
+
+class FlatChange : public GlTest, public testing::WithParamInterface<EngineKind> {
+protected:
+    FlatChange() {
+        pose_.T_world_video.translation.x() = kShift / discsRig().still.fx;  // the scene is at 1 m
+    }
+
+    /// Draws frames until one uses the pose, if there is one.
+    void draw(Pipeline& pipeline, const std::optional<Pose>& pose) const {
+        const Bytes video = bytesOf(videoOf(scene(0, kShift), {}));
+        const ImageView view{video.data(), kDiscsVideo, std::size_t(kDiscsVideo.width),
+                             PixelFormat::Gray8};
+        for (int i = 0; i < 10'000; ++i) {
+            if (pipeline.run(view, {}, pose).stats.usedPose == pose.has_value()) return;
+            pipeline.redraw();
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+        FAIL() << "no frame has used its pose";
+    }
+
+    /// Returns the look-ups after a frame, or after a second frame in which only the flat part
+    /// differs.
+    std::vector<LookUpCell> lookUps(const std::optional<Pose>& first,
+                                    const std::optional<std::optional<Pose>>& second) const {
+        Pipeline pipeline(discsRig(), {.output = {}, .engines = EngineChoice::all(GetParam())});
+        LastLookUps last;
+        pipeline.setMatchListener(&last);
+        pipeline.setFilters(std::make_shared<const FilterBank>(
+            std::vector<FilterBank::Filter>(enlarge::kUnique, FilterBank::Filter{}), Guidance{},
+            FineMatch{0.5F, 0.001F}));
+        const Bytes still = bytesOf(scene(0, 0));
+        const ImageView view{still.data(), kDiscsStill, std::size_t(kDiscsStill.width),
+                             PixelFormat::Gray8};
+        pipeline.setStill(view, {}, Pose{});
+        draw(pipeline, first);
+        if (second) {
+            const Bytes video = bytesOf(videoOf(scene(16, kShift), {}));
+            const FrameStats stats = pipeline
+                                         .run({video.data(), kDiscsVideo,
+                                               std::size_t(kDiscsVideo.width), PixelFormat::Gray8},
+                                              {}, *second)
+                                         .stats;
+            EXPECT_GT(stats.changed, 0.05);
+            EXPECT_LT(stats.changed, 0.4);
+            EXPECT_EQ(stats.usedPose, second->has_value());
+        }
+        pipeline.setStill(view, {}, Pose{});
+        return last.cells;
+    }
+
+    void expectNoEffect(const std::optional<Pose>& first, const std::optional<Pose>& second) const {
+        const std::vector<LookUpCell> before = lookUps(first, {}), after = lookUps(first, {second});
+        ASSERT_EQ(before.size(), after.size());
+        std::size_t weighed = 0;
+        for (std::size_t i = 0; i < before.size(); ++i) {
+            weighed += before[i].weight > 0.5F;
+            ASSERT_NEAR(after[i].x, before[i].x, 0.001) << i;
+            ASSERT_NEAR(after[i].y, before[i].y, 0.001) << i;
+            ASSERT_NEAR(after[i].weight, before[i].weight, 0.01) << i;
+            ASSERT_NEAR(after[i].confidence, before[i].confidence, 0.01) << i;
+        }
+        EXPECT_GT(weighed, before.size() / 4);
+    }
+
+    Pose pose_;
+};
+INSTANTIATE_TEST_SUITE_P(Engines, FlatChange, testing::Values(EngineKind::Simd, EngineKind::Gles),
+                         [](const auto& tested) { return std::string(nameOf(tested.param)); });
+
+TEST_P(FlatChange, HasNoEffectOnMatchedTiles) {
+    expectNoEffect({}, {});
+}
+
+TEST_P(FlatChange, HasNoEffectOnTilesMatchedAlongEpipolarLines) {
+    expectNoEffect(pose_, pose_);
+}
+
+TEST_P(FlatChange, WithoutAPoseHasNoEffectOnTilesMatchedAlongEpipolarLines) {
+    expectNoEffect(pose_, {});
+}
+
+}  // namespace
+}  // namespace mfar
