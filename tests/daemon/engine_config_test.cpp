@@ -1,5 +1,6 @@
 #include "daemon/config.h"
 #include "daemon/engine_memory.h"
+#include "tests/unit/temp_folder.h"
 
 #include <gtest/gtest.h>
 
@@ -49,9 +50,8 @@ TEST(EngineConfig, EnginesWrittenAsTextAreReadBackUnchanged) {
 }
 
 TEST(EngineMemory, RemembersTheEnginesOfEachDriverAndIgnoresADamagedFile) {
-    const std::filesystem::path file =
-        std::filesystem::path(testing::TempDir()) / "mfar-engines.json";
-    std::filesystem::remove(file);
+    const test::TempFolder folder;
+    const std::filesystem::path file = folder.path() / "engines.json";
     EXPECT_EQ(rememberedEngines(file, "a driver"), std::nullopt);
     ASSERT_TRUE(rememberEngines(file, "a driver", matchingOnSimd()));
     ASSERT_TRUE(rememberEngines(file, "another", EngineChoice::all(EngineKind::Gles)));

@@ -156,8 +156,10 @@ protected:
         ASSERT_EQ(whole.counted.gpuFailures, 0U);
         ASSERT_EQ(whole.counted.frames, kFrames);
         ASSERT_GT(whole.counted.last.showSecond, 0);
+        int losses = 0;
         for (const std::string& moment : whole.moments) {
             if (!isOne(moment)) continue;
+            ++losses;
             SCOPED_TRACE(moment);
             const Ran with = run(moment.c_str());
             EXPECT_EQ(with.counted.gpuFailures, 1U);
@@ -166,6 +168,7 @@ protected:
             ASSERT_EQ(with.last.size, whole.last.size);
             EXPECT_LT(meanDifference(with.last, whole.last), 0.1);
         }
+        EXPECT_GT(losses, 10);
     }
 
     test::TempFolder folder_;

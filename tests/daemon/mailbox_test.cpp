@@ -118,8 +118,14 @@ TEST(Mailbox, TheLastItemIsDeliveredAfterFinish) {
 }
 
 TEST(Mailbox, CloseWakesAWaitingReceiver) {
-    Mailbox<int> box(HandOver::NewestWins);
-    std::jthread receiver([&] { EXPECT_EQ(box.take(), std::nullopt); });
+    Mailbox<int> box(HandOver::Lossless);
+    std::jthread receiver([&] {
+        EXPECT_EQ(box.take(), 1);
+        EXPECT_EQ(box.take(), std::nullopt);
+    });
+    // put() returns when the receiver asks for the next item, just before it waits.
+    EXPECT_EQ(box.put(1), Mailbox<int>::Put::Stored);
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
     box.close();
 }
 
@@ -128,6 +134,9 @@ TEST(Mailbox, CloseWakesAWaitingSenderAndDestroysTheItem) {
     Item item = std::make_shared<int>(1);
     Mailbox<Item> box(HandOver::Lossless);
     std::jthread sender([&] { EXPECT_EQ(box.put(item), Mailbox<Item>::Put::Closed); });
+    while (item.use_count() < 2)
+        std::this_thread::yield();
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
     box.close();
     sender.join();
     EXPECT_EQ(item.use_count(), 1);

@@ -1,5 +1,6 @@
 #include "daemon/exit_code.h"
 #include "daemon/options.h"
+#include "tests/unit/temp_folder.h"
 
 #include <gtest/gtest.h>
 
@@ -62,7 +63,8 @@ TEST(Options, EveryOptionIsRead) {
 }
 
 TEST(Options, TheCommandLineOverridesTheFile) {
-    const std::string file = testing::TempDir() + "options_test.toml";
+    const test::TempFolder folder;
+    const std::string file = (folder.path() / "mfard.toml").string();
     std::ofstream(file) << "recording = \"/data/run\"\nseed = 5\n[superres]\nmode = \"off\"\n";
     const Config fromFile = effectiveConfig(parse({"--config", file.c_str()}).options);
     EXPECT_EQ(fromFile.recording, "/data/run");

@@ -146,6 +146,8 @@ void checkLine() {
 }
 
 void checkInQuiet() {
+    if (Judge::get().frames() == 0)
+        Judge::get().fail("the screen has not shown a single intact picture");
     checkGrowth();
     checkRecordings();
     checkLine();

@@ -18,6 +18,35 @@ gpu_says() {
 failed_times() { control stats | grep -Eq "\"gpu_failures\": ?$1,"; }
 goes_on() { until_true frames $(($(control status | sed -n 's/^frames  *//p') + 10)); }
 
+# Writes a snapshot. True if each pixel of its lowest row has the same colour, as the background of a
+# text at the lower edge has. The camera's pictures are noise.
+has_text() {
+    control snapshot "$1"
+    python3 - "$1" <<'END'
+import struct, sys, zlib
+
+data = open(sys.argv[1], 'rb').read()
+width, height, depth, colour = struct.unpack('>IIBB', data[16:26])
+channels = {2: 3, 6: 4}[colour]
+at, packed = 8, b''
+while at < len(data):
+    size, name = struct.unpack('>I4s', data[at:at + 8])
+    if name == b'IDAT':
+        packed += data[at + 8:at + 8 + size]
+    at += size + 12
+rows, row = zlib.decompress(packed), bytearray(width * channels)
+for y in range(height):
+    above, start = row, y * (len(row) + 1)
+    row = bytearray(rows[start + 1:start + 1 + len(above)])
+    for i in range(len(row)):
+        a, c = (row[i - channels], above[i - channels]) if i >= channels else (0, 0)
+        b = above[i]
+        paeth = min((abs(b - c), 0, a), (abs(a - c), 1, b), (abs(a + b - 2 * c), 2, c))[2]
+        row[i] = (row[i] + (0, a, b, (a + b) // 2, paeth)[rows[start]]) & 255
+sys.exit(row != row[:channels] * width)
+END
+}
+
 pretended_cameras '[status]
 interval_s = 0.2'
 begin() {
@@ -46,7 +75,7 @@ goes_on
 status_says '^health .*: the GPU failed and was restarted \(the GPU does not finish a picture\)' ||
     fail "status does not report that the GPU did not finish a picture"
 status_says '^engine +gles' || fail "status does not report that the GLES engine draws"
-control snapshot before.png
+! has_text before.png || fail "a text in the picture reports a GPU that was restarted"
 
 echo "after the third failure the CPU draws"
 gpu_says "lost again"
@@ -55,8 +84,7 @@ goes_on
 status_says '^health +degraded for .*: the GPU failed 3 times within a minute, so the CPU draws now' ||
     fail "the health in the status does not report that the CPU draws"
 status_says '^renderer +without OpenGL ES' || fail "status still names a renderer of OpenGL ES"
-control snapshot after.png
-! cmp -s before.png after.png || fail "no text in the picture reports that the CPU draws"
+has_text after.png || fail "no text in the picture reports that the CPU draws"
 kill -TERM "$pid"
 ends_with 0 1000
 summary_has gpu_failures 3

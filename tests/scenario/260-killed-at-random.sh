@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # mfard is killed at random moments, also during a trigger pulse. Each start must show its first
 # picture within five seconds and replace the control socket of the dead process. The hook that
-# systemd runs after a crash must release the trigger line. Every recording must be readable. Usage:
+# systemd runs after a crash must release the trigger line. Every recording must be readable. In the
+# second half of the rounds, the trigger line is active when its level is low. Usage:
 # 260-killed-at-random.sh MFARD MFAR-SIM PRETENDED.so TIMES RELEASE-TRIGGER
 . "$(dirname "$0")/lib.sh"
 
@@ -32,10 +33,16 @@ begin() {
 }
 recorded() { cat films/*/cam0/data.csv 2>/dev/null | grep -c '^[0-9]' || true; }
 records() { [ "$(recorded)" -gt "$before" ]; }
-is_active() { [ "$(cat cameras/line 2>/dev/null)" = 1 ]; }
+active_level=1
+is_active() { [ "$(cat cameras/line 2>/dev/null)" = $active_level ]; }
 
 active=0
 for round in $(seq "$times"); do
+    if [ $((2 * round)) -gt "$times" ] && [ $active_level = 1 ]; then
+        active_level=0
+        echo 1 >cameras/line
+        sed -i 's/^line = "TRIGGER"/&\nactive_low = true/' mfard.toml
+    fi
     before=$(recorded)
     begin
     sleep 0.$((RANDOM % 3))$((RANDOM % 10))

@@ -52,7 +52,12 @@ begin() {
 
 echo "the disk becomes full during a recording: the recording ends"
 begin
-film=$(until_true test -d var/films && ls -d var/films/*)
+# Waits until mfard has begun a recording, and sets "film" to its folder.
+find_film() {
+    has_film() { film=$(ls -d var/films/* 2>/dev/null); }
+    until_true has_film
+}
+find_film
 listed() { [ "$(grep -c '^[0-9]' "$film/cam0/data.csv" 2>/dev/null)" -gt 3 ]; }
 until_true listed
 fill
@@ -81,8 +86,9 @@ kill -TERM "$pid"
 ends_with 0 1500
 
 echo "the disk has space again: mfard records"
-rm -f var/fill
+rm -rf var/fill var/films
 begin
+find_film
 until_true listed
 goes_on
 kill -TERM "$pid"

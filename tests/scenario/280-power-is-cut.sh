@@ -18,6 +18,7 @@ tools=$(dirname "$(readlink -f "$0")")
 pretended=$3
 cuts=${4:-10}
 seed=${MFAR_SEED:-7}
+loop=
 trap 'umount --lazy disk after shown 2>/dev/null || true; losetup --detach "$loop" 2>/dev/null || true; clean_up' EXIT
 
 # QEMU exports disk.img as the file "shown" and logs all writes to it.

@@ -76,13 +76,17 @@ void carriedDepth(Context& c) {
     filter.predict(ahead, 0.03);
     const double wanted = 1 / (2 * unit - ahead.translation.z());
     const InverseDepthField& field = filter.field();
+    long known = 0;
     for (std::size_t i = 0; i < field.inverseDepth.size(); ++i) {
         if (!field.isKnown(i)) continue;
+        ++known;
         c.checks.within(field.inverseDepth[i] / wanted, 1 - 2e-5, 1 + 2e-5,
                         "inverse depth carried to the next frame");
         c.checks.within(std::sqrt(field.variance[i]) / wanted, 0.005, 0.02,
                         "relative sigma of carried depth");
     }
+    c.checks.within(static_cast<double>(known) / static_cast<double>(pixelsOf(size)), 0.3, 1,
+                    "share of the pixels with carried depth");
     c.checks.through("DepthFilter", pixelsOf(size));
 }
 

@@ -3,7 +3,7 @@
 # Usage: planted_faults.sh BUILD-FOLDER [shaders|host|kernels|texts]. Prints each fault with the
 # case that found it. Exit status 1: a fault was not found. A shader is changed when the program
 # loads it. A host source is changed in a copy, which is compiled with the flags of its unity file
-# and linked before the library that contains the original. `texts` only checks that the sources
+# and linked before the library that contains the original. `texts` only checks that the host sources
 # still contain the texts to be replaced, each exactly once.
 set -euo pipefail
 build=$(readlink -f "$1") which=${2:-all}
@@ -168,4 +168,4 @@ if [[ $which == all || $which == shaders ]]; then inShaders; fi
 if [[ $which == all || $which == host || $which == texts ]]; then hostFaults; fi
 if [[ $which == all || $which == kernels || $which == texts ]]; then kernelFaults; fi
 printf '%d planted faults were found, %d were missed\n' "$found" "$missed"
-[[ $missed == 0 ]]
+[[ $missed == 0 && $found != 0 ]]

@@ -5,6 +5,7 @@
 #include "pipeline/engine/params/weigh.h"
 #include "tests/engine/pictures.h"
 #include "tests/stability/gl_watch.h"
+#include "tests/stability/watched_shaders.h"
 
 #include <gtest/gtest.h>
 
@@ -154,6 +155,12 @@ TEST(WatchedShaders, AnIndexOutOfRangeIsCounted) {
     const auto faults = checks.take();
     ASSERT_EQ(faults.size(), 1U);
     EXPECT_EQ(faults[0], "luma_from_video.comp: 2 indices out of range");
+}
+
+TEST(WatchedShaders, ShadersContainTheTextsOfPlantedFaults) {
+    ASSERT_FALSE(plantedFaults().empty());
+    for (const PlantedFault& fault : plantedFaults())
+        EXPECT_NO_THROW(requirePlantable(fault)) << fault.shader << ": " << fault.from;
 }
 
 TEST(StatedRanges, RangesAreReadFromTheShadersText) {

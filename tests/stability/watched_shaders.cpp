@@ -168,11 +168,15 @@ std::string watched(std::string_view text, std::size_t index) {
     return head + "#line 1\n" + out;
 }
 
-void plant(const PlantedFault& fault) {
+void requirePlantable(const PlantedFault& fault) {
     std::string text(embedded_shaders::source(fault.shader));
     if (replaceAll(text, fault.from, fault.to) != 1)
         throw std::runtime_error(std::string(fault.shader) +
                                  " does not contain exactly once: " + fault.from);
+}
+
+void plant(const PlantedFault& fault) {
+    requirePlantable(fault);
     planted = &fault;
 }
 

@@ -29,8 +29,9 @@ struct PlantedFault {
     const char* cases;  ///< names of cases that must detect this fault, separated by commas
 };
 [[nodiscard]] std::span<const PlantedFault> plantedFaults();
-/// Must be called before the first shader is loaded. Throws std::runtime_error if the shader does
-/// not contain `from` exactly once.
+/// Throws std::runtime_error if the shader does not contain `from` exactly once.
+void requirePlantable(const PlantedFault& fault);
+/// Must be called before the first shader is loaded. Throws as requirePlantable() does.
 void plant(const PlantedFault& fault);
 
 }  // namespace mfar::stress
