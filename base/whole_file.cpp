@@ -32,36 +32,65 @@ void check(const std::filesystem::path& file, int error) {
             fmt::format("{}: {}", file.string(), std::generic_category().message(error)));
 }
 
-/// Makes the folder's entries safe from a power cut. Errors are ignored: file systems that cannot
-/// sync a folder write its entries in order anyway.
+/// Asks the file system to make a new file name in this folder safe from a power cut. Errors are
+/// ignored, because after a power cut the name leads to the old or to the new content, both whole.
 void syncFolder(const std::filesystem::path& folder) {
     const OwnedFd fd(
         open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
     if (fd) fsync(fd.get());
 }
 
+/// Name of the temporary file. It contains the thread id, because two threads may write the same
+/// file at the same time, and each needs its own temporary file.
+std::string partOf(const std::filesystem::path& file) {
+    return fmt::format("{}.{}.part", file.string(), gettid());
+}
+
+/// Writes the temporary file. Returns an error number. If `syncs` is true, the bytes are on the
+/// disk afterwards.
+int writePart(const std::filesystem::path& file, std::span<const std::uint8_t> bytes, bool syncs) {
+    const int fd = open(partOf(file).c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    if (fd < 0) return errno;
+    int error = writeAll(fd, bytes);
+    // The bytes must reach the disk before the new name: otherwise a power cut could leave an empty
+    // file.
+    if (error == 0 && syncs && fsync(fd) != 0) error = errno;
+    if (close(fd) != 0 && error == 0) error = errno;
+    return error;
+}
+
+int renamePart(const std::filesystem::path& file) {
+    return std::rename(partOf(file).c_str(), file.c_str()) == 0 ? 0 : errno;
+}
+
 }  // namespace
 
 void writeWholeFile(const std::filesystem::path& file, std::span<const std::uint8_t> bytes,
                     Durability durability) {
-    // The name contains the thread id, because two threads may write the same file at the same
-    // time, and each needs its own temporary file.
-    const std::string part = fmt::format("{}.{}.part", file.string(), gettid());
-    int error = 0;
-    const int fd = open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-    if (fd < 0) {
-        error = errno;
-    } else {
-        error = writeAll(fd, bytes);
-        // The bytes must reach the disk before the new name: otherwise a power cut could leave an
-        // empty file.
-        if (error == 0 && durability == Durability::OnReturn && fsync(fd) != 0) error = errno;
-        if (close(fd) != 0 && error == 0) error = errno;
-        if (error == 0 && std::rename(part.c_str(), file.c_str()) != 0) error = errno;
-        if (error != 0) unlink(part.c_str());
-    }
+    int error = writePart(file, bytes, durability == Durability::OnReturn);
+    if (error == 0) error = renamePart(file);
+    if (error != 0) unlink(partOf(file).c_str());
     check(file, error);
     if (durability == Durability::OnReturn) syncFolder(file.parent_path());
+}
+
+void writeWholeFiles(std::span<const NewFile> files) {
+    const auto run = [files](const auto& step) {
+        for (const NewFile& one : files) {
+            const int error = step(one);
+            if (error == 0) continue;
+            for (const NewFile& each : files)
+                unlink(partOf(each.file).c_str());
+            check(one.file, error);
+        }
+    };
+    run([](const NewFile& one) {
+        const auto* const bytes = reinterpret_cast<const std::uint8_t*>(one.text.data());
+        return writePart(one.file, {bytes, one.text.size()}, true);
+    });
+    run([](const NewFile& one) { return renamePart(one.file); });
+    for (const NewFile& one : files)
+        syncFolder(one.file.parent_path());
 }
 
 void syncFileSystem(const std::filesystem::path& folder) {

@@ -19,6 +19,14 @@ enum class Durability {
 void writeWholeFile(const std::filesystem::path& file, std::span<const std::uint8_t> bytes,
                     Durability durability = Durability::OnReturn);
 
+struct NewFile {
+    std::filesystem::path file;
+    std::string_view text;
+};
+/// Writes several files of a folder, each like writeWholeFile(). No file is replaced before the
+/// contents of all are on the disk.
+void writeWholeFiles(std::span<const NewFile> files);
+
 /// Makes all data on this folder's file system safe from a power cut. Throws like writeWholeFile().
 void syncFileSystem(const std::filesystem::path& folder);
 

@@ -115,6 +115,8 @@ Rig::Rig(const Config& config, Heartbeats& hearts)
     recording_.leastFreeBytes = bytes(config.record.leastFreeMb);
     recording_.mostBytes = bytes(config.record.mostMb);
     recording_.writer = {&hearts, "recorder", budget::kWriter, ThreadRole::Helper};
+    // A source that waits for mfard must lose no picture because a disk is slow.
+    if (handOver() == HandOver::Lossless) recording_.patience = budget::kWriter;
 }
 
 Rig::Rig(std::unique_ptr<RigSource> source) : source_(std::move(source)) {}

@@ -61,7 +61,10 @@ double readOffset(const YamlReader& in, const YAML::Node& video, const YAML::Nod
     const char* key = "timeshift_cam_imu";
     const YAML::Node ofVideo = video[key], ofStill = still[key];
     if (!ofVideo.IsDefined() || !ofStill.IsDefined()) return 0;
-    return plausible::timeOffset(in, ofStill, key) - plausible::timeOffset(in, ofVideo, key);
+    const double offset =
+        plausible::timeOffset(in, ofStill, key) - plausible::timeOffset(in, ofVideo, key);
+    plausible::requireTimeOffset(in, ofStill, offset, "the difference of both timeshift_cam_imu");
+    return offset;
 }
 
 }  // namespace

@@ -145,20 +145,28 @@ RigidTransform transform(const YamlReader& in, const YAML::Node& node,
 }
 
 void checkBaseline(const YamlReader& in, const YAML::Node& node, const RigidTransform& T) {
+    if (const std::optional<std::string> fault = baselineFault(T)) in.fail(node, *fault);
+}
+
+std::optional<std::string> baselineFault(const RigidTransform& T) {
     const double baseline = T.translation.norm();
-    if (!kBaseline.holds(baseline))
-        in.fail(node,
-                fmt::format(
-                    "the sensors are {} m apart; expected {}. Is the translation given in metres?",
-                    baseline, text(kBaseline)));
+    if (kBaseline.holds(baseline)) return std::nullopt;
+    return fmt::format(
+        "the sensors are {} m apart; expected {}. Is the translation given in metres?", baseline,
+        text(kBaseline));
 }
 
 double timeOffset(const YamlReader& in, const YAML::Node& node, const char* what) {
     const double offset = in.number(node, what);
+    requireTimeOffset(in, node, offset, what);
+    return offset;
+}
+
+void requireTimeOffset(const YamlReader& in, const YAML::Node& node, double offset,
+                       const char* what) {
     if (!kTimeOffset.holds(offset))
         in.fail(node, fmt::format("{} of {} s is not plausible; expected {}", what, offset,
                                   text(kTimeOffset)));
-    return offset;
 }
 
 double rate(const YamlReader& in, const YAML::Node& node, const char* what) {

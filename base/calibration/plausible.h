@@ -33,8 +33,13 @@ void setDistortion(const YamlReader& in, const YAML::Node& node, const std::vect
                                           const Eigen::Matrix3d& matrix, const char* what);
 /// Refuses an implausible distance between the cameras. `T` is the transform between them [m].
 void checkBaseline(const YamlReader& in, const YAML::Node& node, const RigidTransform& T);
+/// Returns the message of checkBaseline(), or nothing if the distance is plausible.
+[[nodiscard]] std::optional<std::string> baselineFault(const RigidTransform& T);
 /// Reads a frame rate [Hz]. Rate 0 means that the sensor takes pictures on trigger only.
 [[nodiscard]] double rate(const YamlReader& in, const YAML::Node& node, const char* what);
 [[nodiscard]] double timeOffset(const YamlReader& in, const YAML::Node& node, const char* what);
+/// Refuses an implausible time offset [s].
+void requireTimeOffset(const YamlReader& in, const YAML::Node& node, double offset,
+                       const char* what);
 
 }  // namespace mfar::plausible

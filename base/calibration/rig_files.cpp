@@ -4,12 +4,15 @@
 #include "base/calibration/plausible.h"
 #include "base/calibration/rig_formats.h"
 #include "base/calibration/sensor_yaml.h"
+#include "base/whole_file.h"
 
 #include <fmt/format.h>
 
 #include <system_error>
 
+#include <array>
 #include <fstream>
+#include <string>
 
 namespace mfar {
 namespace {
@@ -102,15 +105,6 @@ void refuseXml(const fs::path& file) {
                          "file named *.yml");
 }
 
-void write(const fs::path& file, const std::string& text) {
-    const fs::path part = file.string() + ".part";
-    std::ofstream out(part, std::ios::binary);
-    out << text;
-    out.close();
-    if (!out) throw std::runtime_error(fmt::format("{}: cannot be written", part.string()));
-    fs::rename(part, file);
-}
-
 std::string rigText(const RigCalibration& c) {
     const Eigen::Matrix3d r = c.rig.T_still_video.rotation.toRotationMatrix();
     const Eigen::Vector3d& t = c.rig.T_still_video.translation;
@@ -149,9 +143,12 @@ RigCalibration loadRig(const fs::path& path, const WantedSizes& wanted) {
 
 void saveRig(const fs::path& folder, const RigCalibration& calibration) {
     fs::create_directories(folder);
-    write(folder / "video.yaml", cameraInfoText(calibration.rig.video, "video"));
-    write(folder / "still.yaml", cameraInfoText(calibration.rig.still, "still"));
-    write(folder / kRigFile, rigText(calibration));
+    const std::string video = cameraInfoText(calibration.rig.video, "video");
+    const std::string still = cameraInfoText(calibration.rig.still, "still");
+    const std::string rig = rigText(calibration);
+    writeWholeFiles(std::array{NewFile{folder / "video.yaml", video},
+                               NewFile{folder / "still.yaml", still},
+                               NewFile{folder / kRigFile, rig}});
 }
 
 }  // namespace mfar

@@ -39,8 +39,8 @@ struct WantedSizes {
                                      const WantedSizes& wanted = {});
 
 /// Writes video.yaml and still.yaml (ROS camera_info) and rig.yaml. rig.yaml names the other two
-/// and contains the transform between the sensors. Each file is written completely or not at all. A
-/// missing folder is created. Throws std::runtime_error.
+/// and contains the transform between the sensors. No existing file is replaced before all three
+/// are on the disk. A missing folder is created. Throws std::runtime_error.
 void saveRig(const std::filesystem::path& folder, const RigCalibration& calibration);
 
 }  // namespace mfar

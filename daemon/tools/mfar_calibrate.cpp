@@ -1,3 +1,4 @@
+#include "base/calibration/plausible_ranges.h"
 #include "daemon/tools/calibrate/arguments.h"
 #include "daemon/tools/calibrate/collect.h"
 #include "daemon/tools/calibrate/output_folder.h"
@@ -10,6 +11,7 @@
 
 #include <cstdio>
 #include <exception>
+#include <stdexcept>
 #include <string>
 
 namespace mfar::calibration {
@@ -42,6 +44,14 @@ SensorViews look(const std::vector<RecordedImage>& pictures, Size size, const Ta
     return out;
 }
 
+void requirePlausibleOffset(double seconds) {
+    if (!plausible::kTimeOffset.holds(seconds))
+        throw std::runtime_error(fmt::format(
+            "the time offset of {} s is not plausible; expected {} to {} s. It includes "
+            "the time_offset of the recording",
+            seconds, plausible::kTimeOffset.least, plausible::kTimeOffset.most));
+}
+
 void run(const CalibrateArguments& a) {
     const Target target = targetOf(a);
     const OutputFolder out(a.out);
@@ -50,6 +60,7 @@ void run(const CalibrateArguments& a) {
     const SensorViews still = look(recording.stills, recording.rig.still.size, target, "still");
     Calibration calibration = calibrate(target, video, still, a.solve);
     calibration.rig.stillTimeOffset += recording.stillTimeOffset;
+    requirePlausibleOffset(calibration.rig.stillTimeOffset);
     fmt::print("{}{}", viewsText(calibration), resultText(calibration));
     saveRig(a.out, calibration.rig);
     saveResidualPicture(a.out / "residuals.png", calibration);

@@ -22,7 +22,7 @@ class Writer {
 public:
     Writer(SyntheticBoard& board, const SimOptions& options)
         : board_(board), options_(options), truth_(options.out / "truth"),
-          recorder_(options.out, board.rig(), board.video().info().rateHz) {
+          recorder_(options.out, board.rig(), board.video().info().rateHz, {.patience = 1min}) {
         if (options.highRes) fs::create_directories(truth_ / "highres");
         if (options.depth) fs::create_directories(truth_ / "inverse_depth");
         if (options.flow) fs::create_directories(truth_ / "flow");
@@ -83,8 +83,8 @@ private:
         ++counts_.flows;
     }
 
-    /// Throws if `taken` is false: the recorder has refused a picture, because it does not wait for
-    /// a slow disk. A simulation must not lose any picture.
+    /// Throws if `taken` is false: the recorder has refused a picture. A simulation must not lose
+    /// any picture.
     void checked(bool taken) const {
         if (!taken)
             throw std::runtime_error(

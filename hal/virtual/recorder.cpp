@@ -22,7 +22,8 @@ constexpr const char* kImageHeader = "#timestamp [ns],filename\n";
 constexpr const char* kPoseHeader = "#timestamp,p_RS_R_x [m],p_RS_R_y [m],p_RS_R_z [m],"
                                     "q_RS_w [],q_RS_x [],q_RS_y [],q_RS_z []\n";
 
-fs::path emptyFolder(const fs::path& root) {
+fs::path emptyFolder(const fs::path& root, double videoRateHz) {
+    if (!(videoRateHz > 0)) throw std::runtime_error("a recording needs a video rate above 0 Hz");
     fs::create_directories(root);
     if (!fs::is_empty(root))
         throw std::runtime_error(root.string() +
@@ -40,12 +41,11 @@ void beginCamera(const fs::path& folder, const SensorYaml& sensor, const char* c
 
 Recorder::Recorder(const fs::path& root, const StereoRig& rig, double videoRateHz,
                    const RecorderOptions& options)
-    : root_(emptyFolder(root)), options_(options),
+    : root_(emptyFolder(root, videoRateHz)), options_(options),
       video_(root / "cam0", rig.video.size, options.videoBuffers),
       still_(root / "cam1", rig.still.size, options.stillBuffers),
       poses_{root / "state_groundtruth_estimate0"}, syncer_(1, options.writer),
       writer_(1, options.writer) {
-    if (!(videoRateHz > 0)) throw std::runtime_error("a recording needs a video rate above 0 Hz");
     beginCamera(video_.folder, {rig.video, {}, videoRateHz, 0},
                 "video sensor; its frame is the body frame");
     beginCamera(still_.folder, {rig.still, rig.T_still_video.inverse(), 0, options.stillTimeOffset},
@@ -61,11 +61,20 @@ bool Recorder::accepts(const Stream& stream, Timestamp time) const {
     return time.ns >= 0 && (!stream.last || *stream.last < time) && !error();
 }
 
+// After a write error, no buffer may ever become free, so the wait ends.
+std::optional<FramePool::Slot> Recorder::bufferOf(PictureStream& stream) const {
+    constexpr std::chrono::milliseconds kPoll{20};
+    const auto end = std::chrono::steady_clock::now() + options_.patience;
+    std::optional<FramePool::Slot> slot = stream.pool.acquire(std::chrono::milliseconds(0));
+    while (!slot && !error() && std::chrono::steady_clock::now() < end)
+        slot = stream.pool.acquire(kPoll);
+    return slot;
+}
+
 bool Recorder::picture(PictureStream& stream, const ImageView& image, Timestamp time) {
     if (image.size == stream.pool.size()) requireSound(image, "picture to be recorded");
     std::optional<FramePool::Slot> slot;
-    if (image.size == stream.pool.size() && accepts(stream, time))
-        slot = stream.pool.acquire(std::chrono::milliseconds(0));
+    if (image.size == stream.pool.size() && accepts(stream, time)) slot = bufferOf(stream);
     if (!slot) {
         ++stream.dropped;
         return false;

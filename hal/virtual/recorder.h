@@ -20,6 +20,9 @@ struct RecorderOptions {
     int videoBuffers = 16;
     int stillBuffers = 3;
     int poses = 256;
+    /// Longest time for which video() and still() wait for a free buffer. A source that waits for
+    /// its consumer loses no picture if this is longer than writing a picture takes.
+    std::chrono::milliseconds patience{0};
     /// Disk space that must stay free [bytes]. If less is free, the recording ends with an error.
     std::uint64_t leastFreeBytes = 64U << 20;
     std::uint64_t mostBytes = 0;  ///< largest size of a recording [bytes]; 0: no limit
@@ -33,9 +36,9 @@ struct RecorderOptions {
     std::chrono::milliseconds syncEvery{1000};
 };
 
-/// Writes a recording. video(), still() and pose() copy their argument and never wait for the disk.
-/// If all buffers are in use, the picture is dropped and counted. The recording's body frame B is
-/// the frame of the video camera.
+/// Writes a recording. video(), still() and pose() copy their argument. If all buffers are in use
+/// and none becomes free within RecorderOptions::patience, the picture is dropped and counted. The
+/// recording's body frame B is the frame of the video camera.
 ///
 /// data.csv lists a picture only after its file is on the disk. At finish() and every `syncEvery`,
 /// first the pictures and then the lists are written to the disk. So a power cut only loses the
@@ -90,6 +93,7 @@ private:
     };
 
     [[nodiscard]] bool accepts(const Stream& stream, Timestamp time) const;
+    [[nodiscard]] std::optional<FramePool::Slot> bufferOf(PictureStream& stream) const;
     bool picture(PictureStream& stream, const ImageView& image, Timestamp time);
     void writePicture(PictureStream& stream, const ImageView& picture, Timestamp time);
     void writePose(const Pose& pose);

@@ -1,5 +1,6 @@
 #include "hal/virtual/recording.h"
 
+#include "base/calibration/plausible.h"
 #include "base/calibration/sensor_yaml.h"
 #include "hal/virtual/png_header.h"
 #include "hal/virtual/recording_csv.h"
@@ -152,6 +153,8 @@ Recording load(const fs::path& root, std::size_t most) {
     out.videoRateHz = video.rateHz;
     out.stillTimeOffset = still.timeOffset;
     out.rig = {video.camera, still.camera, still.T_body_sensor.inverse() * video.T_body_sensor};
+    if (const auto fault = plausible::baselineFault(out.rig.T_still_video))
+        recordingFault(stillFolder / "sensor.yaml", 0, *fault);
     ListMemory memory(most);
     out.video = readImages(videoFolder, video.camera.size, memory);
     if (out.video.empty()) recordingFault(videoFolder / "data.csv", 0, "lists no pictures");

@@ -63,9 +63,12 @@ public:
         const std::lock_guard lock(timeline_.mutex);
         return stopped_ || timeOf(toGive_) == kNever;
     }
-    [[nodiscard]] std::uint64_t skipped() const {
+    [[nodiscard]] CameraCounters cameraCounters() const override {
         const std::lock_guard lock(timeline_.mutex);
-        return skipped_;
+        CameraCounters out;
+        out.delivered = delivered_;
+        if (skips()) out.missed = skipped_;
+        return out;
     }
 
 private:
@@ -79,6 +82,8 @@ private:
     [[nodiscard]] bool isOpen(Timestamp t) const;
     [[nodiscard]] Frame give(Decoded item);
     void decode();
+    [[nodiscard]] bool skips() const { return isVideo_ && timeline_.pace == Pace::Realtime; }
+    void dropLate();
     [[nodiscard]] std::size_t skipLate(std::size_t number);
     [[nodiscard]] std::optional<FramePool::Slot> waitForBuffer();
     [[nodiscard]] Decoded decodeInto(const FramePool::Slot& slot, std::size_t number) const;
@@ -93,7 +98,7 @@ private:
     // The mutex of timeline_ guards the following members, except decoder_.
     std::deque<Decoded> ready_;
     std::size_t toGive_ = 0;
-    std::uint64_t skipped_ = 0;
+    std::uint64_t skipped_ = 0, delivered_ = 0;
     bool stopped_ = false;
     bool starved_ = false;
 
@@ -138,6 +143,7 @@ std::optional<Frame> RecordingPlayer::Stream::next(std::chrono::milliseconds tim
         if (stopped_ || t == kNever) return std::nullopt;
         const bool open = isOpen(t);
         if (open && !ready_.empty()) {
+            dropLate();
             Decoded item = std::move(ready_.front());
             ready_.pop_front();
             return give(std::move(item));
@@ -161,6 +167,7 @@ Frame RecordingPlayer::Stream::give(Decoded item) {
     }
     timeline_.changed.notify_all();
     if (!item.frame) throw RecordingError(item.error);
+    ++delivered_;
     return std::move(*item.frame);
 }
 
@@ -198,8 +205,17 @@ std::optional<FramePool::Slot> RecordingPlayer::Stream::waitForBuffer() {
     return std::nullopt;
 }
 
+// Drops decoded frames that are older than another frame that is due. The caller must have locked
+// the mutex of timeline_.
+void RecordingPlayer::Stream::dropLate() {
+    while (skips() && ready_.size() > 1 && isOpen(timeOf(ready_[1].number))) {
+        ready_.pop_front();
+        ++skipped_;
+    }
+}
+
 std::size_t RecordingPlayer::Stream::skipLate(std::size_t number) {
-    if (!isVideo_ || timeline_.pace == Pace::Consumer) return number;
+    if (!skips()) return number;
     const std::lock_guard lock(timeline_.mutex);
     for (Timestamp t; (t = timeOf(number + 1)) != kNever && isOpen(t); ++number)
         ++skipped_;
@@ -272,7 +288,7 @@ Timestamp RecordingPlayer::now() const {
 }
 
 std::uint64_t RecordingPlayer::skipped() const {
-    return video_->skipped();
+    return video_->cameraCounters().missed.value_or(0);
 }
 
 }  // namespace mfar

@@ -53,8 +53,8 @@ private:
 /// following picture.
 ///
 /// Pace::Realtime: both cameras share one clock, which begins with the first start(). If the next
-/// video frame is already due, an older one that is still waiting is skipped and counted, just
-/// as a sensor overwrites unread frames. Stills are never skipped.
+/// video frame is already due, an older one that is still waiting is skipped and counted as missed,
+/// just as a sensor overwrites unread frames. Stills are never skipped.
 ///
 /// Pace::Consumer: stills().next() returns a still only if its time is not later than that of the
 /// frame that video().next() will return next. So a thread that requests stills and frames

@@ -229,7 +229,14 @@ StoredImage SyntheticStudio::request(std::function<StoredImage(Views&)> make) {
         requests_.push_back(std::move(task));
     }
     changed_.notify_all();
-    return result.get();
+    try {
+        return result.get();
+    } catch (const std::future_error&) {
+        // The studio's thread has failed and discarded the request.
+        const std::lock_guard lock(mutex_);
+        rethrowFailure();
+        throw;
+    }
 }
 
 StoredImage SyntheticStudio::picture(synthetic::SensorView& view, Timestamp t) {

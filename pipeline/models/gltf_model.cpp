@@ -168,7 +168,11 @@ private:
         joint.rest.rotation = rotationOf(node);
         joint.translation = tracks->translation.scaled(out.scale);
         joint.rotation = tracks->rotation;
+        requireNear(joint, place);
         out.joints.push_back(std::move(joint));
+        for (const RigidPath::Joint& each : out.joints)
+            for (const MotionTrack* track : {&each.translation, &each.rotation})
+                motion_.count(*track, place);
         out.T = Eigen::Affine3d::Identity();
         if (!node.scale.empty()) out.T.scale(Eigen::Vector3d(node.scale.data()));
         model_.paths.push_back({out.joints, motion_.length()});
@@ -220,6 +224,15 @@ private:
             if (!(p.cwiseAbs().maxCoeff() <= document_.limits.farthest))
                 document_.refuse(place, fmt::format("a vertex is farther than {} m from the origin",
                                                     document_.limits.farthest));
+    }
+
+    void requireNear(const RigidPath::Joint& joint, const std::string& place) const {
+        const double most = document_.limits.farthest;
+        const auto isNear = [most](const auto& p) { return p.cwiseAbs().maxCoeff() <= most; };
+        if (!isNear(joint.T_parent_joint.translation) || !isNear(joint.rest.translation) ||
+            !std::ranges::all_of(joint.translation.values, isNear))
+            document_.refuse(place,
+                             fmt::format("the node moves farther than {} m from its parent", most));
     }
 
     const GltfDocument& document_;

@@ -29,7 +29,11 @@ struct ModelLimits {
     int textureSide = 8192;  ///< largest width and height of a texture [px]
     std::size_t texels = std::size_t{64} << 20U;
     std::size_t jsonValues = 2'000'000;
-    /// Largest absolute value of a coordinate after all transforms [m].
+    /// Sum over all tracks of the animation that are read, and over the tracks of all moving nodes
+    /// and their moving ancestors.
+    std::size_t keyframes = 1'000'000;
+    /// Largest absolute value of a coordinate after all transforms, and of each coordinate in an
+    /// animation [m, m/s].
     float farthest = 10'000;
 };
 

@@ -67,9 +67,17 @@ void GltfMotion::readChannel(const tinygltf::Animation& animation, std::size_t c
     if (!node.matrix.empty()) document_.refuse(place, "a node with a matrix cannot move");
     MotionTrack track =
         keyframesOf(document_.at(animation.samplers, from.sampler, place), turns, place);
+    count(track, place);
     length_ = std::max(length_, track.times.back());
     Tracks& tracks = tracks_[from.target_node];
     (turns ? tracks.rotation : tracks.translation) = std::move(track);
+}
+
+void GltfMotion::count(const MotionTrack& track, const std::string& place) {
+    const std::size_t most = document_.limits.keyframes;
+    if (track.times.size() > most - keyframes_)
+        document_.refuse(place, fmt::format("the animations have more than {} keyframes", most));
+    keyframes_ += track.times.size();
 }
 
 std::vector<double> GltfMotion::timesOf(int accessor, const std::string& place) const {

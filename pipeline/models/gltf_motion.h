@@ -3,6 +3,7 @@
 #include "pipeline/models/gltf_document.h"
 #include "pipeline/scene/rigid_path.h"
 
+#include <cstddef>
 #include <map>
 #include <string>
 #include <vector>
@@ -23,6 +24,10 @@ public:
     [[nodiscard]] const Tracks* of(int node) const;
     [[nodiscard]] double length() const { return length_; }  ///< length of the animation [s]
 
+    /// Adds to the number of keyframes that the model stores. Refuses the document if there are
+    /// more than its limits allow. `place` is named in the message.
+    void count(const MotionTrack& track, const std::string& place);
+
     /// Adds a sentence about something that is not shown, unless notes() has one with the same
     /// `what`.
     void note(const std::string& place, const char* what);
@@ -35,6 +40,7 @@ private:
     [[nodiscard]] std::vector<double> timesOf(int accessor, const std::string& place) const;
 
     const GltfDocument& document_;
+    std::size_t keyframes_ = 0;
     std::map<int, Tracks> tracks_;
     double length_ = 0;
     std::vector<std::string> notes_;

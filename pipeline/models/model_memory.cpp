@@ -5,14 +5,17 @@
 namespace mfar {
 namespace {
 
-// Files, JSON, textures and meshes can each use a quarter of the memory for reading a model.
-constexpr std::size_t kParts = 4;
+// Files, JSON, textures, meshes and animations can each use a fifth of the memory for reading a
+// model.
+constexpr std::size_t kParts = 5;
 // Memory assumed for one JSON value [bytes]. It is enough for the value in the tree of
 // nlohmann::json, and later for the same value in tinygltf's tree.
 constexpr std::size_t kBytesPerJsonValue = 500;
 constexpr std::size_t kBytesPerTexel = 4;
 constexpr std::size_t kBytesPerVertex =
     2 * (2 * sizeof(Eigen::Vector3f) + sizeof(Eigen::Vector2f) + sizeof(Eigen::Vector4f));
+// With CubicSpline, a keyframe has three values.
+constexpr std::size_t kBytesPerKeyframe = sizeof(double) + 3 * sizeof(Eigen::Vector4d);
 constexpr std::size_t kBytesPerTriangle = 2 * sizeof(std::array<std::uint32_t, 3>);
 
 template <class T>
@@ -30,6 +33,7 @@ ModelLimits limitsWithin(std::size_t bytes) {
     out.texels = std::min(out.texels, part / kBytesPerTexel);
     out.vertices = std::min(out.vertices, part / 2 / kBytesPerVertex);
     out.triangles = std::min(out.triangles, part / 2 / kBytesPerTriangle);
+    out.keyframes = std::min(out.keyframes, part / 2 / kBytesPerKeyframe);
     return out;
 }
 

@@ -93,6 +93,8 @@ constexpr Fault kFaults[] = {
     {kChain, kChain, "T_cn_cnm1", "T_other", "camchain.yaml:10: ", "has no key T_cn_cnm1"},
     {kChain, kChain, "0.8, -0.6", "0.8, 0.6", "camchain.yaml:11: ", "not a rotation"},
     {kChain, kChain, "[0.8, -0.6, 0.0,", "[0.8, -0.6,", "camchain.yaml:11: ", "row of 3 numbers"},
+    {kChain, kChain, "timeshift_cam_imu: 0.001\n", "timeshift_cam_imu: -10\n",
+     "camchain.yaml:21: ", "the difference of both timeshift_cam_imu of 10.0035 s"},
     {kChain, kChain, "1962.0", "nan", "camchain.yaml:18: ", "is not a number"},
     {kChain, kChain, "[2304, 1728]", "[2304]", "camchain.yaml:19: ", "must be [width, height]"},
     {kChain, kChain, "cam0:", "cam0: 5\ncam5:", "camchain.yaml:1: ", "has no key camera_model"},

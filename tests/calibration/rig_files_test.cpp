@@ -81,6 +81,21 @@ TEST(RigFiles, OpenCvsLongNamesAndOldHeaderAreRead) {
     expectSameRig(loadRig(folder / "all.yml"), sampleRig(), 0);
 }
 
+TEST(RigFiles, IfAFileCannotBeWrittenTheOldCalibrationStaysWhole) {
+    const TempFolder folder;
+    saveRig(folder.path(), sampleRig());
+    RigCalibration other = sampleRig();
+    other.rig.video.fx *= 1.1;
+    // A folder has the name of the temporary file of still.yaml.
+    const std::string part = fmt::format("still.yaml.{}.part", gettid());
+    fs::create_directory(folder / part);
+    EXPECT_THROW(saveRig(folder.path(), other), std::runtime_error);
+    fs::remove(folder / part);
+    expectSameRig(loadRig(folder.path()), sampleRig(), 0.0025);
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 3)
+        << "no temporary file is left";
+}
+
 TEST(RigFiles, EurocFilesAreReadAsAPairOrFromTheirRecording) {
     const TempFolder folder;
     const RigCalibration rig = sampleRig();

@@ -157,6 +157,25 @@ std::string faultOf(const Change& change) {
     }
 }
 
+TEST(GltfMotion, KeyframesAreCountedWhereverTheyAreStored) {
+    GltfMaker maker = risingTriangle();
+    maker.animate(0, "rotation", {0, 1, 2}, {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1, 0});
+    const auto loads = [&](std::size_t keyframes) {
+        ModelLimits limits;
+        limits.keyframes = keyframes;
+        try {
+            (void)parseGltf(maker.glb(), "test.glb", {}, limits);
+            return true;
+        } catch (const ModelError& error) {
+            EXPECT_THAT(error.what(), testing::HasSubstr("keyframes"));
+            return false;
+        }
+    };
+    EXPECT_TRUE(loads(10)) << "five keyframes as read and in the path of the node";
+    EXPECT_FALSE(loads(9));
+    EXPECT_FALSE(loads(4));
+}
+
 TEST(GltfMotion, InvalidKeyframesAreRefused) {
     const std::string place = "test.glb: animations[0].channels[0]: ";
     const auto sampler = [](GltfMaker& m) -> nlohmann::json& {
@@ -171,6 +190,9 @@ TEST(GltfMotion, InvalidKeyframesAreRefused) {
     EXPECT_EQ(
         faultOf([&](GltfMaker& m) { sampler(m)["output"] = m.floats({0, 0, 0, 0, 2e6, 0}, 3); }),
         place + "the values must be between -1e6 and 1e6");
+    EXPECT_EQ(
+        faultOf([&](GltfMaker& m) { sampler(m)["output"] = m.floats({0, 0, 0, 0, 2e4, 0}, 3); }),
+        "test.glb: nodes[0]: the node moves farther than 10000 m from its parent");
     EXPECT_NE(faultOf([&](GltfMaker& m) { sampler(m)["output"] = 99; }), "");
     EXPECT_NE(faultOf([&](GltfMaker& m) {
                   m.root["animations"][0]["channels"][0]["target"]["node"] = 7;

@@ -174,6 +174,23 @@ TEST(Recorder, IfTheDiskHangsPicturesAreDroppedAndCountedWithoutDelayingTheCalle
     EXPECT_EQ(recorder.poseCounts().written, 3U);
 }
 
+TEST(Recorder, APatientRecorderWaitsForABufferAndLosesNoPicture) {
+    const TempFolder folder;
+    Recorder recorder(folder.path(), smallRig(), 30,
+                      {.videoBuffers = 1, .patience = std::chrono::minutes(1)});
+    for (int i = 0; i < 50; ++i)
+        EXPECT_TRUE(recorder.video(plain(test::kSmallVideo, 1).view(), {i}));
+    recorder.finish();
+    EXPECT_EQ(recorder.videoCounts().written, 50U);
+    EXPECT_EQ(recorder.videoCounts().dropped, 0U);
+}
+
+TEST(Recorder, AVideoRateOfZeroIsRefusedBeforeAFolderIsCreated) {
+    const TempFolder folder;
+    EXPECT_THROW(Recorder(folder / "run", smallRig(), 0), std::runtime_error);
+    EXPECT_FALSE(fs::exists(folder / "run"));
+}
+
 TEST(Recorder, FullDiskIsReportedAndEndsTheRecording) {
     const TempFolder folder;
     Recorder recorder(folder.path(), smallRig(), 30);

@@ -148,6 +148,19 @@ TEST(RecordingPlayer, InRealTimeLatePicturesAreSkippedAndCounted) {
     EXPECT_EQ(given + player.skipped(), 20U);
 }
 
+TEST(RecordingPlayer, InRealTimeAWaitingFrameIsSkippedIfANewerOneIsDue) {
+    const TempFolder folder;
+    writeSmallRecording(folder.path(), {0, 100 * kMs, 200 * kMs, 300 * kMs, 600'000 * kMs}, {});
+    RecordingPlayer player(loadRecording(folder.path()), {.pace = Pace::Realtime});
+    startBoth(player);
+    std::this_thread::sleep_for(milliseconds(450));  // four frames are decoded and due
+    const auto frame = player.video().next(seconds(10));
+    ASSERT_TRUE(frame.has_value());
+    EXPECT_EQ(frame->time().ns, 300 * kMs);
+    EXPECT_EQ(player.video().cameraCounters().delivered, 1U);
+    EXPECT_EQ(player.video().cameraCounters().missed, 3U);
+}
+
 TEST(RecordingPlayer, StopWakesAWaitingThread) {
     const TempFolder folder;
     writeSmallRecording(folder.path(), {0, 600'000 * kMs}, {});

@@ -160,6 +160,8 @@ const Fault kFaults[] = {
     {"TransformMirrored", edit(kStillYaml, "[1.0, 0.0", "[-1.0, 0.0"),
      "cam1/sensor.yaml:5: ", "is not a rotation"},
     {"TransformNaN", edit(kStillYaml, "0.014", ".nan"), "cam1/sensor.yaml:5: ", "is not finite"},
+    {"SensorsInMillimetres", edit(kStillYaml, "0.014", "14"),
+     "cam1/sensor.yaml: ", "the sensors are 14 m apart; expected 0 to 2 m"},
     {"TransformShort", edit(kStillYaml, "0.014,", ""), "cam1/sensor.yaml:5: ", "15 numbers"},
     {"TransformLastRow", edit(kStillYaml, "0.0, 1.0]", "0.0, 2.0]"),
      "cam1/sensor.yaml:5: ", "last row"},

@@ -1,3 +1,4 @@
+#include "base/whole_file.h"
 #include "daemon/output_checks.h"
 #include "hal/virtual/image_files.h"
 #include "hal/virtual/recording.h"
@@ -8,7 +9,6 @@
 
 #include <cmath>
 #include <exception>
-#include <fstream>
 
 namespace {
 
@@ -82,11 +82,7 @@ void learn(const Options& options) {
         "{:.2f} dB (classes by curvature)\n",
         pictures, outcome.used, enlarge::kUnique, gain(0), gain(1));
     const FilterBank checked(outcome.filters);
-    const std::vector<std::uint8_t> bytes = storedFilters(outcome.filters);
-    std::ofstream file(options.out, std::ios::binary);
-    file.write(reinterpret_cast<const char*>(bytes.data()),
-               static_cast<std::streamsize>(bytes.size()));
-    if (!file.flush()) throw std::runtime_error(options.out.string() + ": cannot be written");
+    writeWholeFile(options.out, storedFilters(outcome.filters));
 }
 
 }  // namespace
