@@ -1,5 +1,6 @@
 #include "hal/device/camera_v4l2.h"
 #include "tests/device/fake_v4l2.h"
+#include "tests/device/jpeg_of.h"
 
 #include <gtest/gtest.h>
 
@@ -10,6 +11,7 @@
 #include <future>
 #include <string>
 #include <thread>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -178,6 +180,91 @@ TEST(CameraV4l2Buffers, FramesOutliveTheCameraAndDoNotBlockTheNextCamera) {
     next.start();
     EXPECT_EQ(fake.queued(), 4);
     held.reset();
+    EXPECT_EQ(fake.queued(), 4);
+}
+
+TEST(CameraV4l2Buffers, PlanesAreFoundInBothBufferTypes) {
+    for (const auto& [fourcc, multi, format] :
+         {std::tuple{V4L2_PIX_FMT_NV12, false, PixelFormat::Nv12},
+          std::tuple{V4L2_PIX_FMT_YUV420, false, PixelFormat::Yuv420},
+          std::tuple{V4L2_PIX_FMT_NV12, true, PixelFormat::Nv12},
+          std::tuple{V4L2_PIX_FMT_NV12M, true, PixelFormat::Nv12}}) {
+        FakeV4l2 fake;
+        fake.multiPlanar = multi;
+        fake.padding = 8;
+        fake.colorspace = V4L2_COLORSPACE_REC709;
+        fake.formats = {{fourcc, {kPicture}}};
+        CameraV4l2 camera(fourBuffers(), fake);
+        camera.start();
+        fake.deliver({.level = 61});
+        const auto frame = camera.next(1s);
+        ASSERT_TRUE(frame.has_value());
+        const ImageView& view = frame->view();
+        EXPECT_EQ(view.format, format);
+        EXPECT_EQ(view.stride, 40U);
+        EXPECT_EQ(view.matrix, YuvMatrix::Bt709);
+        EXPECT_EQ(view.range, YuvRange::Limited);
+        const bool threePlanes = format == PixelFormat::Yuv420;
+        EXPECT_EQ(view.chroma[0].stride, threePlanes ? 20U : 40U);
+        if (fourcc != V4L2_PIX_FMT_NV12M) {
+            EXPECT_EQ(view.chroma[0].data - view.data, 40 * 24);
+        }
+        if (threePlanes) {
+            EXPECT_EQ(view.chroma[1].data - view.chroma[0].data, 20 * 12);
+        }
+        EXPECT_EQ(view.chroma[0].data[view.chroma[0].stride * 12 - 1], 61);
+    }
+}
+
+TEST(CameraV4l2Buffers, PlanesMayBeginAfterTheStartOfTheirMemory) {
+    FakeV4l2 fake;
+    fake.multiPlanar = true;
+    fake.dataOffset = 64;
+    fake.formats = {{V4L2_PIX_FMT_NV12M, {kPicture}}};
+    CameraV4l2 camera(fourBuffers(), fake);
+    camera.start();
+    fake.deliver({.level = 61});
+    const auto frame = camera.next(1s);
+    ASSERT_TRUE(frame.has_value());
+    const ImageView& view = frame->view();
+    for (const std::uint8_t byte :
+         {view.data[0], view.data[view.stride * 23 + 31], view.chroma[0].data[0],
+          view.chroma[0].data[view.chroma[0].stride * 11 + 31]})
+        EXPECT_EQ(byte, 61);
+    fake.deliver({.missingBytes = 1});
+    EXPECT_FALSE(camera.next(0ms).has_value()) << "a plane lacks its last byte";
+    EXPECT_EQ(camera.cameraCounters().broken, 1U);
+}
+
+TEST(CameraV4l2Buffers, JpegsAreDecoded) {
+    FakeV4l2 fake;
+    fake.formats = {{V4L2_PIX_FMT_MJPEG, {kPicture}}};
+    CameraV4l2 camera(fourBuffers(), fake);
+    camera.start();
+    const std::vector<std::uint8_t> white(3UL * kPicture.width * kPicture.height, 255);
+    const std::vector<std::uint8_t> jpeg = test::jpegOf(white, kPicture, TJSAMP_422);
+    const Timestamp before = Timestamp::now();
+    fake.deliver({.jpeg = jpeg});
+    const auto frame = camera.next(1s);
+    ASSERT_TRUE(frame.has_value());
+    EXPECT_EQ(frame->view().format, PixelFormat::Yuv420);
+    EXPECT_EQ(frame->view().size, kPicture);
+    EXPECT_EQ(frame->view().data[0], 255);
+    EXPECT_EQ(frame->view().chroma[1].data[0], 128);
+    EXPECT_GE(frame->time(), before - 2ms);
+    EXPECT_EQ(camera.cameraCounters().delivered, 1U);
+    EXPECT_FALSE(camera.next(0ms).has_value());
+    EXPECT_EQ(fake.queued(), 4) << "the driver must get the buffer of a decoded picture back";
+}
+
+TEST(CameraV4l2Buffers, ABrokenJpegIsCounted) {
+    FakeV4l2 fake;
+    fake.formats = {{V4L2_PIX_FMT_MJPEG, {kPicture}}};
+    CameraV4l2 camera(fourBuffers(), fake);
+    camera.start();
+    fake.deliver();
+    EXPECT_FALSE(camera.next(0ms).has_value());
+    EXPECT_EQ(camera.cameraCounters().broken, 1U);
     EXPECT_EQ(fake.queued(), 4);
 }
 

@@ -1,7 +1,6 @@
 #include "hal/device/camera_v4l2.h"
 #include "tests/device/error_of.h"
 #include "tests/device/fake_v4l2.h"
-#include "tests/device/jpeg_of.h"
 
 #include <gtest/gtest.h>
 
@@ -313,91 +312,6 @@ TEST(CameraV4l2, APollErrorAloneDoesNotMeanDeviceLost) {
     EXPECT_GE(std::chrono::steady_clock::now() - begin, 20ms);
     fake.unplug();
     EXPECT_THROW(static_cast<void>(camera.next(1s)), DeviceLost);
-}
-
-TEST(CameraV4l2, PlanesAreFoundInBothBufferTypes) {
-    for (const auto& [fourcc, multi, format] :
-         {std::tuple{V4L2_PIX_FMT_NV12, false, PixelFormat::Nv12},
-          std::tuple{V4L2_PIX_FMT_YUV420, false, PixelFormat::Yuv420},
-          std::tuple{V4L2_PIX_FMT_NV12, true, PixelFormat::Nv12},
-          std::tuple{V4L2_PIX_FMT_NV12M, true, PixelFormat::Nv12}}) {
-        FakeV4l2 fake;
-        fake.multiPlanar = multi;
-        fake.padding = 8;
-        fake.colorspace = V4L2_COLORSPACE_REC709;
-        fake.formats = {{fourcc, {kSize}}};
-        CameraV4l2 camera(wanted(), fake);
-        camera.start();
-        fake.deliver({.level = 61});
-        const auto frame = camera.next(1s);
-        ASSERT_TRUE(frame.has_value());
-        const ImageView& view = frame->view();
-        EXPECT_EQ(view.format, format);
-        EXPECT_EQ(view.stride, 40U);
-        EXPECT_EQ(view.matrix, YuvMatrix::Bt709);
-        EXPECT_EQ(view.range, YuvRange::Limited);
-        const bool threePlanes = format == PixelFormat::Yuv420;
-        EXPECT_EQ(view.chroma[0].stride, threePlanes ? 20U : 40U);
-        if (fourcc != V4L2_PIX_FMT_NV12M) {
-            EXPECT_EQ(view.chroma[0].data - view.data, 40 * 24);
-        }
-        if (threePlanes) {
-            EXPECT_EQ(view.chroma[1].data - view.chroma[0].data, 20 * 12);
-        }
-        EXPECT_EQ(view.chroma[0].data[view.chroma[0].stride * 12 - 1], 61);
-    }
-}
-
-TEST(CameraV4l2, PlanesMayBeginAfterTheStartOfTheirMemory) {
-    FakeV4l2 fake;
-    fake.multiPlanar = true;
-    fake.dataOffset = 64;
-    fake.formats = {{V4L2_PIX_FMT_NV12M, {kSize}}};
-    CameraV4l2 camera(wanted(), fake);
-    camera.start();
-    fake.deliver({.level = 61});
-    const auto frame = camera.next(1s);
-    ASSERT_TRUE(frame.has_value());
-    const ImageView& view = frame->view();
-    for (const std::uint8_t byte :
-         {view.data[0], view.data[view.stride * 23 + 31], view.chroma[0].data[0],
-          view.chroma[0].data[view.chroma[0].stride * 11 + 31]})
-        EXPECT_EQ(byte, 61);
-    fake.deliver({.missingBytes = 1});
-    EXPECT_FALSE(camera.next(0ms).has_value()) << "a plane lacks its last byte";
-    EXPECT_EQ(camera.cameraCounters().broken, 1U);
-}
-
-TEST(CameraV4l2, JpegsAreDecoded) {
-    FakeV4l2 fake;
-    fake.formats = {{V4L2_PIX_FMT_MJPEG, {kSize}}};
-    CameraV4l2 camera(wanted(), fake);
-    camera.start();
-    const std::vector<std::uint8_t> white(3UL * kSize.width * kSize.height, 255);
-    const std::vector<std::uint8_t> jpeg = test::jpegOf(white, kSize, TJSAMP_422);
-    const Timestamp before = Timestamp::now();
-    fake.deliver({.jpeg = jpeg});
-    const auto frame = camera.next(1s);
-    ASSERT_TRUE(frame.has_value());
-    EXPECT_EQ(frame->view().format, PixelFormat::Yuv420);
-    EXPECT_EQ(frame->view().size, kSize);
-    EXPECT_EQ(frame->view().data[0], 255);
-    EXPECT_EQ(frame->view().chroma[1].data[0], 128);
-    EXPECT_GE(frame->time(), before - 2ms);
-    EXPECT_EQ(camera.cameraCounters().delivered, 1U);
-    EXPECT_FALSE(camera.next(0ms).has_value());
-    EXPECT_EQ(fake.queued(), 4) << "the driver must get the buffer of a decoded picture back";
-}
-
-TEST(CameraV4l2, ABrokenJpegIsCounted) {
-    FakeV4l2 fake;
-    fake.formats = {{V4L2_PIX_FMT_MJPEG, {kSize}}};
-    CameraV4l2 camera(wanted(), fake);
-    camera.start();
-    fake.deliver();
-    EXPECT_FALSE(camera.next(0ms).has_value());
-    EXPECT_EQ(camera.cameraCounters().broken, 1U);
-    EXPECT_EQ(fake.queued(), 4);
 }
 
 }  // namespace
