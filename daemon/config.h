@@ -79,9 +79,15 @@ struct Config {
     bool validate = false;
     /// Messages about keys that have no effect.
     std::vector<std::string> notes;
-    /// The places in the file of those keys whose values requireFiles() checks, as text that begins
-    /// a message: "mfard.toml:3:15: cameras.calibration: ".
+    /// The places in the file of those keys whose values name something that is checked later, as
+    /// text that begins a message: "mfard.toml:3:15: cameras.calibration: ".
     std::map<std::string, std::string, std::less<>> places;
+
+    /// Returns the place of a key, or "" if it is not in a file.
+    [[nodiscard]] std::string placeOf(std::string_view key) const {
+        const auto place = places.find(key);
+        return place == places.end() ? std::string() : place->second;
+    }
 };
 
 /// Reports that a configuration file is invalid. The message has one line per fault:

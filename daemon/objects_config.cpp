@@ -139,7 +139,7 @@ PlacedObject readObject(TomlReader& file, const std::string& prefix, ModelReader
     return out;
 }
 
-/// Adds a note for each key of an object that is used only for models, or only for shapes.
+/// Adds a note for each key that has no effect: a shape's key on a model, or `scale` on a shape.
 void noteUnused(const TomlReader& file, const std::string& prefix, const PlacedObject& object,
                 std::vector<std::string>& notes) {
     const auto note = [&](const char* key, const char* why) {

@@ -66,15 +66,15 @@ constexpr Option kTop[] = {
     argument(
         "--size",
         text("size", R"("screen")",
-             "Size of finished pictures: \"screen\", as large as fits on the screen connected at "
-             "the start (without one, like \"still\"); \"still\", the still's resolution; or a "
-             "size into which they must fit, like \"1280x720\". Pictures are never smaller than "
-             "the video or larger than the still. Smaller pictures take less time.")),
+             "Size of finished pictures: \"still\", as wide as the still, with the video's aspect "
+             "ratio; \"screen\", the largest such size that fits on the screen found at the start "
+             "(without a screen, as \"still\"); or a size into which they must fit, like "
+             "\"1280x720\". Never smaller than the video or wider than the still.")),
     argument(
         "--pace",
         word("pace", "auto realtime consumer", R"("auto")",
-             "Speed of the source: \"realtime\", as its time stamps say, and frames are dropped if "
-             "mfard is too slow; \"consumer\", as fast as mfard processes frames, and no frame is "
+             "Speed of the source: \"realtime\", that of its time stamps; mfard drops frames if it "
+             "is too slow; \"consumer\", as fast as mfard processes frames, and no frame is "
              "dropped; \"auto\": \"consumer\" for recordings, otherwise \"realtime\".")),
     argument("--seed", whole("seed", {}, "1",
                              "Seed of the synthetic source's random numbers, at least 0: the same "
@@ -94,8 +94,8 @@ constexpr Option kVideo[] = {
          "Driver of the camera: \"libcamera\", or \"v4l2\" for USB cameras and boards without "
          "libcamera."),
     text("camera", R"("")",
-         "Name of the camera. For driver \"libcamera\": id, model or location, as \"cam --list\" "
-         "prints. For \"v4l2\": \"/dev/videoN\" or the card's name. Empty: any camera but the "
+         "Name of the camera. For driver \"libcamera\": id (as \"cam --list\" prints), model, or "
+         "\"front\", \"back\", \"external\". For \"v4l2\": path, card or bus. Empty: any but the "
          "still camera; if there are several, the one with the smallest pictures. mfard waits for "
          "a camera that is missing."),
     whole("width", kSide, "640", "Width of the camera's pictures."),
@@ -142,9 +142,8 @@ constexpr Option kLine[] = {
            "First estimate of the time from a trigger pulse to the start of the exposure, as the "
            "camera's time stamps report it. mfard learns the exact value."),
     number("jitter_ms", {0.001, 1000, "ms"}, "1.0",
-           "Largest error of the camera's time stamps: 1 if the sensor takes them, more if they "
-           "are taken on a picture's arrival, as with USB cameras, or move with an automatic "
-           "exposure."),
+           "Largest error of the camera's time stamps: 1 if the sensor sets them; more if the "
+           "arrival sets them, as with USB cameras, or an automatic exposure shifts them."),
     number("arrival_ms", {1, 60000, "ms"}, "500.0",
            "A still that has not arrived this long after its exposure counts as lost."),
 };
@@ -153,10 +152,11 @@ constexpr std::string_view kEngines = "auto gles simd", kAuto = R"("auto")";
 constexpr Option kEngine[] = {
     argument(
         "--engine",
-        word("use", kEngines, kAuto,
-             "Engine that computes the pictures: \"gles\", shaders on the GPU; \"simd\", vector "
-             "units of the CPU, without OpenGL ES; \"auto\": \"simd\" if OpenGL ES 3.1 is missing "
-             "or a software renderer, otherwise the faster one, which mfard measures once.")),
+        word(
+            "use", kEngines, kAuto,
+            "Engine that computes the pictures: \"gles\", shaders on the GPU; \"simd\", vector "
+            "units of the CPU, without OpenGL ES; \"auto\": \"simd\" if there is no OpenGL ES 3.1, "
+            "or only in software, otherwise the faster one for each step, as mfard measures.")),
     word("still", kEngines, kAuto,
          "Engine of the step that prepares a new still; \"auto\": as `use`."),
     word("pyramid", kEngines, kAuto, "Engine of the step that computes image pyramids."),
@@ -210,7 +210,7 @@ constexpr Option kPose[] = {
          "of the recording or the tags of the simulated board; if there is no map, the largest tag "
          "of the first picture with a tag defines the world."),
     {"families", OptionType::Texts, R"(["tag36h11"])",
-     "Tag families that are searched without a map; with a tags.yaml, its family.", kFamilies},
+     "Tag families to search without a map; with a tags.yaml, the family of its tags.", kFamilies},
     number("tag_size", kTagSize, "0.1",
            "Edge length of the tag that defines the world when there is no map."),
     number("decimation", {1, 8, ""}, "2.0",
@@ -261,7 +261,7 @@ constexpr Option kStatus[] = {
 constexpr Option kVirtual[] = {
     word("rendering", "path-traced preview", R"("path-traced")",
          "How virtual objects are drawn: \"path-traced\", with soft shadows on the real surface, "
-         "or \"preview\", which takes little time."),
+         "or \"preview\", which takes little time, needs OpenGL ES and shows simple shapes only."),
     number("budget_ms", {0.1, 1000, "ms"}, "8.0",
            "Time for path tracing in each frame; twice this until the first picture is shown."),
     word("slicing", "time space", R"("time")",
@@ -275,7 +275,7 @@ constexpr Option kVirtual[] = {
     word("holes", "push-pull re-render both none", R"("both")",
          "Method that fills holes (pixels that come into view between two path-traced pictures): "
          "\"push-pull\": colours around the hole; \"re-render\": few samples of the path tracer, "
-         "but \"push-pull\" in shadows; \"both\"; or \"none\"."),
+         "not in shadows; \"both\": \"push-pull\" until the samples are ready; or \"none\"."),
     whole("threads", kThreads, "1", "Number of threads of the path tracer."),
     flag("filter", "true", "Smooth the noise of pictures with few samples, but not their edges."),
     number(
@@ -351,13 +351,13 @@ constexpr Option kLevel[] = {
                   "Time that a frame takes when everything in it moves; required.")),
     number("psnr_db", {0, 200, "dB"}, "0.0", "PSNR at this level against ground truth."),
     word("mode", kModes, R"("detail")", kModeMeaning),
-    flag("cubic", "true", "Enlarge by bicubic instead of linear interpolation."),
+    flag("cubic", "true", "For mode \"off\": bicubic instead of linear enlargement."),
     flag("learned", "true", "Enlarge by learned filters; for mode \"detail\" only."),
     flag("along_lines", "true", "If poses are known, search for matches along epipolar lines."),
     number("detail_share", {0.001, 1, ""}, "1.0",
-           "Largest share of the picture's tiles that are matched with the still."),
+           "Not for mode \"blend\": largest share of the tiles that are matched with the still."),
     number("second_share", kShare, "0.25",
-           "Largest share of tiles that are matched with a second still. 0: no second still."),
+           "With `learned`: largest share of tiles that are matched with a second still. 0: none."),
     whole("depth_every", {1, 60, "frames"}, "1",
           "Interval at which the depth of the real scene is measured."),
     whole("flow2d.search_radius", {0, 40, "px"}, "10",
@@ -373,7 +373,7 @@ constexpr Option kLevel[] = {
     whole("flow2d.plane_fits", kSmall, "2",
           "Number of rounds in which planes are fitted to the flow after its median filter."),
     whole("epipolar.window_radius", {0, 8, "px"}, "2",
-          "At a pixel, the search covers what the coarser pyramid level found within this radius."),
+          "Candidates of a pixel are the matches of the coarser pyramid level within this radius."),
     whole("epipolar.step_penalty", {1, 30, ""}, "12",
           "Smoothness penalty where neighbouring cells differ by one candidate."),
     whole("epipolar.jump_penalty", {1, 60, ""}, "60",

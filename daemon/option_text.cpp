@@ -14,10 +14,10 @@ constexpr std::size_t kFileWidth = 96, kHelpWidth = 74;
 constexpr std::string_view kHead =
     "Configuration of mfard. Every key is optional; the values here are the defaults. \"mfard "
     "--check-config --config FILE\" checks a changed file. Options of the command line override "
-    "keys of this file. Names of files that are read are relative to this file, names of files and "
-    "folders that are written to mfard's working directory. Changes take effect after a restart. "
-    "In sections marked (reload), they also take effect after \"systemctl reload mfard\" "
-    "or SIGHUP. Sections that are commented out are absent by default.";
+    "keys of this file. Paths of files that mfard reads start at this file's folder, paths of what "
+    "it writes at its working directory. Changes take effect after a restart. In sections marked "
+    "(reload), they also take effect after \"systemctl reload mfard\" or SIGHUP. Sections that are "
+    "commented out are absent by default; their values can be examples.";
 
 std::vector<std::string> wordsIn(std::string_view text) {
     std::vector<std::string> out;

@@ -79,7 +79,7 @@ void addOthers(CLI::App& app, Options& options, bool& printConfig) {
     app.add_flag("--print-config", printConfig,
                  "Only print a configuration file with every key, its meaning and default");
     app.add_flag("--release-trigger", options.releaseTrigger,
-                 "Set the trigger line to its inactive level and end; for use after a crash");
+                 "Set the trigger line of --config to its inactive level and end");
     app.add_option("--record", options.recordTo, "Record video and stills into this new folder")
         ->type_name("DIR");
     app.add_option("--frames", options.frames, "End after N pictures")
@@ -93,12 +93,12 @@ void addOthers(CLI::App& app, Options& options, bool& printConfig) {
                    "At the end, write a page with charts and pictures to this file (HTML)")
         ->type_name("FILE");
     app.add_option("--control", options.control,
-                   "Create this socket, through which mfarctl controls mfard. The members of\n"
-                   "mfard's group may use it, too")
+                   "Create this socket, through which mfarctl controls mfard. Members of mfard's\n"
+                   "group may use status and stats, those of group mfar-operators everything")
         ->type_name("SOCKET");
     app.add_flag("--validate", options.validate,
                  "Check that the engine writes no NaN, infinity or value out of range, and log\n"
-                 "faults. mfard becomes about ten times slower");
+                 "faults. mfard becomes about ten times slower. Needs OpenGL ES");
 }
 
 struct Parser {
@@ -175,7 +175,11 @@ Config effectiveConfig(const Options& options) {
     if (config.pose.source == PoseOrigin::Recorded && config.recording.empty())
         throw Failure(ExitCode::BadConfig, "pose.source = \"recorded\" needs a recording to play "
                                            "(--recording)");
-    (void)configuredTags(config.pose);
+    try {
+        (void)configuredTags(config.pose);
+    } catch (const Failure& failure) {
+        throw Failure(failure.code, config.placeOf("pose.tags") + failure.what());
+    }
     return config;
 }
 

@@ -27,9 +27,9 @@ struct StillMeasurement {
     std::optional<double> ms{};
 };
 
-/// Finds the pose of the video camera at the times of frames and stills. All functions must be
-/// called by the same thread, unless a function's comment allows another one. That thread need not
-/// be the picture thread.
+/// Finds the pose of the video camera at the times of frames and stills. Functions that are not
+/// const must be called by the same thread, unless a function's comment allows another one. That
+/// thread need not be the picture thread.
 class PoseFinder {
 public:
     /// `stats` must outlive this object. Throws Failure if the configured source of poses is not

@@ -23,9 +23,8 @@ public:
             check();
             return true;
         } catch (const Failure& failure) {
-            const auto place = config_.places.find(key);
             all_ += all_.empty() ? "" : "\n";
-            all_ += (place == config_.places.end() ? "" : place->second) + failure.what();
+            all_ += config_.placeOf(key) + failure.what();
             if (!code_) code_ = failure.code;
             return false;
         }

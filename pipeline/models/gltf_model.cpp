@@ -71,9 +71,9 @@ Eigen::Affine3d poseOf(const GltfMotion::Tracks& tracks, const tinygltf::Node& n
 constexpr std::size_t kMostParts = 16;  // also stated in the text of a note in placeOf()
 
 /// Pose of a node in the model. `joints` are the moving nodes among the node and its ancestors, the
-/// outermost first. `T` maps the node's coordinates to the frame of the last joint. Without joints,
-/// it maps them to the model. The frames of joints have no scale. So `scale`, the product of the
-/// scales of all nodes above the last joint, must be applied after `T`. `part`: see Mesh::part.
+/// outermost first. scale * T maps the node's coordinates to the frame of the last joint, or
+/// without joints to the model. `scale` is the product of the scales of all nodes above the last
+/// joint. It is separate, because the frames of joints have no scale. `part`: see Mesh::part.
 struct NodePlace {
     Eigen::Affine3d T = upright();
     std::vector<RigidPath::Joint> joints;

@@ -63,8 +63,8 @@ void MedianRow(const float* above, const float* here, const float* below, std::s
 void RangeAlongRow(const float* values, const float* variance, std::size_t width, int radius,
                    float* low, float* high) {
     // The row is processed in pieces of kRun columns. `lows` and `highs` contain the values of a
-    // piece, with `radius` more values on both sides. Beyond the ends of the row, their entries are
-    // never the smallest or the largest.
+    // piece, with `radius` more values on both sides. Beyond the ends of the row, `lows` contains
+    // kLargest and `highs` -kLargest, so these entries have no effect.
     constexpr std::size_t kRun = 256, kAll = kRun + 2 * kMostRange;
     HWY_ALIGN float lows[kAll], highs[kAll];
     const auto beside = static_cast<std::size_t>(radius);

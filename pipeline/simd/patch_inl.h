@@ -223,7 +223,8 @@ struct RowProducts {
     }
 };
 
-/// Interpolates between a row's pixels and their right neighbours, and subtracts 128.
+/// Interpolates between a row's pixels and their right neighbours (`next`) with the weight `right`,
+/// and subtracts 128.
 template <class D16>
 HWY_INLINE hn::Vec<D16> betweenColumns(hn::Vec<D16> here, hn::Vec<D16> next, hn::Vec<D16> right) {
     const auto step = hn::ShiftLeft<kValueBits>(hn::Sub(next, here));

@@ -8,8 +8,8 @@
 
 namespace mfar {
 
-/// Rectangle around a picture's pixels within `margin` px of `box`. Empty if the box is outside the
-/// picture.
+/// Rectangle around those pixels of a picture that are within `margin` px of `box`. Empty if there
+/// are none.
 [[nodiscard]] PixelRect pixelsAround(const Eigen::AlignedBox2d& box, int margin, Size picture);
 
 }  // namespace mfar

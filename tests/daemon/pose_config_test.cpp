@@ -32,11 +32,12 @@ TEST(PoseConfig, TheTagMapIsCheckedWithTheConfiguration) {
     const std::string map = (folder.path() / "tags.toml").string();
     test::writeFile(folder.path() / "mfard.toml", "[pose]\ntags = \"tags.toml\"\n");
     EXPECT_EQ(fault(folder).code, ExitCode::NoInput);
-    EXPECT_THAT(fault(folder).what(), StartsWith(map + ": is missing"));
+    const std::string place = (folder / "mfard.toml").string() + ":2:8: pose.tags: ";
+    EXPECT_THAT(fault(folder).what(), StartsWith(place + map + ": is missing"));
 
     test::writeFile(map, "[[tags]]\nid = 3\nsize = -1\n");
     EXPECT_EQ(fault(folder).code, ExitCode::BadData);
-    EXPECT_THAT(fault(folder).what(), StartsWith(map + ":"));
+    EXPECT_THAT(fault(folder).what(), StartsWith(place + map + ":"));
     EXPECT_THAT(fault(folder).what(), testing::Not(HasSubstr("\n")));
 
     test::writeFile(map, kTag);

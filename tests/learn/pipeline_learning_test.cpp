@@ -121,7 +121,7 @@ TEST_P(PipelineLearning, ReplacedStillIsReportedWithTheLastFrame) {
     EXPECT_EQ(heard.replacements, 1);
 }
 
-TEST_P(PipelineLearning, StillsGetTheToneCurveOfTheFilters) {
+TEST_P(PipelineLearning, TheToneCurveInTheFilterBankIsAppliedToStills) {
     struct Luma final : MatchListener {
         void matched(const RgbPlanes&, Rows<const std::uint8_t> still, Rows<const LookUpCell>,
                      const MatchedPictures::LookedUp& lookedUp) override {

@@ -33,7 +33,7 @@ struct DirectCase {
     }
 };
 
-/// Returns the flow of a cell along its epipolar line, see params::kPairReach.
+/// Returns the flow along epipolar lines, smoothed around a cell as params::kPairReach describes.
 inline Eigen::Vector2d smoothLine(const DirectCase& in, int x, int y) {
     Eigen::Vector2d middle;
     for (int axis = 0; axis < 2; ++axis) {

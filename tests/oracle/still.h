@@ -39,7 +39,8 @@ inline Grey seenOf(const Grey& warped, Size video) {
         footprint(stepX), footprint(stepY));
 }
 
-/// Amplifies the finest detail of luma. `neighbours`: weight of each of a pixel's four neighbours.
+/// Amplifies the finest detail of luma. `neighbours`: share of each of a pixel's four neighbours
+/// that is subtracted.
 inline Grey raised(const Grey& luma, double neighbours) {
     return greyOf(luma.size, [&](int x, int y) {
         const double beside =

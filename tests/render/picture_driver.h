@@ -28,8 +28,8 @@ prepared(const std::shared_ptr<const Scene>& scene, std::uint64_t objects, std::
     return prepared(render_scenes::stillLife(), objects, light);
 }
 
-/// Policies for tests. kPlain has no noise filter and no history, and samples every pixel. kProduct
-/// has both, as in the daemon.
+/// Policies for tests. kPlain has no noise filter and no history, so it samples every pixel.
+/// kProduct has filter and history, as in the daemon.
 inline constexpr TracedPolicy kPlain{{4, 0.2}, 8, false, false};
 inline constexpr TracedPolicy kProduct{{4, 0.2}, 8, true, true};
 

@@ -8,7 +8,8 @@
 #include <stdexcept>
 #include <vector>
 
-// The shader texts of the build, compiled in this namespace. mfar::shaders has the changed texts.
+// The build's shader texts, compiled in this namespace. mfar::shaders returns them with checks of
+// their indices.
 namespace mfar::embedded_shaders {
 struct Source {
     std::string_view name, text;

@@ -36,8 +36,10 @@ std::string programManPage() {
            entry("65", "wrong data in a file") + entry("66", "a file cannot be read") +
            entry("69", "a device or OpenGL ES is not available") +
            entry("70", "any other failure") +
-           entry("74", "a display or recording cannot be written") +
-           entry("78", "wrong configuration") + ".SH \"SEE ALSO\"\n.BR mfard.toml (5)\n";
+           entry("74", "a display, recording, summary or report cannot be written") +
+           entry("78", "wrong configuration") +
+           entry("130, 143", "a second SIGINT or SIGTERM ended mfard at once") +
+           ".SH \"SEE ALSO\"\n.BR mfard.toml (5)\n";
     return out;
 }
 
@@ -45,9 +47,9 @@ std::string configManPage() {
     std::string out = head("mfard.toml", 5, "configuration of mfard", "daemon/option_table.cpp");
     out += ".SH DESCRIPTION\n" +
            troff("A TOML file. Every key is optional. Changes take effect after a restart. "
-                 "In sections marked (reload), they also take effect after a reload. Names of "
-                 "files that are read are relative to this file, names of files and folders that "
-                 "are written to mfard's working directory.") +
+                 "In sections marked (reload), they also take effect after a reload. Paths of "
+                 "files that mfard reads start at this file's folder, paths of what it writes at "
+                 "its working directory.") +
            "\n";
     for (const OptionSection& section : configOptions()) {
         const bool isList = section.kind == OptionSection::Kind::List;

@@ -77,38 +77,41 @@ std::string controlManPage() {
         {"queries and controls a running mfard",
          "daemon/tools/ctl_arguments.cpp",
          "Sends one command to mfard through its control socket and prints the answer. root and "
-         "members of the group mfar may use status and stats; all other commands need root "
-         "or the group mfar-operators.",
+         "members of the group mfar may use status and stats; all other commands need root, "
+         "or the groups mfar and mfar-operators.",
          {{"0", "success"},
           {"1", "mfard refused the command"},
           {"64", kParser},
-          {"69", "no mfard listens at the socket"},
+          {"69", "no mfard answers at the socket, or the user may not use it"},
           {"74", "a file cannot be written"}}});
 }
 
 std::string simManPage() {
-    return page(SimParser().app,
-                {"writes a recording of the synthetic board",
-                 "daemon/tools/sim_arguments.cpp",
-                 "Draws what both sensors of a simulated board see and writes it as a recording in "
-                 "EuRoC layout, with poses, tags, calibration and, in truth/, the exact pictures, "
-                 "depth and flow.",
-                 {{"0", "success"},
-                  {"1", "the recording or standard output cannot be written"},
-                  {"100 and more", kParser}}});
+    return page(
+        SimParser().app,
+        {"writes a recording of the synthetic board",
+         "daemon/tools/sim_arguments.cpp",
+         "Draws what both sensors of a simulated board see and writes it as a recording in "
+         "EuRoC layout, with poses, tags, calibration and, in truth/, the exact pictures, "
+         "depth and flow. Needs --out, unless --list is given.",
+         {{"0", "success"},
+          {"1", "the recording or standard output cannot be written, or OpenGL ES is missing"},
+          {"100 and more", kParser}}});
 }
 
 std::string calibrateManPage() {
-    return page(calibration::CalibrateParser().app,
-                {"calibrates both sensors of a board",
-                 "daemon/tools/calibrate/arguments.cpp",
-                 "Finds an AprilGrid or a checkerboard in a recording of both sensors and writes "
-                 "lenses, their mutual pose and the offset of their clocks. Needs either "
-                 "--aprilgrid, or both --checkerboard and --square. Name the written folder as "
-                 "calibration in mfard.toml.",
-                 {{"0", "success"},
-                  {"1", "the recording cannot be read, or it is not sufficient for a calibration"},
-                  {"100 and more", kParser}}});
+    return page(
+        calibration::CalibrateParser().app,
+        {"calibrates both sensors of a board",
+         "daemon/tools/calibrate/arguments.cpp",
+         "Finds an AprilGrid or a checkerboard in a recording of both sensors and writes "
+         "lenses, their mutual pose and the offset of their clocks. Needs --out, and either "
+         "--aprilgrid, or both --checkerboard and --square. Name the written folder as "
+         "calibration in mfard.toml.",
+         {{"0", "success"},
+          {"1", "the recording or target cannot be read, the recording is not sufficient "
+                "for a calibration, or the result cannot be written"},
+          {"100 and more", kParser}}});
 }
 
 }  // namespace mfar::test

@@ -73,7 +73,7 @@ def winners(cpu, gpu):
 
 
 def error_table(predicted, measured):
-    """Returns for each step in both tables: (step, predicted [ms], measured [ms], measured / predicted)."""
+    """Returns (step, predicted [ms], measured [ms], measured / predicted) for each step in both tables, and for their sum."""
     rows = [(step, predicted[step], measured[step]) for step in predicted if step in measured]
     rows.append(('sum of these steps', sum(r[1] for r in rows), sum(r[2] for r in rows)))
     return [(step, p, m, m / p if p else float('nan')) for step, p, m in rows]

@@ -57,7 +57,7 @@ TEST(FieldRows, RangesContainOnlyValidValues) {
     }
 }
 
-TEST(FieldRows, RangesAcrossRowsEqualRangesAlongColumns) {
+TEST(FieldRows, RangeAcrossRowsIsTheLeastAndTheMostOfEachColumn) {
     constexpr std::size_t kWidth = 21, kPitch = 30;
     const Row low = test::randomValues<float>(kPitch * 5, -9, 0, 6);
     const Row high = test::randomValues<float>(kPitch * 5, 0, 9, 7);

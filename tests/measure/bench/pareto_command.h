@@ -15,7 +15,7 @@ public:
     explicit ParetoCommand(CLI::App& app);
 
     [[nodiscard]] bool asked() const { return command_->parsed(); }
-    /// Throws EvalError, RecordingError and ImageFileError.
+    /// Throws EvalError, RecordingError, ImageFileError and the errors of createGlContext().
     void run(Progress& progress);
 
 private:

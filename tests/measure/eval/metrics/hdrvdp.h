@@ -29,7 +29,7 @@ struct HdrVdpBand {
     cv::Size size;
     double frequency = 0;  ///< spatial frequency of the band [cycles/degree]
     double weight = 0;     ///< weight in the quality score of release 2.2.2
-    /// Root of the sum of D^2 where the pictures differ, divided by the number of pixels.
+    /// sqrt(sum of D^2 where the pictures differ) / (number of all pixels of the band).
     double error = 0;
     double sumAbsolute = 0;
     double meanReference = 0, meanTest = 0;  ///< mean absolute band value of each picture
