@@ -100,11 +100,12 @@ float luminance(vec3 light) {
 // it. Estimates which shares of `before` are contained in `all`. Returns the same shares of `now`,
 // plus the part of `all` that is not far light.
 vec3 seenFrom(vec3 all, FarLight before, FarLight now) {
-    vec3 share = clamp(all / max(before.sky, vec3(1e-9)), 0.0, 1.0);
     float ofSky = luminance(before.sky), ofSun = luminance(before.sun);
-    // If a pixel mirrors little sunlight, the visible share of the sky is used for the sun, too.
+    // If a pixel mirrors little sunlight, sky and sun get the same share.
+    bool bright = ofSun > 0.1 * ofSky;
+    vec3 share = clamp(all / max(before.sky + (bright ? vec3(0.0) : before.sun), vec3(1e-9)), 0.0, 1.0);
     float sunPart = clamp((luminance(all) - ofSky) / max(ofSun, 1e-9), 0.0, 1.0);
-    sunPart = ofSun > 0.1 * ofSky ? sunPart : luminance(share);
+    sunPart = bright ? sunPart : luminance(share);
     vec3 rest = max(all - before.sky - sunPart * before.sun, vec3(0.0));
     return min(share * now.sky + sunPart * now.sun + rest, vec3(65280.0));
 }

@@ -14,6 +14,10 @@ namespace mfar {
 /// nothing in one colour channel.
 inline constexpr float kLeastPaint = 0.01F;
 
+/// Lower limit of Paint::facing on materials that emit light. Emitted light is stored as specular
+/// light, divided by the paint; a black metal's paint would be too small for it.
+inline constexpr float kLeastFacingOfLamps = 0.03F;
+
 /// Linear colours in [0, 1] by which a surface multiplies light. They follow glTF's
 /// metallic-roughness material.
 struct Paint {
@@ -26,12 +30,13 @@ struct Paint {
     }
 };
 
+/// `emits`: true if the material emits light.
 [[nodiscard]] inline Paint paintOf(const Eigen::Vector3f& baseColour, float metallic,
-                                   const SpecularAlbedo& albedo) {
+                                   const SpecularAlbedo& albedo, bool emits = false) {
+    const Eigen::Vector3f facing =
+        Eigen::Vector3f::Constant((1 - metallic) * kDielectricReflectance) + metallic * baseColour;
     return {(1 - metallic) * baseColour,
-            Eigen::Vector3f::Constant((1 - metallic) * kDielectricReflectance) +
-                metallic * baseColour,
-            albedo};
+            emits ? Eigen::Vector3f(facing.cwiseMax(kLeastFacingOfLamps)) : facing, albedo};
 }
 
 /// Weights of a point when the light of several points of a pixel is averaged. A weight is the

@@ -52,7 +52,7 @@ Eigen::Vector3f shownTowards(const Eigen::Vector3f& normal, const Eigen::Vector3
 
 Paint SurfacePoint::paint(const Eigen::Vector3f& direction) const {
     const float cosine = std::clamp(-shading.dot(direction.normalized()), 0.0F, 1.0F);
-    return paintOf(look.baseColour, look.metallic, specularAlbedo(look.roughness, cosine));
+    return paintOf(look.baseColour, look.metallic, specularAlbedo(look.roughness, cosine), emits);
 }
 
 Ray SurfacePoint::leaving(const Eigen::Vector3f& direction) const {
@@ -209,6 +209,7 @@ void TracedScene::setLook(const TracedMesh& mesh, const RayHit& hit, SurfacePoin
     const Eigen::Vector2f uv = textureAt(mesh, hit);
     point.look = {m.baseColour.head<3>(), m.metallic, m.roughness};
     point.emission = emissionAt(mesh, hit);
+    point.emits = m.emission.maxCoeff() > 0;
     if (const SurfaceTexture* t = mesh.texture(m.baseColourTexture))
         point.look.baseColour = point.look.baseColour.cwiseProduct(lookUp(*t, uv).head<3>());
     if (const SurfaceTexture* t = mesh.texture(m.metallicRoughnessTexture)) {

@@ -18,6 +18,7 @@ struct SurfacePoint {
     Eigen::Vector3f shading{0, 0, 1};
     SurfaceLook look;
     Eigen::Vector3f emission{0, 0, 0};
+    bool emits = false;  ///< true if the material emits light, at this point or elsewhere
 
     /// `direction` is the viewing direction; it may have any length.
     [[nodiscard]] Paint paint(const Eigen::Vector3f& direction) const;

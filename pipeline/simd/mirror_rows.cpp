@@ -256,11 +256,14 @@ void SplitMirrored(const MirrorRow& row, const MirrorInput& in, const LightWords
     ForGloss(row, in, [&](int x, const FarParts& far, auto known) HWY_ATTR {
         const VU specular = LoadPairs(light + x, row.count - x).second;
         const V3 all = Unpacked(specular), sun = Sunlight(in, far.sun);
-        const V3 share{ShareOf(all.x, far.sky.x), ShareOf(all.y, far.sky.y),
-                       ShareOf(all.z, far.sky.z)};
         const V ofSky = Luminance(far.sky), ofSun = Luminance(sun), ofAll = Luminance(all);
-        // If a pixel mirrors little sunlight, the visible share of the sky is used for the sun too.
+        // If a pixel mirrors little sunlight, sky and sun get the same share.
         const auto bright = hn::Gt(ofSun, hn::Mul(F(kLeastSun), ofSky));
+        const auto shareOf = [&](V part, V sky, V sunPart) HWY_ATTR {
+            return ShareOf(part, hn::Add(sky, hn::IfThenZeroElse(bright, sunPart)));
+        };
+        const V3 share{shareOf(all.x, far.sky.x, sun.x), shareOf(all.y, far.sky.y, sun.y),
+                       shareOf(all.z, far.sky.z, sun.z)};
         const V sunShare =
             hn::IfThenElse(bright, ShareOf(hn::Sub(ofAll, ofSky), ofSun), Luminance(share));
         const auto rest = [&](V part, V sky, V sunPart) HWY_ATTR {

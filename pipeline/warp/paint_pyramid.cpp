@@ -2,6 +2,7 @@
 
 #include "base/light_word.h"
 #include "base/srgb.h"
+#include "pipeline/render/paint.h"
 
 #include <algorithm>
 #include <cmath>
@@ -62,12 +63,13 @@ std::uint32_t rootsOf(const std::array<float, 3>& linear) {
 /// Converts base colour (three values) and metallic (the fourth value) to paint. The colour is
 /// clamped to [0, 1] as in TracedScene, so that a surface never reflects more light than it
 /// receives.
-PaintWords wordsOf(const Values& base) {
+PaintWords wordsOf(const Values& base, bool emits) {
     std::array<float, 3> diffuse{}, facing{};
     for (std::size_t c = 0; c < 3; ++c) {
         const float colour = std::clamp(base[c], 0.0F, 1.0F);
         diffuse[c] = (1 - base[3]) * colour;
         facing[c] = (1 - base[3]) * kDielectricReflectance + base[3] * colour;
+        if (emits) facing[c] = std::max(facing[c], kLeastFacingOfLamps);
     }
     return {rootsOf(diffuse), rootsOf(facing)};
 }
@@ -148,7 +150,7 @@ PaintPicture largestOf(const PaintSource& source, Size size) {
                 base[c] *= t[c];
         }
         if (source.metallic != nullptr) base[3] *= valueOf(*source.metallic)[2];
-        out.texels[i] = wordsOf(base);
+        out.texels[i] = wordsOf(base, source.emits);
     }
     return out;
 }
@@ -159,7 +161,8 @@ PaintSource paintSourceOf(const SilhouetteModels::Part& part) {
     const Material& m = *part.material;
     return {part.baseColour,
             part.metallicRoughness,
-            {m.baseColour.x(), m.baseColour.y(), m.baseColour.z(), m.metallic}};
+            {m.baseColour.x(), m.baseColour.y(), m.baseColour.z(), m.metallic},
+            m.emission.maxCoeff() > 0};
 }
 
 std::vector<PaintPicture> paintPyramid(const PaintSource& source, int longestSide) {

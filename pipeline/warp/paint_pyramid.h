@@ -14,6 +14,7 @@ namespace mfar {
 struct PaintSource {
     const SurfaceTexture *colour = nullptr, *metallic = nullptr;
     std::array<float, 4> factor{};  ///< base colour and metallic
+    bool emits = false;             ///< true if the material emits light
 
     auto operator<=>(const PaintSource&) const = default;
 };

@@ -107,6 +107,30 @@ TEST(MovingMirrors, HighlightsOfTheSunMove) {
     EXPECT_GT(bright, 10);
 }
 
+// Where the sun's light is weak, it is contained only once in the light from another position.
+TEST(MovingMirrors, HiddenHalvesOfSkyAndWeakSunMoveTogether) {
+    MirrorLight light = test::smoothLightAndSun();
+    light.sunIrradiance = {1.5F, 1.5F, 1.5F};
+    MirrorSurfaces s(light);
+    const Eigen::Vector3d eye = s.traced.T_world_camera.translation, other = eye + kMoved;
+    for (std::size_t i = 0; i < s.points.size(); ++i)
+        s.setLight(i, 0.5F * s.skyAndSunFor(eye, i));
+    Mirrors moving(s.traced);
+    const auto shown = moving.mirrors.lightFor(other);
+    const auto sunBySky = [&](const Eigen::Vector3d& from, std::size_t i) {
+        return s.skyAndSunFor(from, i).mean() / s.skyFor(from, i).mean() - 1;
+    };
+    int weak = 0;
+    for (std::size_t i = 0; i < s.points.size(); ++i) {
+        if (s.normals[i].dot(s.seenFrom(other, i)) < 0.05F || s.roughness[i] < 0.3F) continue;
+        const float before = sunBySky(eye, i), now = sunBySky(other, i);
+        if (!(before > 0.04F && before < 0.08F && now < 0.08F)) continue;
+        ++weak;
+        expectNear(specularOf(shown[i]), 0.5F * s.skyAndSunFor(other, i), i);
+    }
+    EXPECT_GT(weak, 20);
+}
+
 TEST(MovingMirrors, ResultIsIndependentOfTheNumberOfThreads) {
     MirrorSurfaces s(smoothLight());
     for (std::size_t i = 0; i < s.points.size(); ++i)

@@ -35,8 +35,9 @@ Truth truthAt(const TracedScene& scene, const CameraModel& camera, const RigidTr
             const Ray ray{pose.translation.cast<float>(), along.cast<float>()};
             const RayHit hit = scene.shown(ray, scene.objects().first(ray));
             if (!hit.found()) continue;
-            const SurfaceLook look = scene.objectPoint(hit, ray.direction).look;
-            const Paint paint = paintOf(look.baseColour, look.metallic, {});
+            const SurfacePoint point = scene.objectPoint(hit, ray.direction);
+            const Paint paint =
+                paintOf(point.look.baseColour, point.look.metallic, {}, point.emits);
             out.diffuse += paint.diffuse.cast<double>();
             out.facing += paint.facing.cast<double>();
             ++out.hits;

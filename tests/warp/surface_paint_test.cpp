@@ -254,6 +254,20 @@ TEST(SurfacePaint, PlainColoursAreExactUpToTwoRoundings) {
         }
 }
 
+TEST(SurfacePaint, LampsHaveThePaintWithWhichTheirLightWasDivided) {
+    Material lamp;
+    lamp.baseColour = {0, 0, 0, 1};
+    lamp.metallic = 1;
+    for (const float emission : {0.0F, 2.0F}) {
+        lamp.emission.y() = emission;
+        const Words words = paintOf(sceneOf({{modelOf(square(), lamp), placed(0, {0, 0, 1}), 1}}));
+        const Paint truth = mfar::paintOf({0, 0, 0}, 1, {}, emission > 0);
+        const Six bytes = bytesOf(words[20UL * kPainted.width + 30]);
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(bytes[3 + c], 255 * srgbEncoded(truth.facing[c]), 1.25) << emission;
+    }
+}
+
 TEST(SurfacePaint, WithoutTextureCoordinatesOnlyTheFactorIsUsed) {
     Material material = textured(0, 0);
     material.baseColour = {1, 0, 1, 1};
