@@ -55,7 +55,7 @@ public:
                                                  16UL * forward_.offset);
     }
     /// True after refine(): backward() then has the ErrorCells of forward() instead of flow
-    /// vectors. False after run().
+    /// vectors. False after run(). Without matched tiles, neither changes it.
     [[nodiscard]] bool errorsGiven() const { return errorsGiven_; }
     [[nodiscard]] const Field& backward() const { return backward_; }
     /// refine() gets one vector per cell. The buffer cells() contains these vectors from this index

@@ -57,7 +57,7 @@ public:
     [[nodiscard]] Rows<const FlowCell> backward() const { return rowsOf(backward_, stillCells_); }
     [[nodiscard]] int backwardLevel() const { return backwardLevel_; }
     /// True after refine(), where errors() contains the two-way errors of the video's cells. False
-    /// after run(), which does not compute them.
+    /// after run(), which does not compute them. Without matched tiles, neither changes it.
     [[nodiscard]] bool errorsGiven() const { return errorsGiven_; }
     [[nodiscard]] Rows<const ErrorCell> errors() const { return rowsOf(errors_, videoCells_); }
 

@@ -70,6 +70,18 @@ TEST(SceneFollower, ShadowsFallOntoAPlaneUntilDepthIsKnown) {
     EXPECT_EQ(measured->objects.size(), 1U);
 }
 
+TEST(SceneFollower, ANewLightChangesNothingElse) {
+    SceneFollower follower;
+    const auto before = follower.set(cube());
+    const Lighting light{std::make_shared<const Environment>(), Sun{}};
+    const auto after = follower.relight(light);
+    EXPECT_EQ(after->lighting.environment, light.environment);
+    EXPECT_TRUE(after->lighting.sun.has_value());
+    EXPECT_EQ(after->objects.size(), before->objects.size());
+    EXPECT_EQ(after->catcher.positions, before->catcher.positions);
+    EXPECT_EQ(follower.follow(table(0.03), kFollowing, downAt(0), kPicture, atSecond(1)), nullptr);
+}
+
 TEST(SceneFollower, ShadowCatcherIsRebuiltIfTheViewTurnsButNotTooOften) {
     SceneFollower follower({.settling = 1, .leastKnown = 0.5, .turn = 0.3, .leastInterval = 4});
     follower.set(cube());

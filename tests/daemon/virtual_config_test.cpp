@@ -1,4 +1,5 @@
 #include "daemon/config.h"
+#include "daemon/virtual_world.h"
 #include "tests/daemon/config_faults.h"
 #include "tests/models/gltf_maker.h"
 #include "tests/unit/temp_folder.h"
@@ -31,6 +32,52 @@ turn_deg = 2
                                        .virtualLayer;
     EXPECT_EQ(options, (VirtualOptions{VirtualRendering::Preview, 12.5, Slicing::Spatial, 16, 0.5,
                                        HoleFilling::PushPull, 3, false, 2}));
+}
+
+TEST(VirtualConfig, EveryOptionReachesThePathTracerAndTheWarp) {
+    const VirtualOptions options{VirtualRendering::PathTraced,
+                                 12.5,
+                                 Slicing::Spatial,
+                                 16,
+                                 0.5,
+                                 HoleFilling::PushPull,
+                                 3,
+                                 false,
+                                 2};
+    const TracedLayerOptions out = tracedLayerOptions(options, 2);
+    EXPECT_EQ(out.renderer.budgetMs, 12.5);
+    EXPECT_EQ(out.renderer.slices.slicing, Slicing::Spatial);
+    EXPECT_EQ(out.renderer.slices.samples, 16);
+    EXPECT_EQ(out.warp.filling, HoleFilling::PushPull);
+    EXPECT_EQ(out.renderer.threads, 3);
+    EXPECT_FALSE(out.renderer.policy.filter);
+    EXPECT_EQ(out.renderer.policy.limits.turnDegrees, 2);
+    EXPECT_EQ(out.renderer.exposure.scale, 2);
+    EXPECT_EQ(out.renderer.tracer.fireflyClamp, 0.5F);
+    EXPECT_EQ(layerSize(options, {200, 150}, {1000, 1000}), (Size{100, 75}));
+    EXPECT_EQ(layerSize(options, {200, 150}, {60, 40}), (Size{60, 40}));
+}
+
+TEST(LightConfig, EachLightReachesTheScene) {
+    const std::vector<PlacedObject> objects(1);
+    const auto lightingOf = [&](LightOptions light) {
+        light.environment = std::make_shared<const Environment>();
+        return sceneOf(objects, light, {}).lighting;
+    };
+    LightOptions light;
+    const Lighting studio = lightingOf(light);
+    EXPECT_FALSE(studio.sun);
+    light.sun = Sun{};
+    light.sun->irradiance = {3, 2, 1};
+    EXPECT_EQ(lightingOf(light).sun.value().irradiance, Eigen::Vector3f(3, 2, 1));
+    light.source = LightSource::Sky;
+    const Lighting sky = lightingOf(light);
+    EXPECT_NE(sky.environment->radiance, studio.environment->radiance);
+    light.sun->towards = {0, 1, 0};
+    EXPECT_NE(lightingOf(light).environment->radiance, sky.environment->radiance)
+        << "the sky must have its sun at the configured place";
+    light.source = LightSource::File;
+    EXPECT_TRUE(lightingOf(light).environment->radiance.empty()) << "not the picture of the file";
 }
 
 TEST(VirtualConfig, FaultsAreReportedWithLineAndColumn) {

@@ -2,7 +2,9 @@
 #include "tests/learn/sensor_pair.h"
 
 #include <algorithm>
+#include <chrono>
 #include <gmock/gmock.h>
+#include <thread>
 
 namespace mfar {
 namespace {
@@ -177,6 +179,25 @@ TEST(EnlargerLearner, StopRequestDiscardsTheCurrentStill) {
     EXPECT_EQ(learner.add(matchedPictures(sharpDiscs(1), {}), stop.get_token()), Outcome::Stopped);
     EXPECT_EQ(learner.stored("x"), before);
     EXPECT_NE(learner.add(matchedPictures(sharpDiscs(1), {})), Outcome::Repeated);
+}
+
+TEST(EnlargerLearner, AStillIsUsedAsAWholeOrNotAtAll) {
+    const MatchedPictures pictures = matchedPictures(sharpDiscs(1, {128, 96}), {});
+    EnlargerLearner whole;
+    const auto before = whole.stored("x");
+    const auto begun = std::chrono::steady_clock::now();
+    ASSERT_NE(whole.add(pictures), Outcome::Stopped);
+    const auto took = std::chrono::steady_clock::now() - begun;
+    for (int i = 1; i < 8; ++i) {
+        std::stop_source stop;
+        EnlargerLearner learner;
+        std::jthread stopper([&] {
+            std::this_thread::sleep_for(i * took / 8);
+            stop.request_stop();
+        });
+        const bool isStopped = learner.add(pictures, stop.get_token()) == Outcome::Stopped;
+        EXPECT_EQ(learner.stored("x"), isStopped ? before : whole.stored("x")) << i;
+    }
 }
 
 }  // namespace

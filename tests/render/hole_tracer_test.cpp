@@ -57,16 +57,28 @@ TEST(HoleTracer, AnswersMatchAPictureOfTheView) {
         const HoleAnswer answer = answered(holes, tracer, requestFor(some, 4), 100);
         ASSERT_EQ(answer.pixels, some);
         ASSERT_EQ(answer.colour.size(), some.size());
+        ASSERT_EQ(answer.light.size(), some.size());
         int objects = 0;
         for (std::size_t i = 0; i < some.size(); ++i) {
             EXPECT_EQ(answer.colour[i], truth.colour[some[i]]);
             EXPECT_EQ(answer.depth[i], truth.depth[some[i]]);
             EXPECT_EQ(answer.id[i], truth.id[some[i]]);
+            EXPECT_EQ(answer.light[i], truth.light[some[i]]);
             objects += answer.id[i] != 0 ? 1 : 0;
         }
         EXPECT_GT(objects, 20);
     }
     EXPECT_EQ(holes.answered(), all.size() / 2 + all.size() / 3);
+}
+
+TEST(HoleTracer, AnAnswerHasThePosesOfItsRequest) {
+    const PathTracer tracer(render_scenes::stillLife());
+    HoleTracer holes(100);
+    HoleRequest request = requestFor({900}, 1);
+    request.poses = {{Eigen::Quaterniond::Identity(), {1, 2, 3}}, {}};
+    const HoleAnswer answer = answered(holes, tracer, request, 1);
+    ASSERT_EQ(answer.poses.size(), 2U);
+    EXPECT_EQ(answer.poses[0].translation, Eigen::Vector3d(1, 2, 3));
 }
 
 TEST(HoleTracer, EachPixelInsideThePictureIsTracedOnce) {

@@ -244,21 +244,39 @@ TEST(NoiseFilter, FiltersBothLightPartsSeparately) {
 
 TEST(NoiseFilter, ReadsNothingOutsideTheGivenRectangle) {
     const PixelRect where{8, 4, 30, 20};
-    const auto inside = [&](float outside) {
+    const auto isInside = [&](std::size_t i) {
+        const int x = static_cast<int>(i) % kNoisySize.width;
+        const int y = static_cast<int>(i) / kNoisySize.width;
+        return x >= where.x0 && x < where.x1 && y >= where.y0 && y < where.y1;
+    };
+    const auto filteredWith = [&](float outside, bool varianceIsKnown) {
         NoiseFilter filter;
         filter.begin(kNoisySize, where);
         std::ranges::copy(noisyPicture(flat), filter.pixels().begin());
-        for (int i = 0; i < kNoisySize.width * kNoisySize.height; ++i)
-            if (common(where, {i % kNoisySize.width, i / kNoisySize.width, i % kNoisySize.width + 1,
-                               i / kNoisySize.width + 1})
-                    .empty())
-                filter.pixels()[static_cast<std::size_t>(i)].first.setConstant(outside);
+        for (std::size_t i = 0; i < filter.pixels().size(); ++i) {
+            LightPixel& p = filter.pixels()[i];
+            if (!varianceIsKnown) p.firstVariance = p.secondVariance = -1;
+            if (isInside(i)) continue;
+            p.first.setConstant(outside);
+            p.second.setConstant(outside);
+            p.firstVariance = p.secondVariance = outside;
+        }
         for (int stage = 0; stage < NoiseFilter::kStages; ++stage)
             filter.run(stage, 0, kNoisySize.height);
-        return filter.filtered()[static_cast<std::size_t>(where.y0) * kNoisySize.width + where.x0]
-            .first[0];
+        Pixels out;
+        for (std::size_t i = 0; i < filter.pixels().size(); ++i)
+            if (isInside(i)) out.push_back(filter.filtered()[i]);
+        return out;
     };
-    EXPECT_EQ(inside(0.5F), inside(0.52F));
+    for (const bool varianceIsKnown : {true, false}) {
+        const Pixels some = filteredWith(0.5F, varianceIsKnown);
+        const Pixels others = filteredWith(1e6F, varianceIsKnown);
+        ASSERT_EQ(some.size(), 22U * 16);
+        for (std::size_t i = 0; i < some.size(); ++i) {
+            ASSERT_EQ(some[i].first[0], others[i].first[0]) << i;
+            ASSERT_EQ(some[i].second[0], others[i].second[0]) << i;
+        }
+    }
 }
 
 TEST(NoiseFilter, WorksForPicturesOfAnySize) {

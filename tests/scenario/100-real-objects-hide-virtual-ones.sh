@@ -68,6 +68,29 @@ kill -TERM "$pid"
 ends_with 0 1500
 says summary.json '"depth_tiles": [1-9]'
 
+echo "SIGHUP adds and removes path-traced objects"
+: >traced.toml
+start --source synthetic:office --config traced.toml --size 1152x864 --display none --control control
+until_true started
+sed '/^\[virtual\]/d; /^rendering/d' near.toml >traced.toml
+kill -HUP "$pid"
+counted() { "$ctl" --socket control stats | sed -n "s/.*\"$1\": *\([0-9]*\).*/\1/p" | head -n 1; }
+# True if the objects' picture is warped in further frames. The camera moves.
+warps() {
+    local frames warped
+    frames=$(counted frames) warped=$(counted frames_warped)
+    passed() { [ "$(counted frames)" -gt $((frames + 10)) ]; }
+    until_true passed
+    [ "$(counted frames_warped)" != "$warped" ]
+}
+until_true warps
+: >traced.toml
+kill -HUP "$pid"
+rests() { ! warps; }
+until_true rests
+kill -TERM "$pid"
+ends_with 0 1500
+
 echo "an invalid object is refused with its line and column"
 echo 'size = [0, 1, 1]' >>near.toml
 sed -i '/^size = \[0.1/d' near.toml

@@ -1,9 +1,11 @@
+#include "pipeline/scene/scene_parts.h"
 #include "pipeline/traced_layer.h"
 #include "tests/engine/gl_test.h"
 #include "tests/render/still_life.h"
 #include "tests/warp/warp_engine.h"
 
 #include <chrono>
+#include <cstdlib>
 #include <functional>
 #include <memory>
 #include <thread>
@@ -72,6 +74,29 @@ struct Frames {
     std::vector<std::uint8_t> rgba;
 };
 
+TEST_F(TracedLayerGl, AMovingObjectIsDrawnWhereItIsNow) {
+    Frames frames;
+    auto scene = std::make_shared<Scene>(*litBy(*render_scenes::stillLife(), {3, 3, 3}));
+    RigidPath path;
+    path.length = 200;
+    path.joints.resize(1);
+    path.joints[0].translation = {MotionTrack::Between::Step,
+                                  {0, 100, 200},
+                                  {{0, 0, 0.08, 0}, {0.15, -0.25, 0.08, 0}, {0, 0, 0.08, 0}}};
+    scene->objects[0].path = std::make_shared<const RigidPath>(path);
+    frames.layer.setScene(std::make_shared<const Scene>(sceneAt(*scene, {})));
+    ASSERT_TRUE(frames.until(0, 0, [&] { return frames.layer.rests() && !frames.rgba.empty(); }));
+    frames.show(0);
+    const std::vector<std::uint8_t> before = frames.rgba;
+    // The object jumps. The threads cannot have traced a picture of its new position yet.
+    frames.time = Timestamp::fromSeconds(100);
+    frames.show(0);
+    int changed = 0;
+    for (std::size_t i = 0; i < before.size(); ++i)
+        changed += std::abs(int{before[i]} - int{frames.rgba[i]}) > 40 ? 1 : 0;
+    EXPECT_GT(changed, 100);
+}
+
 TEST_F(TracedLayerGl, NoPixelKeepsTheOldLightIfOnlyTheLightChanges) {
     constexpr double kFront = 0, kAside = 40, kSway = 0.5;
     constexpr std::size_t kRed = 0, kGreen = 1;
@@ -92,6 +117,8 @@ TEST_F(TracedLayerGl, NoPixelKeepsTheOldLightIfOnlyTheLightChanges) {
     frames.layer.setScene(litBy(*scene, {0, 3, 0}));
     ASSERT_TRUE(frames.until(kFront, 0, [&] { return frames.brightPixels(kGreen) > 0; }));
     EXPECT_EQ(frames.brightPixels(kRed), 0);
+    // Individually rendered pixels can be shown before the first picture with the new light.
+    ASSERT_TRUE(frames.until(kFront, 0, [&] { return frames.layer.rests(); }));
     frames.show(kAside);
     EXPECT_GT(frames.brightPixels(kGreen), open / 2);
     EXPECT_EQ(frames.brightPixels(kRed), 0);

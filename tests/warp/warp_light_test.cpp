@@ -154,10 +154,14 @@ TEST_F(WarpLight, BothEnginesShowTheSameLightInRerenderedPixels) {
     simd.warp.answer(answer);
     const std::vector<std::uint8_t> now = gles.at(kTurn);
     expectSame(now, simd.at(kTurn));
-    int changed = 0;
-    for (const std::uint32_t pixel : answer.pixels)
-        changed += now[4UL * pixel + 3] != before[4UL * pixel + 3] ? 1 : 0;
+    int changed = 0, coloured = 0;
+    for (const std::uint32_t pixel : answer.pixels) {
+        const std::uint8_t* const rgba = &now[4UL * pixel];
+        changed += rgba[3] != before[4UL * pixel + 3] ? 1 : 0;
+        coloured += rgba[0] == 255 && rgba[1] == 0 && rgba[2] == 255 ? 1 : 0;
+    }
     EXPECT_GT(changed, 100);
+    EXPECT_LT(coloured, changed / 50);
 }
 
 }  // namespace

@@ -107,7 +107,7 @@ TEST(CellLandings, FlowEndsInTheNearestCell) {
 
 TEST(CellsHidden, CellsBehindANearerCellAtTheSamePixelAreOccluded) {
     for (const std::size_t count : test::kLengths) {
-        const auto landing = test::randomValues<std::int32_t>(count, -1, 4.9, 1);
+        const auto landing = test::randomValues<std::int32_t>(count, -1.99, 4.9, 1);  // -1 to 4
         const Row nearest = test::randomValues<float>(5, 0, 1, 2),
                   s = test::randomValues<float>(count, 0, 1, 3);
         std::vector<CellVector> out(count);

@@ -103,7 +103,7 @@ TEST(MeasureRow, OnlyVisiblePointsGetDepthAndVariance) {
         const Row raysY = test::randomValues<float>(count, -0.6, 0.6, 2);
         const Row s = test::randomValues<float>(count, -0.2, 2.5, 3);
         const Row nearest = test::randomValues<float>(7, 0, 1, 4);
-        const auto landing = test::randomValues<std::int32_t>(count, -1, 6.9, 5);
+        const auto landing = test::randomValues<std::int32_t>(count, -1.99, 6.9, 5);  // -1 to 6
         Row rho(count), variance(count);
         measureRow({raysX.data(), raysY.data(), s.data(), landing.data(), nearest.data()}, rule,
                    count, rho.data(), variance.data());

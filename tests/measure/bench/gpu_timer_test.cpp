@@ -1,6 +1,10 @@
 #include "tests/engine/gl_test.h"
 #include "tests/measure/bench/gpu_timer.h"
 
+#include <chrono>
+#include <optional>
+#include <thread>
+
 namespace mfar::gpu {
 namespace {
 
@@ -12,13 +16,25 @@ TEST_F(GpuTimer, ReportsAPlausibleTimeOrThatItIsUnavailable) {
     glFinish();
     timer.stop();
     glFinish();
-    const auto ms = timer.read();
+    std::optional<double> ms = timer.read();
     if (!timer.available()) {
         EXPECT_FALSE(ms.has_value());
-    } else if (ms.has_value()) {
-        EXPECT_GE(*ms, 0);
-        EXPECT_LT(*ms, 10'000);
+        return;
     }
+    // The result may come a little later, and there is none if the GPU has changed its clock.
+    for (int i = 0; !ms && i < 100; ++i) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        if (i % 10 == 9) {
+            timer.start();
+            glFinish();
+            timer.stop();
+            glFinish();
+        }
+        ms = timer.read();
+    }
+    ASSERT_TRUE(ms.has_value());
+    EXPECT_GE(*ms, 0);
+    EXPECT_LT(*ms, 10'000);
 }
 
 }  // namespace

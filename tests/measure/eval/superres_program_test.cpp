@@ -125,12 +125,18 @@ TEST(MfarEval, SuperResLearnsFromStillsBeforeItMeasures) {
     const Outcome elsewhere = learning("simd", "--learn-from");
     ASSERT_EQ(elsewhere.status, 0) << elsewhere.text;
     EXPECT_NE(elsewhere.text.find("learned from"), std::string::npos) << elsewhere.text;
-    const Outcome itself = learning("simd", "--learn 2");
-    ASSERT_EQ(itself.status, 0) << itself.text;
-    EXPECT_NE(itself.text.find("learned from"), std::string::npos) << itself.text;
-    const Outcome shaders = learning("gles", "--learn 2");
-    ASSERT_EQ(shaders.status, 0) << shaders.text;
-    EXPECT_NE(shaders.text.find("learned from"), std::string::npos) << shaders.text;
+    // Returns the PSNR of the frame.
+    const auto psnrOf = [&](const char* engine, const std::string& how) {
+        const Outcome ran = learning(engine, (how + "--csv out.csv").c_str());
+        EXPECT_EQ(ran.status, 0) << ran.text;
+        EXPECT_EQ(ran.text.find("learned from") != std::string::npos, !how.empty()) << ran.text;
+        const auto table = readCsv("out.csv");
+        const auto column = std::ranges::find(table.at(0), "psnr_db") - table.at(0).begin();
+        return std::stod(table.at(1).at(static_cast<std::size_t>(column)));
+    };
+    const double learned = psnrOf("simd", "--learn 2 ");
+    EXPECT_GT(std::abs(learned - psnrOf("simd", "")), 0.01) << "learning has no effect";
+    EXPECT_NEAR(psnrOf("gles", "--learn 2 "), learned, 0.1);
 }
 
 TEST(MfarEval, SuperResComputesSlowMetricsOnRequest) {

@@ -33,10 +33,10 @@ inline std::vector<std::vector<std::string>> readCsv(const std::filesystem::path
     return out;
 }
 
-/// Writes two video frames and a still of a synthetic scene. If `withTruth`, adds true
-/// high-resolution pictures of both frames.
-inline void writeRecording(const std::filesystem::path& root, bool withTruth) {
-    const bench::Workload work = bench::syntheticWorkload({160, 120}, {576, 432}, 2);
+/// Writes video frames and a still of a synthetic scene. If `withTruth`, adds true high-resolution
+/// pictures of all frames.
+inline void writeRecording(const std::filesystem::path& root, bool withTruth, int frames = 2) {
+    const bench::Workload work = bench::syntheticWorkload({160, 120}, {576, 432}, frames);
     Recorder recorder(root, work.rig, 30);
     const cv::Mat still = toRgba(work.stills[0]);
     ASSERT_TRUE(recorder.still(viewOf(still), {500}));

@@ -32,5 +32,20 @@ TEST(MfarTrainEnlarger, TooFewSharpPicturesAreRefusedAndNothingIsWritten) {
     EXPECT_NE(ran.text.find("nowhere/file cannot be written"), std::string::npos) << ran.text;
 }
 
+TEST(MfarTrainEnlarger, TheSameRecordingsGiveTheSameFilters) {
+    const TempFolder folder;
+    writeRecording(folder / "sharp", true, 4);
+    for (const char* const out : {"first", "second"}) {
+        const Outcome ran =
+            execute(folder, fmt::format("'{}' {}/sharp --out {}/{}", MFAR_TRAIN_ENLARGER,
+                                        folder.path().string(), folder.path().string(), out));
+        ASSERT_EQ(ran.status, 0) << ran.text;
+        EXPECT_NE(ran.text.find("read 4 pictures"), std::string::npos) << ran.text;
+    }
+    const std::string filters = test::readFile(folder / "first");
+    EXPECT_GT(filters.size(), 1000U);
+    EXPECT_EQ(test::readFile(folder / "second"), filters);
+}
+
 }  // namespace
 }  // namespace mfar::eval
