@@ -34,7 +34,7 @@ std::size_t anyOf(const std::vector<ListedCamera>& cameras, const CameraWish& wi
     if (!wish.except.empty())
         for (const std::size_t taken : named(cameras, wish.except))
             std::erase(left, taken);
-    else if (cameras.size() == 1 && wish.largest)
+    else if (cameras.size() == 1 && wish.largest && wish.sharesDriver)
         left.clear();
     if (left.empty())
         throw std::runtime_error(
@@ -55,8 +55,9 @@ std::string describe(const std::vector<ListedCamera>& cameras) {
 
 std::size_t chooseCamera(const std::vector<ListedCamera>& cameras, const CameraWish& wish) {
     if (cameras.empty())
-        throw std::runtime_error("libcamera finds no camera; try driver \"v4l2\" for cameras that "
-                                 "libcamera does not support");
+        throw std::runtime_error(
+            "libcamera finds no camera; for a camera on a CSI connector, install "
+            "libcamera-ipa; for other cameras, try driver \"v4l2\"");
     if (wish.name.empty()) return anyOf(cameras, wish);
     const std::vector<std::size_t> found = named(cameras, wish.name);
     if (found.size() == 1) return found[0];

@@ -19,6 +19,9 @@ struct CameraWish {
     /// If `name` is empty: true chooses the camera with the largest pictures, false the one with
     /// the smallest.
     bool largest = false;
+    /// True if the camera of the other sensor is used through the same driver. Then a single camera
+    /// is that of the video sensor.
+    bool sharesDriver = true;
 };
 
 [[nodiscard]] std::string describe(const std::vector<ListedCamera>& cameras);
@@ -26,8 +29,8 @@ struct CameraWish {
 /// Returns the index of the camera that has wish.name. If that is empty, returns the camera with
 /// the smallest or largest pictures, see CameraWish::largest. The id decides among equal sizes.
 /// Throws std::runtime_error, whose message lists the cameras, in these cases: no camera or several
-/// cameras have the name; `except` is the only camera; `name` and `except` are empty, `largest` is
-/// set, and there is only one camera.
+/// cameras have the name; `except` is the only camera; `name` and `except` are empty, `largest` and
+/// `sharesDriver` are set, and there is only one camera.
 [[nodiscard]] std::size_t chooseCamera(const std::vector<ListedCamera>& cameras,
                                        const CameraWish& wish);
 

@@ -223,6 +223,17 @@ std::optional<Timestamp> CameraV4l2::timeOf(const V4l2Filled& filled) {
 // Returns the manual exposure, or 0 if the exposure is automatic or unknown. V4L2's unit is 100 us.
 // Drivers use different names for the controls of the exposure.
 nanoseconds CameraV4l2::manualExposure() const {
+    try {
+        return readExposure();
+    } catch (const DeviceLost&) {
+        throw;
+    } catch (const std::runtime_error&) {
+        // Some cameras list a control that cannot be read. Their pictures can be used all the same.
+        return nanoseconds(0);
+    }
+}
+
+nanoseconds CameraV4l2::readExposure() const {
     constexpr std::int64_t kMost = 100'000;
     for (const char* automatic : {"auto_exposure", "exposure_auto"})
         if (controls_->find(automatic) != nullptr &&

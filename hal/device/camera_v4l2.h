@@ -74,6 +74,7 @@ private:
     [[nodiscard]] bool isWhole(const V4l2Filled& filled) const;
     [[nodiscard]] std::optional<Timestamp> timeOf(const V4l2Filled& filled);
     [[nodiscard]] std::chrono::nanoseconds manualExposure() const;
+    [[nodiscard]] std::chrono::nanoseconds readExposure() const;
     std::nullopt_t refuse(std::uint64_t CameraCounters::* why);
     void count(std::uint64_t CameraCounters::* what);
 

@@ -14,6 +14,7 @@ namespace mfar {
 namespace {
 
 constexpr std::chrono::milliseconds kLookEvery{500};
+constexpr std::chrono::seconds kRetryPreferred{5};
 // Number of pictures after which a screen counts as working. The first picture sets the mode. The
 // third waits until the second is on the screen, which proves that the screen shows new pictures.
 constexpr int kProven = 3;
@@ -84,10 +85,21 @@ void ScreenDisplay::lose(const std::string& why) {
     active_ = nullptr;
 }
 
+// True every few seconds if a preferred device could not be used before, e.g. because a boot screen
+// or a desktop controlled it. No event reports that such a program has ended.
+bool ScreenDisplay::retriesPreferred() {
+    const Timestamp now = clock_();
+    if (active_ == screens_.front().get() || (retriedAt_ && now - *retriedAt_ < kRetryPreferred))
+        return false;
+    retriedAt_ = now;
+    return true;
+}
+
 // While a screen works and no device has changed, only that screen is checked, because checking
 // another screen opens its device.
 Screen* ScreenDisplay::look(bool changed) {
-    if (active_ != nullptr && !changed && active_->look(false) == Screen::Presence::Ready)
+    if (active_ != nullptr && !changed && !retriesPreferred() &&
+        active_->look(false) == Screen::Presence::Ready)
         return active_;
     if (changed) failed_ = nullptr;
     Screen* holder = nullptr;
@@ -108,7 +120,14 @@ Screen* ScreenDisplay::look(bool changed) {
 }
 
 std::string ScreenDisplay::name() const {
-    if (active_ != nullptr) return active_->status();
+    if (active_ != nullptr) {
+        std::string preferred;
+        for (const auto& screen : screens_) {
+            if (screen.get() == active_) break;
+            preferred += (preferred.empty() ? " (" : "; ") + screen->status();
+        }
+        return active_->status() + (preferred.empty() ? "" : preferred + ")");
+    }
     std::string text = "no screen yet (" + fault_;
     for (const auto& screen : screens_)
         text += (text.ends_with('(') ? "" : "; ") + screen->status();

@@ -14,7 +14,8 @@ namespace mfar {
 
 /// A display whose screen may be connected, disconnected or changed at any time. Without a screen,
 /// show() only waits for the GPU. A new screen shows the picture within a second. Devices are
-/// checked in a fixed order. A device that could not show its first pictures is checked last.
+/// checked in a fixed order, every five seconds also while a less preferred one is in use. A device
+/// that could not show its first pictures is checked last.
 ///
 /// A missing screen never ends a run. name() reports the screen or the reason why there is none,
 /// for example:
@@ -54,6 +55,7 @@ public:
 private:
     void refresh();
     [[nodiscard]] Screen* look(bool changed);
+    [[nodiscard]] bool retriesPreferred();
     void lose(const std::string& why);
 
     std::unique_ptr<ScreenScaler> scaler_;
@@ -64,6 +66,7 @@ private:
     Screen* failed_ = nullptr;
     int shown_ = 0;
     std::optional<Timestamp> lookedAt_;
+    std::optional<Timestamp> retriedAt_;  ///< last check of devices that are preferred to active_
     std::string fault_;  // reason why the last screen was lost; empty once a screen works again
 };
 

@@ -203,12 +203,14 @@ DrmCard::DrmCard(const std::string& path) : path_(path), fd_(openCard(path)) {
 std::optional<DrmOutput> DrmCard::findOutput(const ScreenSpec& spec, bool probe) const {
     const Resources all = resources(fd());
     if (!all) throw std::runtime_error(fmt::format("{}: {}", path_, std::strerror(errno)));
-    for (int i = 0; i < all->count_connectors; ++i) {
-        const Connector connector = connectorOf(fd(), all->connectors[i], probe);
-        if (!connector || connector->connection != DRM_MODE_CONNECTED) continue;
-        if (!spec.connector.empty() && spec.connector != nameOf(*connector)) continue;
-        if (auto output = route(*connector, spec)) return output;
-    }
+    // Outputs that cannot detect a screen, such as composite video, are used if there is no other.
+    for (const drmModeConnection state : {DRM_MODE_CONNECTED, DRM_MODE_UNKNOWNCONNECTION})
+        for (int i = 0; i < all->count_connectors; ++i) {
+            const Connector connector = connectorOf(fd(), all->connectors[i], probe);
+            if (!connector || connector->connection != state) continue;
+            if (!spec.connector.empty() && spec.connector != nameOf(*connector)) continue;
+            if (auto output = route(*connector, spec)) return output;
+        }
     return std::nullopt;
 }
 
@@ -258,9 +260,10 @@ std::string DrmCard::connectors() const {
     for (int i = 0; all && i < all->count_connectors; ++i) {
         const Connector connector = connectorOf(fd(), all->connectors[i], false);
         if (!connector) continue;
-        const bool connected = connector->connection == DRM_MODE_CONNECTED;
-        text += fmt::format("{}{} {}", text.empty() ? "" : ", ", nameOf(*connector),
-                            connected ? "connected" : "disconnected");
+        const char* const state = connector->connection == DRM_MODE_CONNECTED      ? "connected"
+                                  : connector->connection == DRM_MODE_DISCONNECTED ? "disconnected"
+                                                                                   : "unknown";
+        text += fmt::format("{}{} {}", text.empty() ? "" : ", ", nameOf(*connector), state);
     }
     return text;
 }

@@ -78,9 +78,9 @@ EGLContext createContext(EGLDisplay display, EGLConfig config) {
     return context != EGL_NO_CONTEXT ? context : create(EGL_NONE, EGL_NONE);
 }
 
-// Opens the first EGL device that is a GPU (without EGL_MESA_device_software). If there is none or
-// `software` is set, opens the surfaceless platform. That platform may use a GPU, too, if this EGL
-// library cannot list devices.
+// Opens the first EGL device that is a GPU, or if `software` is set, the one that is none
+// (EGL_MESA_device_software). If there is no such device, opens the surfaceless platform. That
+// platform may use a GPU, too.
 OpenedDisplay openDisplay(bool software) {
     const char* client = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
     const auto platformDisplay =
@@ -88,7 +88,7 @@ OpenedDisplay openDisplay(bool software) {
     if (platformDisplay == nullptr)
         throw std::runtime_error(
             "EGL: EGL_EXT_platform_base is missing; a newer EGL library is needed");
-    if (!software && hasExtension(client, "EGL_EXT_platform_device")) {
+    if (hasExtension(client, "EGL_EXT_platform_device")) {
         const auto queryDevices = eglProc<PFNEGLQUERYDEVICESEXTPROC>("eglQueryDevicesEXT");
         const auto queryString = eglProc<PFNEGLQUERYDEVICESTRINGEXTPROC>("eglQueryDeviceStringEXT");
         std::array<EGLDeviceEXT, 16> devices{};
@@ -96,7 +96,8 @@ OpenedDisplay openDisplay(bool software) {
         if (queryDevices != nullptr && queryString != nullptr)
             queryDevices(devices.size(), devices.data(), &count);
         for (EGLint i = 0; i < count; ++i) {
-            if (hasExtension(queryString(devices[i], EGL_EXTENSIONS), "EGL_MESA_device_software"))
+            if (hasExtension(queryString(devices[i], EGL_EXTENSIONS), "EGL_MESA_device_software") !=
+                software)
                 continue;
             const EGLDisplay display =
                 initialised(platformDisplay(EGL_PLATFORM_DEVICE_EXT, devices[i], nullptr));

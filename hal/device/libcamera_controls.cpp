@@ -114,7 +114,8 @@ NamedValues withManualModes(const ControlInfoMap& camera, NamedValues wanted) {
         std::string_view value, mode, manual;
     };
     // Since libcamera 0.5, exposure and gain have a mode each. Before, AeEnable was the mode of
-    // both; a fixed exposure or gain alone was possible while it was on.
+    // both. On a Raspberry Pi, a fixed exposure or gain alone is possible while it is on. Other
+    // boards ignore both values while it is on, so it is turned off if both are wanted.
     static constexpr std::array<Mode, 3> kModes{{{"ExposureTime", "ExposureTimeMode", "1"},
                                                  {"AnalogueGain", "AnalogueGainMode", "1"},
                                                  {"LensPosition", "AfMode", "0"}}};
@@ -125,6 +126,9 @@ NamedValues withManualModes(const ControlInfoMap& camera, NamedValues wanted) {
     for (const Mode& one : kModes)
         if (isWanted(one.value) && !isWanted(one.mode) && hasControl(camera, std::string(one.mode)))
             modes.emplace_back(one.mode, one.manual);
+    if (isWanted("ExposureTime") && isWanted("AnalogueGain") && !isWanted("AeEnable") &&
+        !hasControl(camera, "ExposureTimeMode") && hasControl(camera, "AeEnable"))
+        modes.emplace_back("AeEnable", "false");
     wanted.insert(wanted.begin(), modes.begin(), modes.end());
     return wanted;
 }

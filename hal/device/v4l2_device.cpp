@@ -26,7 +26,9 @@ public:
         std::vector<std::string> out;
         std::error_code error;
         for (const auto& entry : std::filesystem::directory_iterator("/dev", error))
-            if (entry.path().filename().string().starts_with("video"))
+            // A link is a further name of a device, not a further device.
+            if (std::error_code ignored;
+                !entry.is_symlink(ignored) && entry.path().filename().string().starts_with("video"))
                 out.push_back(entry.path().string());
         std::sort(out.begin(), out.end());
         return out;

@@ -72,6 +72,9 @@ struct V4l2Layout {
 /// report it.
 [[nodiscard]] double setRate(const V4l2Device& device, double rateHz);
 
+/// True if the device offers a format that CameraV4l2 can use.
+[[nodiscard]] bool hasUsableFormat(const V4l2Device& device);
+
 /// Returns the number of pixels of the largest picture in a supported format, or 0 if the driver
 /// lists no sizes.
 [[nodiscard]] std::int64_t largestPicture(const V4l2Device& device);

@@ -156,6 +156,19 @@ V4l2PixelFormat chooseFormat(const V4l2Device& device, const V4l2Wish& wish) {
     refuse(device, wish, offers);
 }
 
+bool hasUsableFormat(const V4l2Device& device) {
+    for (int i = 0; i < kMostOffers; ++i) {
+        v4l2_fmtdesc format{};
+        format.index = static_cast<std::uint32_t>(i);
+        format.type = bufferType(device);
+        if (device.tryCall(VIDIOC_ENUM_FMT, &format) != 0) break;
+        if (std::ranges::find(kUsable, format.pixelformat, &V4l2PixelFormat::fourcc) !=
+            std::end(kUsable))
+            return true;
+    }
+    return false;
+}
+
 std::int64_t largestPicture(const V4l2Device& device) {
     std::int64_t most = 0;
     for (const V4l2PixelFormat& format : kUsable)

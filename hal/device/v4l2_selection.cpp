@@ -49,11 +49,20 @@ bool isNamed(const V4l2Device& device, const std::string& name) {
            (name.starts_with("/") && std::filesystem::canonical(name, error) == device.path());
 }
 
+// False for a capture device that cannot be used, such as a sensor that gives only raw Bayer data,
+// and for the output of a chip that converts pictures, which has no input to capture from.
+bool looksLikeCamera(const V4l2Device& device) {
+    v4l2_input input{};
+    return device.tryCall(VIDIOC_ENUMINPUT, &input) != ENOTTY && hasUsableFormat(device);
+}
+
 V4l2Device anyOf(Captures captures, const CameraWish& wish) {
     std::vector<V4l2Device>& devices = captures.devices;
+    std::erase_if(devices, [](const V4l2Device& one) { return !looksLikeCamera(one); });
     if (devices.empty())
         throw std::runtime_error("no camera was found; available:" + captures.listed);
-    if (wish.except.empty() && wish.largest && devices.size() == 1) devices.clear();
+    if (wish.except.empty() && wish.largest && wish.sharesDriver && devices.size() == 1)
+        devices.clear();
     if (!wish.except.empty())
         std::erase_if(devices, [&](const V4l2Device& one) { return isNamed(one, wish.except); });
     if (devices.empty())

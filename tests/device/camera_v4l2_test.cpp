@@ -238,6 +238,34 @@ TEST(CameraV4l2, TheTimeOfAPictureIsTheMiddleOfItsManualExposure) {
     EXPECT_TRUE(isShifted(V4L2_BUF_FLAG_TSTAMP_SRC_SOE, V4L2_EXPOSURE_AUTO, 0ms));
 }
 
+TEST(CameraV4l2, AnExposureThatCannotBeReadCountsAsUnknown) {
+    FakeV4l2 fake;
+    fake.controls = {
+        {0x9a0902, "Exposure Time, Absolute", V4L2_CTRL_TYPE_INTEGER, 1, 5000, 1, 2000}};
+    fake.controls[0].isUnreadable = true;
+    CameraV4l2 camera(wanted(), fake);
+    camera.start();
+    fake.deliver({});
+    const auto frame = camera.next(1s);
+    ASSERT_TRUE(frame.has_value());
+    EXPECT_EQ(frame->exposure, 0ms);
+}
+
+TEST(CameraV4l2, WithoutANameOnlyDevicesThatCanBeCamerasAreChosen) {
+    FakeV4l2 fake;
+    CameraV4l2Options any = wanted();
+    any.device.name.clear();
+    EXPECT_NO_THROW(CameraV4l2(any, fake));
+    fake.hasInput = false;
+    EXPECT_NE(errorOf([&] { CameraV4l2(any, fake); }).find("no camera was found"),
+              std::string::npos);
+    EXPECT_NO_THROW(CameraV4l2(wanted(), fake)) << "a device with a name is used";
+    fake.hasInput = true;
+    fake.formats = {{V4L2_PIX_FMT_SBGGR8, {kSize}}};
+    EXPECT_NE(errorOf([&] { CameraV4l2(any, fake); }).find("no camera was found"),
+              std::string::npos);
+}
+
 TEST(CameraV4l2, StopWakesAThreadThatWaitsForAPicture) {
     FakeV4l2 fake;
     CameraV4l2 camera(wanted(), fake);

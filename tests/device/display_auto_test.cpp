@@ -111,7 +111,7 @@ TEST_F(AutoDisplay, ShowsWithinASecondAfterADeviceAppears) {
     run(kSecond * 2);
     fbdev_.presence = Presence::Ready;
     EXPECT_GE(run(kSecond), 10);
-    EXPECT_EQ(display_->name(), "fbdev held");
+    EXPECT_EQ(display_->name(), "fbdev held (kms missing)");
     EXPECT_EQ(display_->fault(), std::nullopt);
     EXPECT_TRUE(display_->lastShown());
 }
@@ -134,12 +134,24 @@ TEST_F(AutoDisplay, PrefersTheFirstDeviceAndReleasesTheSecond) {
 }
 
 TEST_F(AutoDisplay, OpensNoOtherDeviceWhileAScreenShowsPictures) {
+    kms_.presence = Presence::Ready;
+    run(kSecond);
+    const int looks = fbdev_.looks;
+    EXPECT_EQ(run(kSecond * 15), 300);
+    EXPECT_EQ(fbdev_.looks, looks);
+    EXPECT_EQ(kms_.thoroughLooks, 1);
+}
+
+TEST_F(AutoDisplay, ChecksAPreferredDeviceEveryFiveSecondsWithoutAnEvent) {
     fbdev_.presence = Presence::Ready;
     run(kSecond);
     const int looks = kms_.looks;
-    EXPECT_EQ(run(kSecond * 5), 100);
-    EXPECT_EQ(kms_.looks, looks);
-    EXPECT_EQ(fbdev_.thoroughLooks, 1);
+    EXPECT_EQ(run(kSecond * 15), 300);
+    EXPECT_NEAR(kms_.looks - looks, 3, 1);
+    kms_.presence = Presence::Ready;
+    EXPECT_GE(run(kSecond * 6), 110);
+    EXPECT_EQ(display_->name(), "kms held");
+    EXPECT_FALSE(fbdev_.held);
 }
 
 TEST_F(AutoDisplay, WaitsForTheMonitorOfAnOpenDevice) {
@@ -199,7 +211,7 @@ TEST_F(AutoDisplay, TriesTheNextDeviceWhenTheFirstPictureIsRefused) {
     kms_.presence = fbdev_.presence = Presence::Ready;
     kms_.refuses = true;
     EXPECT_GE(run(kSecond), 8);
-    EXPECT_EQ(display_->name(), "fbdev held");
+    EXPECT_EQ(display_->name(), "fbdev held (kms missing)");
     EXPECT_FALSE(kms_.held);
 }
 
@@ -207,7 +219,7 @@ TEST_F(AutoDisplay, TriesTheNextDeviceWhenTheSecondFlipNeverCompletes) {
     kms_.presence = fbdev_.presence = Presence::Ready;
     kms_.refusesAfter = 2;
     EXPECT_GE(run(kSecond), 8);
-    EXPECT_EQ(display_->name(), "fbdev held");
+    EXPECT_EQ(display_->name(), "fbdev held (kms missing)");
     EXPECT_EQ(kms_.shown, 2);
 }
 

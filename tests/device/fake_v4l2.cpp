@@ -106,6 +106,7 @@ int FakeV4l2::answer(unsigned long request, void* argument) {
     case VIDIOC_QUERYMENU:
     case VIDIOC_G_EXT_CTRLS:
     case VIDIOC_S_EXT_CTRLS: return knobs(request, argument);
+    case VIDIOC_ENUMINPUT: return hasInput ? 0 : ENOTTY;
     case VIDIOC_S_FMT: return setFormat(*static_cast<v4l2_format*>(argument));
     case VIDIOC_G_PARM:
     case VIDIOC_S_PARM: {

@@ -33,6 +33,7 @@ struct FakeControl {
     std::uint32_t flags = 0;
     int refusals = 0;  ///< number of attempts to set the control that fail at first
     int error = EBUSY;
+    bool isUnreadable = false;
 };
 
 struct FakePicture {
@@ -78,7 +79,8 @@ public:
     std::string card = "Fake Camera", secondPath;  ///< secondPath: another capture node
     bool multiPlanar = false;
     bool busy = false;
-    bool rounds = false;  ///< S_FMT answers with another size than requested
+    bool hasInput = true;  ///< false: the node gives converted pictures instead of captured ones
+    bool rounds = false;   ///< S_FMT answers with another size than requested
     std::uint32_t clock = V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC;
     std::size_t padding = 0;  ///< padding of rows [bytes]
     /// Each plane begins this number of bytes after the start of its memory. Needs multiPlanar.

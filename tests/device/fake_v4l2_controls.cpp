@@ -41,6 +41,7 @@ int FakeV4l2::value(unsigned long request, v4l2_ext_control& one) {
     for (FakeControl& c : controls) {
         if (c.id != one.id) continue;
         const bool wide = c.type == V4L2_CTRL_TYPE_INTEGER64;
+        if (c.isUnreadable && request != VIDIOC_S_EXT_CTRLS) return EIO;
         if (request == VIDIOC_S_EXT_CTRLS) {
             if ((c.flags & V4L2_CTRL_FLAG_READ_ONLY) != 0) return EACCES;
             if (c.refusals > 0) {

@@ -72,6 +72,17 @@ TEST_F(LibcameraControls, AFixedValueEndsItsAutomaticMode) {
     EXPECT_EQ(withManualModes(camera_, focus), focus) << "this camera has no AfMode";
 }
 
+// camera_ has the control AeEnable, which is the mode of both values in older versions.
+TEST_F(LibcameraControls, AFixedExposureAndGainEndTheAutomaticModeOfBoth) {
+    const NamedValues both{{"ExposureTime", "8000"}, {"AnalogueGain", "2"}};
+    NamedValues manual = both;
+    manual.insert(manual.begin(), {"AeEnable", "false"});
+    EXPECT_EQ(withManualModes(camera_, both), manual);
+    NamedValues automatic = both;
+    automatic.emplace_back("AeEnable", "true");
+    EXPECT_EQ(withManualModes(camera_, automatic), automatic);
+}
+
 TEST_F(LibcameraControls, AnUnknownNameIsReportedWithTheExistingControls) {
     EXPECT_THAT([&] { (void)one("LensPosition", "1"); },
                 ThrowsMessage<std::runtime_error>(

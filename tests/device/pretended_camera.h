@@ -72,6 +72,7 @@ public:
         if (isLost_ && request != VIDIOC_STREAMOFF) return lostError_;
         switch (request) {
         case VIDIOC_QUERYCAP: return describe(*static_cast<v4l2_capability*>(argument));
+        case VIDIOC_ENUMINPUT: return 0;
         case VIDIOC_ENUM_FMT: {
             auto& query = *static_cast<v4l2_fmtdesc*>(argument);
             query.pixelformat = V4L2_PIX_FMT_YUYV;

@@ -33,8 +33,9 @@ set(CPACK_INSTALL_PREFIX /usr)
 # depends.cmake adds the packages of the shared libraries. procps contains the kill command that
 # reloads the service.
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "init-system-helpers, procps, systemd, udev")
-# Programs load OpenGL ES at run time and also start without it.
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "libegl1, libgl1-mesa-dri, libgles2")
+# Programs load OpenGL ES at run time and also start without it. Without libcamera-ipa, libcamera
+# finds no camera on a board's CSI connector.
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "libcamera-ipa, libegl1, libgl1-mesa-dri, libgles2")
 set(CPACK_MFAR_SYSROOT ${CMAKE_SYSROOT})
 set(CPACK_PRE_BUILD_SCRIPTS ${CMAKE_CURRENT_LIST_DIR}/depends.cmake)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA
