@@ -157,6 +157,8 @@ void App::onReady() {
         if (!ready_) return;
         running_ = std::exchange(ready_, std::nullopt);
     }
+    // A reload during the start has changed the mode already.
+    running_->description.mode = name(config_.superres.mode);
     log_.notice(running_->startLine, {message::kStarted});
     service_.ready(running_->startLine);
     service_.watchdogPatience(kFirstPatience);
@@ -254,6 +256,7 @@ void App::onTick() {
     logWarnings();
     log_.sayKept();
     leaveIfHanging();
+    logChanges(counted);
     const Timestamp time = Timestamp::now();
     if (time.seconds() - statusShown_.seconds() < 0.9 * config_.status.intervalS) return;
     statusShown_ = time;
@@ -307,6 +310,13 @@ void App::logHealth(const Health& health) {
     told_ = health;
 }
 
+void App::logChanges(const Counted& counted) {
+    if (!running_) return;
+    takeChanges(counted);
+    if (counted.atFirstPicture && !std::exchange(firstPictureShown_, true))
+        log_.notice(firstPictureLine(*counted.atFirstPicture));
+}
+
 void App::takeChanges(const Counted& counted) {
     RunDescription& run = running_->description;
     if (counted.rendering) {
@@ -329,9 +339,7 @@ void App::logWarnings() {
 void App::showStatus(const Counted& counted, const Health& health) {
     if (!running_) return;
     const double elapsed = Timestamp::now().seconds() - running_->time.seconds();
-    takeChanges(counted);
-    if (counted.atFirstPicture && !std::exchange(firstPictureShown_, true))
-        log_.notice(firstPictureLine(*counted.atFirstPicture));
+    logChanges(counted);
     logWarnings();
     const std::string line = statusLine(counted, running_->description, elapsed, health);
     log_.status(line);

@@ -110,9 +110,12 @@ private:
     void feedWatchdog(const Health& health);
     void logHealth(const Health& health);
     void takeChanges(const Counted& counted);
+    void logChanges(const Counted& counted);
     void logWarnings();
     void showStatus(const Counted& counted, const Health& health);
     [[nodiscard]] ExitCode finish(std::future<std::string>& end);
+    void refuseCalls();
+    void endControl();
     [[nodiscard]] bool writeResults(const std::string& reason, ExitCode code);
     [[nodiscard]] nlohmann::ordered_json results(const std::string& reason, int code);
     void writeReport(const nlohmann::ordered_json& results);

@@ -17,6 +17,7 @@
 #include <cstdlib>
 #include <ctime>
 #include <iostream>
+#include <memory>
 #include <stdexcept>
 #include <utility>
 
@@ -89,7 +90,7 @@ bool App::writes() {
 void App::leave(const std::string& why) {
     log_.endStatus();
     log_.warning(why, {}, {message::kEnded});
-    if (ended_ && ended_->error && !stopSignal_) leaveFailed(ended_->error);
+    if (ended_ && ended_->error) leaveFailed(ended_->error);
     const std::string reason = stopReason_.value_or(ended_ ? ended_->reason : "");
     const bool written = writeResults(reason, ExitCode::Ok);
     removeControl();
@@ -113,7 +114,7 @@ void App::leaveFailed(const std::exception_ptr& error) {
         (void)writeResults(fmt::format("error: {}", failure.what()), code);
         log_.error(failure.what(), {message::kFailed});
         removeControl();
-        pauseBeforeRestart(code, failure.what(), started_, log_);
+        if (!stopSignal_) pauseBeforeRestart(code, failure.what(), started_, log_);
         std::_Exit(static_cast<int>(code));
     }
 }
@@ -124,14 +125,20 @@ void App::stop(const std::string& reason) {
     if (!stopper_.joinable()) stopper_ = std::jthread([this] { input_.request_stop(); });
 }
 
-ExitCode App::finish(std::future<std::string>& end) {
+// Ends all calls of the control socket but those that wait for a disk.
+void App::refuseCalls() {
     calls_.close();
     sessionCalls_.close();
     for (std::optional<Reload>* one : {&reload_, &nextReload_})
         if (*one)
             (*one)->said.set_exception(
                 std::make_exception_ptr(std::runtime_error("mfard is ending")));
-    control_.reset();  // waits for pending answers, which the lines above have ended
+}
+
+ExitCode App::finish(std::future<std::string>& end) {
+    refuseCalls();
+    // The results are written first, because the end of the control socket may wait for a disk.
+    const std::shared_ptr<void> atEnd(nullptr, [this](void*) { endControl(); });
     onReady();
     const Counted counted = stats_.count();
     const Health last = health(counted);
@@ -145,7 +152,10 @@ ExitCode App::finish(std::future<std::string>& end) {
                                   : ExitCode::OutputFailed;
         // A thread that reads a configuration cannot be interrupted. So the process ends without
         // waiting for that thread.
-        if (isReading()) std::_Exit(static_cast<int>(code));
+        if (isReading()) {
+            endControl();
+            std::_Exit(static_cast<int>(code));
+        }
         return code;
     } catch (const std::exception& error) {
         // After a signal, missing output is not a failure of mfard if the reader of the display's
@@ -164,6 +174,12 @@ ExitCode App::finish(std::future<std::string>& end) {
         log_.error(error.what());
         return exitCode(error);
     }
+}
+
+// Waits for answers that wait for a disk. If the disk hangs, a signal must end the process.
+void App::endControl() {
+    const SignalsEndProcess untilAnswered;
+    control_.reset();
 }
 
 bool App::writeResults(const std::string& reason, ExitCode code) {

@@ -97,8 +97,11 @@ bool CaptureThread::captureOne(FramePairer& pairer, Heartbeat& heart) {
     if (stills_) stills_->check();
     if (!video) return !stopped_ && !video_.ended();
     const Timestamp arrived = Timestamp::now();
+    // With a lossless source, the recorder may wait for a slow disk.
+    if (rig_.handOver() == HandOver::Lossless) heart.restFor("the disk");
     rig_.recordVideo(*video);
     CapturedFrame captured = pairer.pair(std::move(*video), arrived);
+    heart.beat();
     captured.pose = poses_.ofVideo(captured.video);
     if (captured.still) {
         CapturedStill& still = *captured.still;

@@ -77,6 +77,28 @@ Event Events::wait() {
     }
 }
 
+namespace {
+
+sigset_t endingSignals() {
+    sigset_t set;
+    sigemptyset(&set);
+    for (const int signal : {SIGINT, SIGTERM})
+        sigaddset(&set, signal);
+    return set;
+}
+
+}  // namespace
+
+SignalsEndProcess::SignalsEndProcess() {
+    const sigset_t set = endingSignals();
+    pthread_sigmask(SIG_UNBLOCK, &set, nullptr);
+}
+
+SignalsEndProcess::~SignalsEndProcess() {
+    const sigset_t set = endingSignals();
+    pthread_sigmask(SIG_BLOCK, &set, nullptr);
+}
+
 void Events::tickEvery(std::chrono::duration<double> period) {
     arm(tick_, period, true);
 }

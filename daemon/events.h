@@ -41,4 +41,14 @@ private:
     OwnedFd wake_;
 };
 
+/// While an object of this class exists, SIGINT and SIGTERM end the process at once. Only the
+/// thread that owns the Events object may create it.
+class SignalsEndProcess {
+public:
+    SignalsEndProcess();
+    SignalsEndProcess(const SignalsEndProcess&) = delete;
+    SignalsEndProcess& operator=(const SignalsEndProcess&) = delete;
+    ~SignalsEndProcess();
+};
+
 }  // namespace mfar

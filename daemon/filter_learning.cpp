@@ -68,7 +68,7 @@ void FilterLearning::stop() {
     thread_.request_stop();
     thread_.join();
     if (resets_) forget();
-    if (!isStored_) store(learner_.stored(options_.sensors));
+    if (!isStored_) isStored_ = store(learner_.stored(options_.sensors));
 }
 
 void FilterLearning::restore() {
@@ -192,9 +192,8 @@ void FilterLearning::learn(const std::stop_token& stop) {
     isStored_ = isStored_ && !hasLearned && !hasGuidance;
     const Clock::time_point now = Clock::now();
     if (!isStored_ && now - stored_ >= kStoreEvery && !stop.stop_requested()) {
-        store(learner_.stored(options_.sensors));
+        isStored_ = store(learner_.stored(options_.sensors));
         stored_ = now;
-        isStored_ = true;
     }
     const std::lock_guard lock(mutex_);
     mayLearn_ = now + std::chrono::duration_cast<Clock::duration>(
@@ -209,13 +208,15 @@ bool FilterLearning::learnGuidance(const std::stop_token& stop) {
            outcome == EnlargerLearner::Outcome::Kept;
 }
 
-void FilterLearning::store(const std::vector<std::uint8_t>& bytes) {
-    if (options_.file.empty()) return;
+bool FilterLearning::store(const std::vector<std::uint8_t>& bytes) {
+    if (options_.file.empty()) return true;
     try {
         writeWholeFile(options_.file, bytes);
+        return true;
     } catch (const std::runtime_error& fault) {
         const std::lock_guard lock(mutex_);
         warnings_.push_back(std::string(fault.what()) + "; learned filters cannot be written");
+        return false;
     }
 }
 

@@ -76,7 +76,8 @@ private:
     [[nodiscard]] bool mayTake() const;
     [[nodiscard]] bool learnGuidance(const std::stop_token& stop);
     void forget();
-    void store(const std::vector<std::uint8_t>& bytes);
+    /// Returns false if the file cannot be written.
+    [[nodiscard]] bool store(const std::vector<std::uint8_t>& bytes);
 
     const FilterLearningOptions options_;
     EnlargerLearner learner_;  // used by thread_, the constructor and stop() only

@@ -252,7 +252,7 @@ constexpr Option kLimits[] = {
 };
 
 constexpr Option kStatus[] = {
-    number("interval_s", {0.1, 3600, "s"}, "1.0", "Time between two status lines on a terminal."),
+    number("interval_s", {0.1, 3600, "s"}, "1.0", "Time between status lines, also in systemd."),
     argument("--measure", flag("measure", "false",
                                "Wait for the GPU after each stage, so that stage times are exact. "
                                "This costs some speed.")),

@@ -110,7 +110,7 @@ std::unique_ptr<RigSource> openSource(const Config& config, Heartbeats& hearts) 
 }  // namespace
 
 Rig::Rig(const Config& config, Heartbeats& hearts)
-    : source_(openSource(config, hearts)), mustRecord_(!config.recordTo.empty()) {
+    : source_(openSource(config, hearts)), requiresNext_(!config.recordTo.empty()) {
     const auto bytes = [](double mb) { return static_cast<std::uint64_t>(mb * (1 << 20)); };
     recording_.leastFreeBytes = bytes(config.record.leastFreeMb);
     recording_.mostBytes = bytes(config.record.mostMb);
@@ -208,6 +208,7 @@ void Rig::startRecording(std::shared_ptr<Recorder> recorder) {
     const std::lock_guard lock(mutex_);
     requireNoRecorder();
     recorder_ = std::move(recorder);
+    isRequired_ = std::exchange(requiresNext_, false);
     broke_.reset();
 }
 
@@ -217,6 +218,7 @@ std::function<Recorded()> Rig::stopRecording() {
         throw Failure(ExitCode::OutputFailed,
                       broke_ ? "the recording has ended: " + *broke_ : "nothing is being recorded");
     lostBefore_ += lostBy(*recorder_);
+    isRequired_ = false;
     return [recorder = std::exchange(recorder_, nullptr)]() -> Recorded {
         finish(*recorder);
         return {recorder->folder(), recorder->videoCounts().written,
@@ -258,6 +260,7 @@ std::optional<std::string> Rig::endBrokenRecording() {
     if (!error) return std::nullopt;
     lostBefore_ += lostBy(*recorder_);
     broke_ = error;
+    if (std::exchange(isRequired_, false)) requiredBroke_ = error;
     // Destroying the recorder may wait for a disk that hangs. So another thread destroys it, after
     // all threads that copy a frame into it have released it.
     ending_.emplace_back([recorder = std::exchange(recorder_, nullptr)]() mutable {
@@ -271,14 +274,15 @@ std::optional<std::string> Rig::endBrokenRecording() {
 void Rig::finishRecording() {
     if (const auto to = recorder()) {
         try {
-            return finish(*to);
+            finish(*to);
         } catch (const Failure&) {
-            if (mustRecord_) throw;
-            return;  // endBrokenRecording() reports the error
+            const std::lock_guard lock(mutex_);
+            if (isRequired_ && recorder_ == to) throw;
+            // endBrokenRecording() reports the error of any other recording.
         }
     }
     const std::lock_guard lock(mutex_);
-    if (broke_ && mustRecord_) throw Failure(ExitCode::OutputFailed, *broke_);
+    if (requiredBroke_) throw Failure(ExitCode::OutputFailed, *requiredBroke_);
 }
 
 std::filesystem::path newRecordingIn(const std::filesystem::path& directory) {

@@ -66,8 +66,9 @@ public:
     [[nodiscard]] std::optional<std::string> fault() const;
     [[nodiscard]] ExitCode inputFailure() const;
 
-    /// Copies a frame into the recording, if one is running. Never waits. Only one thread may call
-    /// recordVideo(). Only one thread, which may be another one, may call recordStill().
+    /// Copies a frame into the recording, if one is running. Waits only if the source is lossless:
+    /// then up to budget::kWriter, if the disk is slow. Only one thread may call recordVideo().
+    /// Only one thread, which may be another one, may call recordStill().
     void recordVideo(const Frame& frame);
     void recordStill(const Frame& frame);
     void recordPose(const Pose& pose);
@@ -103,7 +104,9 @@ private:
 
     std::unique_ptr<RigSource> source_;
     RecorderOptions recording_;
-    bool mustRecord_ = false;
+    bool requiresNext_ = false;                 ///< true: the next recording is that of --record
+    bool isRequired_ = false;                   ///< true: recorder_ is the recording of --record
+    std::optional<std::string> requiredBroke_;  ///< why the recording of --record has ended
     mutable std::mutex mutex_;
     std::shared_ptr<Recorder> recorder_;
     std::uint64_t lostBefore_ = 0;

@@ -107,7 +107,8 @@ private:
 /// Returns which camera to open for a sensor. If none is configured, this is any camera except the
 /// one configured for the other sensor.
 CameraWish wishFor(const CameraConfig& config, const CameraConfig& other, bool largest) {
-    return {config.camera, config.driver == other.driver ? other.camera : "", largest};
+    const bool shares = config.driver == other.driver;
+    return {config.camera, shares ? other.camera : "", largest, shares};
 }
 
 std::unique_ptr<Camera> openCamera(const CameraConfig& config, const CameraWish& wish) {

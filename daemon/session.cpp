@@ -101,6 +101,7 @@ std::string Session::run(std::optional<std::uint64_t> maxFrames, const Over& ove
         return reason;
     } catch (...) {
         over("", std::current_exception());
+        endLearning();
         throw;
     }
 }
@@ -287,14 +288,18 @@ void Session::useStill() {
     if (!newestStill_ || config_.superres.mode == SuperResMode::Off) return;
     const CapturedStill still = *std::exchange(newestStill_, std::nullopt);
     if (learning_) {
+        // With a lossless source, this waits until all has been learned from the last still.
+        if (heart_ != nullptr) heart_->rest();
         learning_->finish();
+        if (heart_ != nullptr) heart_->beat();
         takeFilters();
     }
     keepUsedStill(still);
-    drawing_->pipeline.setStill(still.frame.view(), still.frame.time(), still.pose);
-    keepSecondStill();
+    // If the GPU is lost in setStill(), this still is set again later, from its copy.
     stillTime_ = still.frame.time();
     stats_.stillUsed();
+    drawing_->pipeline.setStill(still.frame.view(), still.frame.time(), still.pose);
+    keepSecondStill();
 }
 
 ScreenPicture Session::snapshot(bool ofScreen) const {
@@ -330,6 +335,7 @@ void Session::fireIfNeeded(Timestamp frame, const FrameStats& stats) {
             // and a banner shows that fault.
             if (!rig_.fault())
                 throw Failure(ExitCode::Unavailable, trigger->name() + ": " + error.what());
+            policy_.failed();
         }
     }
     const auto lost = static_cast<std::uint64_t>(policy_.lost());
@@ -346,12 +352,19 @@ void Session::showFault() {
     // The capture thread may be waiting for the faulty device, and then it cannot report the fault.
     stats_.fault(fault);
     if (!fault) return;
+    // Between two frames of a slow camera, the same picture is not shown once more.
+    const double rateHz = rig_.video().info().rateHz;
+    const double periods = rateHz > 0 ? 1.5 / rateHz : 0;
+    if (shownAt_ && bannerText() == drawing_->faultShown &&
+        Timestamp::now().seconds() - shownAt_->seconds() < periods)
+        return;
     show(Timestamp::now(), true);
     stats_.bannerShown(Timestamp::now());
 }
 
 void Session::show(Timestamp time, bool unchanged) {
     const std::string fault = bannerText();
+    shownAt_ = Timestamp::now();
     try {
         if (unchanged && drawing_->shown && fault == drawing_->faultShown) {
             drawing_->gpu.drawn();

@@ -181,6 +181,7 @@ private:
     /// Time of the frame to which the pipeline's statistics belong.
     std::optional<Timestamp> previous_;
     std::optional<Timestamp> stillTime_;
+    std::optional<Timestamp> shownAt_;  ///< time at which the display got its last picture
     TagMap tags_;
     std::string sensors_;
     std::uint64_t pictures_ = 0;

@@ -9,6 +9,7 @@ namespace mfar {
 
 void Session::setLearning(bool wanted) {
     if (wanted == (learning_ != nullptr)) return;
+    endLearning();
     drawing_->pipeline.setMatchListener(nullptr);
     drawing_->pipeline.setFilters(filters_ = nullptr);
     learning_.reset();

@@ -12,6 +12,9 @@ constexpr double kMovedShare = 0.05;
 /// Longest pause after two lost stills. The cause may be a camera that is plugged in again.
 constexpr double kLongestPauseS = 10;
 
+/// Pause after a trigger that could not fire.
+constexpr double kRetryS = 1;
+
 std::chrono::nanoseconds toNanoseconds(double s) {
     return std::chrono::nanoseconds{Timestamp::fromSeconds(s).ns};
 }
@@ -23,6 +26,7 @@ bool StillPolicy::decide(Timestamp now, Timestamp before, const FrameStats& stat
     const bool moves = stats.changed > kMovedShare;
     if (moves && !moved_ && firedAt_ && now > *firedAt_) moved_ = now;
     if (moves && usedSince_ && now > *usedSince_) movedInUse_ = true;
+    if (retryAt_ && now < *retryAt_) return false;
     const bool isDue = config_.mode == TriggerMode::Rate && (!due_ || now >= *due_);
     const bool wants = asked_ || isDue || (mayDemand && demanded(now, before, stats));
     const bool fires = pending() ? timedOut(now) : wants;
@@ -32,15 +36,23 @@ bool StillPolicy::decide(Timestamp now, Timestamp before, const FrameStats& stat
 
 void StillPolicy::configure(const TriggerConfig& config) {
     if (config.mode == TriggerMode::Off && config_.mode != TriggerMode::Off) arrived_ = true;
+    // With another rate, the next trigger does not wait for the end of the old period.
+    if (config.mode != config_.mode || config.rateHz != config_.rateHz) due_.reset();
     config_ = config;
     usedSince_.reset();
     notBefore_.reset();
+    retryAt_.reset();
 }
 
 void StillPolicy::busy() {
     --fired_;
     arrived_ = true;
     asked_ = true;
+}
+
+void StillPolicy::failed() {
+    busy();
+    retryAt_ = *firedAt_ + toNanoseconds(kRetryS);
 }
 
 void StillPolicy::stillArrived(Timestamp exposed) {
@@ -82,6 +94,7 @@ void StillPolicy::fire(Timestamp now) {
     const std::chrono::nanoseconds period = toNanoseconds(1 / config_.rateHz);
     due_ = due_ && now >= *due_ && now - *due_ < period ? *due_ + period : now + period;
     firedAt_ = now;
+    retryAt_.reset();
     arrived_ = false;
     asked_ = false;
     moved_.reset();

@@ -55,6 +55,10 @@ public:
     /// next call of decide() requests the trigger again.
     void busy();
 
+    /// Must be called if the trigger could not fire, e.g. because its line is missing. The trigger
+    /// is not counted, and is requested again after a second.
+    void failed();
+
     /// Reports that a still is the reference from the next frame on. If the still was exposed
     /// before the last trigger, it counts as a late still of an earlier trigger.
     void stillArrived(Timestamp exposed);
@@ -82,6 +86,7 @@ private:
     bool asked_ = false;
     std::optional<Timestamp> due_;
     std::optional<Timestamp> notBefore_;  ///< earliest time of a trigger after two lost stills
+    std::optional<Timestamp> retryAt_;    ///< time of the next trigger after failed()
     int fired_ = 0;
     int lost_ = 0;
     int repetitions_ = 0;

@@ -14,7 +14,8 @@ std::optional<std::string> TracingWatch::add(bool inView, const RenderCounters& 
         wait_.reset();
         return {};
     }
-    if (!wait_) {
+    // A new path tracer counts from 0 again.
+    if (!wait_ || counters.cpuMs < wait_->cpuMs) {
         wait_ = Wait{frame, counters.cpuMs};
         frames_ = 0;
     }

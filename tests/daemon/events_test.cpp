@@ -29,6 +29,21 @@ TEST(Events, SignalsHaveTheirNumberAndComeBeforeWakeEvents) {
     EXPECT_EQ(events.wait().kind, Event::Kind::Wake);
 }
 
+TEST(Events, SignalsEndTheProcessWhileThisIsWanted) {
+    Events events;
+    EXPECT_EXIT(
+        {
+            const SignalsEndProcess now;
+            kill(getpid(), SIGTERM);
+        },
+        testing::KilledBySignal(SIGTERM), "");
+    {
+        const SignalsEndProcess before;
+    }
+    kill(getpid(), SIGTERM);
+    EXPECT_EQ(events.wait().signal, SIGTERM);
+}
+
 TEST(Events, TicksRepeatAndADeadlineExpiresOnce) {
     Events events;
     events.deadlineIn(milliseconds(1));

@@ -83,6 +83,43 @@ TEST_F(RigOfCameras, ARecorderWhoseDiskHangsIsReportedAsLate) {
         << "a recorder that waits for work is not late";
 }
 
+// The first recording is that of --record. A file in place of a folder makes its pictures
+// unwritable.
+TEST_F(RigOfCameras, OnlyTheRecordingOfTheCommandLineMustBeComplete) {
+    says("video90", "");
+    config_.recordTo = folder_ / "required";
+    Heartbeats hearts;
+    const auto recordOne = [](Rig& rig) {
+        ASSERT_TRUE(becomesTrue([&] {
+            const std::optional<Frame> frame = rig.video().next(50ms);
+            if (frame) rig.recordVideo(*frame);
+            return frame.has_value();
+        }));
+    };
+    const auto record = [&](Rig& rig, const char* name, bool breaks) {
+        rig.startRecording(rig.makeRecording(folder_ / name)());
+        if (breaks) {
+            std::filesystem::remove_all(folder_ / name / "cam0/data");
+            std::ofstream(folder_ / name / "cam0/data") << "no folder";
+        }
+        recordOne(rig);
+    };
+    {
+        Rig rig(config_, hearts);
+        rig.video().start();
+        record(rig, "required", true);
+        ASSERT_TRUE(becomesTrue([&] { return rig.endBrokenRecording().has_value(); }));
+        record(rig, "later", false);
+        EXPECT_THROW(rig.finishRecording(), Failure);
+    }
+    Rig rig(config_, hearts);
+    rig.video().start();
+    record(rig, "complete", false);
+    (void)rig.stopRecording()();
+    record(rig, "broken", true);
+    EXPECT_NO_THROW(rig.finishRecording());
+}
+
 // The file gpiochip0 makes the simulated devices the only ones in /dev. Both cameras offer all
 // sizes; of two equal cameras, the one with the last path counts as the larger one.
 TEST_F(RigOfCameras, IfTheLargerOfTwoUnnamedCamerasIsConnectedFirstTheVideoGivesItUp) {

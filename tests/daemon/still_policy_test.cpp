@@ -20,6 +20,31 @@ TEST(StillPolicy, ABusyTriggerIsRetriedAtOnce) {
     EXPECT_EQ(policy.lost(), 0);
 }
 
+TEST(StillPolicy, ATriggerThatCannotFireIsNotCountedAndIsRetriedAfterASecond) {
+    StillPolicy policy({});
+    const auto at = [](double s) { return Timestamp::fromSeconds(s); };
+    for (int i = 0; i < 5; ++i) {
+        ASSERT_TRUE(policy.decide(at(100 + i), at(100 + i), {})) << i;
+        policy.failed();
+        EXPECT_FALSE(policy.decide(at(100.9 + i), at(100.8 + i), {})) << i;
+    }
+    EXPECT_EQ(policy.fired(), 0);
+    EXPECT_EQ(policy.lost(), 0);
+    EXPECT_TRUE(policy.decide(at(105), at(104.9), {}));
+    EXPECT_EQ(policy.fired(), 1);
+    EXPECT_TRUE(policy.pending());
+}
+
+TEST(StillPolicy, ANewRateDoesNotWaitForTheEndOfTheOldPeriod) {
+    StillPolicy policy({.mode = TriggerMode::Rate, .rateHz = 0.01});
+    const auto at = [](double s) { return Timestamp::fromSeconds(s); };
+    ASSERT_TRUE(policy.decide(at(100), at(100), {}));
+    policy.stillArrived(at(100.1));
+    EXPECT_FALSE(policy.decide(at(101), at(100.9), {}));
+    policy.configure({.mode = TriggerMode::Rate, .rateHz = 10});
+    EXPECT_TRUE(policy.decide(at(101.1), at(101), {}));
+}
+
 /// A still sensor that answers a trigger after a fixed time, or never.
 class Simulation {
 public:
