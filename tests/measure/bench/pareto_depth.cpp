@@ -90,7 +90,8 @@ private:
 
 void measurePeer(const DepthSample& sample, eval::DepthMethod& method, const ParetoRun& run,
                  bool scored, WayTimes& out) {
-    if (scored) method.setStill(sample.shots.still);
+    // As in DepthWay, each run is the first one after a still.
+    method.setStill(sample.shots.still);
     const auto result = timed(method, sample.shots.frame, run.clock);
     if (scored)
         out.error(scoreOf(sample, result.inverseDepth));

@@ -95,6 +95,11 @@ private:
     bool fromZero_ = true;
 };
 
+// A row with medians gets no dot and no bar. Some commands add such rows themselves.
+bool isMedian(const Report::Row& row) {
+    return row.frame == "median";
+}
+
 void addUnique(std::vector<std::string>& list, const std::string& value) {
     if (std::ranges::find(list, value) == list.end()) list.push_back(value);
 }
@@ -142,7 +147,7 @@ private:
         return isMean(row) && (!hasAll_ || row.recording == kAll);
     }
     [[nodiscard]] bool isDot(const Report::Row& row) const {
-        return hasAll_ ? isMean(row) : !row.ofFrames;
+        return hasAll_ ? isMean(row) : !row.ofFrames && !isMedian(row);
     }
     static double valueOf(const Report::Row& row, std::size_t column) {
         return row.values[column].value_or(std::nan(""));
@@ -190,8 +195,9 @@ std::vector<BarPanel> barsOf(const Report& report) {
     const ReportRows rows(report);
     std::vector<BarPanel> out;
     for (std::size_t c = 0; c < report.columns().size(); ++c) {
-        const bool isMeasured = std::ranges::any_of(
-            report.rows(), [&](const Report::Row& row) { return row.values[c].has_value(); });
+        const bool isMeasured = std::ranges::any_of(report.rows(), [&](const Report::Row& row) {
+            return row.values[c].has_value() && !isMedian(row);
+        });
         if (isMeasured)
             out.push_back({report.columns()[c].name, rows.bars(c), report.columns()[c].decimals});
     }

@@ -41,6 +41,14 @@ TEST(Bars, EachMeasuredColumnOfAReportGetsAPanel) {
     EXPECT_EQ(panels[1].bars[0].dots.size(), 2U) << "one dot for each frame";
 }
 
+TEST(Bars, RowsWithMediansOfACommandGetNoDotAndNoPanelOfTheirOwn) {
+    Report report = twoMethods({"office"});
+    report.add("office", "median", "ours", {10, 7, 30});
+    const auto panels = barsOf(report);
+    ASSERT_EQ(panels.size(), 2U);
+    EXPECT_EQ(panels[0].bars[0].dots.size(), 2U);
+}
+
 TEST(Bars, WithSeveralRecordingsEachDotIsTheMeanOfOneRecording) {
     const auto panels = barsOf(twoMethods({"office", "shelf", "outdoor"}));
     EXPECT_EQ(panels[0].bars[1].value, 2);

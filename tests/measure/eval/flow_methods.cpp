@@ -14,6 +14,7 @@
 
 #include <functional>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
@@ -120,7 +121,8 @@ public:
     }
 
     void setStill(const Shot& still) override {
-        PipelineShot(still, usePoses_).giveAsStill(pipeline_);
+        still_.emplace(still, usePoses_);
+        still_->giveAsStill(pipeline_);
     }
 
     Result run(const Shot& frame) override {
@@ -131,6 +133,8 @@ public:
         std::vector<float> confidence = pipeline_.readConfidence();
         out.confidence = cv::Mat(size_.height, size_.width, CV_32F, confidence.data()).clone();
         out.ms = medianOfThree([&] {
+            // Without it, the run would start from the flow that it found the last time.
+            if (still_) still_->giveAsStill(pipeline_);
             const double all = methodMs([&] { shot.run(pipeline_); });
             return all * shareOfStages(pipeline_, kFlowStages);
         });
@@ -141,6 +145,7 @@ private:
     Size size_;
     bool usePoses_;
     Pipeline pipeline_;
+    std::optional<PipelineShot> still_;
 };
 
 }  // namespace

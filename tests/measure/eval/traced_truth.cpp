@@ -1,6 +1,5 @@
 #include "tests/measure/eval/traced_truth.h"
 
-#include "pipeline/composite/shadow_catcher.h"
 #include "pipeline/scene/scene_parts.h"
 #include "tests/measure/eval/report.h"
 #include "tests/measure/eval/warp_scenes.h"
@@ -13,16 +12,6 @@
 
 namespace mfar::eval {
 namespace {
-
-constexpr std::uint32_t kTruthSeed = 7;  // not mfard's, so that its noise is independent
-
-PathTracerOptions truthOptions() {
-    PathTracerOptions out;
-    out.shadowReach = kShadowReach;
-    out.fireflyClamp = 1;  // mfard's limit, so that clamping does not count as an error
-    out.seed = kTruthSeed;
-    return out;
-}
 
 template <class T>
 void transfer(std::istream& in, std::vector<T>& values) {
@@ -45,8 +34,8 @@ void transferAll(Stream& stream, RenderedPicture& picture) {
 
 TracedTruth::TracedTruth(const std::shared_ptr<const Scene>& scene, int samples,
                          std::filesystem::path folder, const std::string& name)
-    : scene_(scene), tracer_(scene, truthOptions()), samples_(samples), folder_(std::move(folder)),
-      stem_(name) {
+    : scene_(scene), tracer_(scene, tracerOptions(true)), samples_(samples),
+      folder_(std::move(folder)), stem_(name) {
     if (!folder_.empty()) std::filesystem::create_directories(folder_);
 }
 

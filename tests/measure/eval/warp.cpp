@@ -1,6 +1,5 @@
 #include "tests/measure/eval/warp.h"
 
-#include "pipeline/composite/shadow_catcher.h"
 #include "pipeline/warp/warp.h"
 #include "tests/measure/eval/stopwatch.h"
 #include "tests/measure/eval/warp_scenes.h"
@@ -36,12 +35,6 @@ double areaOf(const PixelRect& r) {
     return static_cast<double>(r.x1 - r.x0) * (r.y1 - r.y0);
 }
 
-PathTracerOptions asInTheProduct() {
-    PathTracerOptions out;
-    out.shadowReach = kShadowReach;
-    return out;
-}
-
 using Rgba = std::vector<std::uint8_t>;
 
 /// PSNR over the three colour channels where the truth shows an object [dB].
@@ -75,14 +68,14 @@ struct Warped {
 class WarpRun {
 public:
     WarpRun(const WarpRequest& request, const std::string& scene)
-        : request_(request), scene_(warpScene(scene)), tracer_(scene_, asInTheProduct()),
-          view_(warpView(*scene_, request.size, 0)),
+        : request_(request), scene_(warpScene(scene)), tracer_(scene_, tracerOptions(false)),
+          truth_(scene_, tracerOptions(true)), view_(warpView(*scene_, request.size, 0)),
           picture_(tracePicture(tracer_, view_, request.referenceSamples)),
           reference_(tracedPicture(picture_)) {}
 
     [[nodiscard]] Shot shoot(double degrees) const {
         const RenderView view = warpView(*scene_, request_.size, degrees);
-        return {view, tracePicture(tracer_, view, request_.truthSamples)};
+        return {view, tracePicture(truth_, view, request_.truthSamples)};
     }
 
     [[nodiscard]] Warped run(const std::string& method, const Shot& shot) const {
@@ -176,7 +169,7 @@ private:
     const WarpRequest& request_;
     std::unique_ptr<Engine> engine_ = test::warpEngine();
     std::shared_ptr<const Scene> scene_;
-    PathTracer tracer_;
+    PathTracer tracer_, truth_;
     RenderView view_;
     RenderedPicture picture_;
     TracedPicture reference_;

@@ -1,5 +1,6 @@
 #include "tests/measure/eval/warp_scenes.h"
 
+#include "pipeline/composite/shadow_catcher.h"
 #include "pipeline/models/environment_map.h"
 #include "pipeline/models/gltf_model.h"
 #include "pipeline/models/showpiece.h"
@@ -43,6 +44,14 @@ std::vector<std::uint32_t> pixelsIn(const PixelRect& r, int width) {
 }
 
 }  // namespace
+
+PathTracerOptions tracerOptions(bool truth) {
+    PathTracerOptions out;
+    out.shadowReach = kShadowReach;
+    out.fireflyClamp = 1;  // also for the truth, so that clamping does not count as an error
+    if (truth) out.seed = 7;
+    return out;
+}
 
 std::vector<std::string> warpSceneNames() {
     return {"still-life", "showpiece"};
@@ -110,6 +119,7 @@ RenderedPicture tracePixels(const PathTracer& tracer, const RenderView& view,
     }
     RenderedPicture out;
     resolve(film, view, {}, out);
+    out.mirrors = tracer.mirrorLight();
     return out;
 }
 

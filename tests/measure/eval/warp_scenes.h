@@ -31,6 +31,9 @@ namespace mfar::eval {
     return picture.id[pixel] != 0 && picture.id[pixel] != kCatcherId;
 }
 
+/// mfard's options of the path tracer. With `truth`, another seed is used, so that the noise of the
+/// truth is independent of the noise of mfard's pictures.
+[[nodiscard]] PathTracerOptions tracerOptions(bool truth);
 /// Traces the listed pixels with `samples` samples each, on all processors. Other pixels stay
 /// empty.
 [[nodiscard]] RenderedPicture tracePixels(const PathTracer& tracer, const RenderView& view,
