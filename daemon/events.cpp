@@ -14,21 +14,23 @@
 #include <cerrno>
 #include <cmath>
 #include <cstdint>
+#include <initializer_list>
 
 namespace mfar {
 namespace {
 
-sigset_t watchedSignals() {
+/// Blocks or unblocks signals in this thread (`how`: SIG_BLOCK or SIG_UNBLOCK). Returns them.
+sigset_t mask(int how, std::initializer_list<int> signals) {
     sigset_t set;
     sigemptyset(&set);
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+    for (const int signal : signals)
         sigaddset(&set, signal);
+    pthread_sigmask(how, &set, nullptr);
     return set;
 }
 
 int openSignals() {
-    const sigset_t set = watchedSignals();
-    pthread_sigmask(SIG_BLOCK, &set, nullptr);
+    const sigset_t set = mask(SIG_BLOCK, {SIGINT, SIGTERM, SIGHUP});
     return signalfd(-1, &set, SFD_CLOEXEC | SFD_NONBLOCK);
 }
 
@@ -77,26 +79,12 @@ Event Events::wait() {
     }
 }
 
-namespace {
-
-sigset_t endingSignals() {
-    sigset_t set;
-    sigemptyset(&set);
-    for (const int signal : {SIGINT, SIGTERM})
-        sigaddset(&set, signal);
-    return set;
-}
-
-}  // namespace
-
 SignalsEndProcess::SignalsEndProcess() {
-    const sigset_t set = endingSignals();
-    pthread_sigmask(SIG_UNBLOCK, &set, nullptr);
+    mask(SIG_UNBLOCK, {SIGINT, SIGTERM});
 }
 
 SignalsEndProcess::~SignalsEndProcess() {
-    const sigset_t set = endingSignals();
-    pthread_sigmask(SIG_BLOCK, &set, nullptr);
+    mask(SIG_BLOCK, {SIGINT, SIGTERM});
 }
 
 void Events::tickEvery(std::chrono::duration<double> period) {

@@ -164,9 +164,13 @@ double timeOffset(const YamlReader& in, const YAML::Node& node, const char* what
 
 void requireTimeOffset(const YamlReader& in, const YAML::Node& node, double offset,
                        const char* what) {
-    if (!kTimeOffset.holds(offset))
-        in.fail(node, fmt::format("{} of {} s is not plausible; expected {}", what, offset,
-                                  text(kTimeOffset)));
+    if (const std::optional<std::string> fault = timeOffsetFault(offset, what))
+        in.fail(node, *fault);
+}
+
+std::optional<std::string> timeOffsetFault(double offset, const char* what) {
+    if (kTimeOffset.holds(offset)) return std::nullopt;
+    return fmt::format("{} of {} s is not plausible; expected {}", what, offset, text(kTimeOffset));
 }
 
 double rate(const YamlReader& in, const YAML::Node& node, const char* what) {

@@ -38,7 +38,9 @@ void checkBaseline(const YamlReader& in, const YAML::Node& node, const RigidTran
 /// Reads a frame rate [Hz]. Rate 0 means that the sensor takes pictures on trigger only.
 [[nodiscard]] double rate(const YamlReader& in, const YAML::Node& node, const char* what);
 [[nodiscard]] double timeOffset(const YamlReader& in, const YAML::Node& node, const char* what);
-/// Refuses an implausible time offset [s].
+/// Returns a message if the time offset [s] is implausible. `what` names the offset.
+[[nodiscard]] std::optional<std::string> timeOffsetFault(double offset, const char* what);
+/// Refuses the document if timeOffsetFault() has a message.
 void requireTimeOffset(const YamlReader& in, const YAML::Node& node, double offset,
                        const char* what);
 

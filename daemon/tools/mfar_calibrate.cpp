@@ -1,4 +1,4 @@
-#include "base/calibration/plausible_ranges.h"
+#include "base/calibration/plausible.h"
 #include "daemon/tools/calibrate/arguments.h"
 #include "daemon/tools/calibrate/collect.h"
 #include "daemon/tools/calibrate/output_folder.h"
@@ -45,11 +45,8 @@ SensorViews look(const std::vector<RecordedImage>& pictures, Size size, const Ta
 }
 
 void requirePlausibleOffset(double seconds) {
-    if (!plausible::kTimeOffset.holds(seconds))
-        throw std::runtime_error(fmt::format(
-            "the time offset of {} s is not plausible; expected {} to {} s. It includes "
-            "the time_offset of the recording",
-            seconds, plausible::kTimeOffset.least, plausible::kTimeOffset.most));
+    if (const auto fault = plausible::timeOffsetFault(seconds, "the time offset"))
+        throw std::runtime_error(*fault + ". It includes the time_offset of the recording");
 }
 
 void run(const CalibrateArguments& a) {

@@ -95,17 +95,31 @@ void askSizes(const V4l2Device& device, Size wanted, Offer& offer) {
     }
 }
 
-std::vector<Offer> offersOf(const V4l2Device& device, Size wanted) {
-    std::vector<Offer> out;
+struct ListedFormats {
+    std::vector<std::uint32_t> fourccs;
+    int error = 0;  ///< error number that ended the list; 0: the list was too long
+};
+
+ListedFormats formatsOf(const V4l2Device& device) {
+    ListedFormats out;
     for (int i = 0; i < kMostOffers; ++i) {
         v4l2_fmtdesc query{};
         query.index = static_cast<std::uint32_t>(i);
         query.type = bufferType(device);
-        const int error = device.tryCall(VIDIOC_ENUM_FMT, &query);
-        if (error == ENODEV) device.fail("listing the formats", error);
-        if (error != 0) break;
+        out.error = device.tryCall(VIDIOC_ENUM_FMT, &query);
+        if (out.error != 0) break;
+        out.fourccs.push_back(query.pixelformat);
+    }
+    return out;
+}
+
+std::vector<Offer> offersOf(const V4l2Device& device, Size wanted) {
+    const ListedFormats formats = formatsOf(device);
+    if (formats.error == ENODEV) device.fail("listing the formats", formats.error);
+    std::vector<Offer> out;
+    for (const std::uint32_t fourcc : formats.fourccs) {
         Offer offer;
-        offer.fourcc = query.pixelformat;
+        offer.fourcc = fourcc;
         askSizes(device, wanted, offer);
         if (offer.hasSize) offer.fastest = fastestRate(device, offer.fourcc, wanted);
         out.push_back(std::move(offer));
@@ -157,16 +171,9 @@ V4l2PixelFormat chooseFormat(const V4l2Device& device, const V4l2Wish& wish) {
 }
 
 bool hasUsableFormat(const V4l2Device& device) {
-    for (int i = 0; i < kMostOffers; ++i) {
-        v4l2_fmtdesc format{};
-        format.index = static_cast<std::uint32_t>(i);
-        format.type = bufferType(device);
-        if (device.tryCall(VIDIOC_ENUM_FMT, &format) != 0) break;
-        if (std::ranges::find(kUsable, format.pixelformat, &V4l2PixelFormat::fourcc) !=
-            std::end(kUsable))
-            return true;
-    }
-    return false;
+    return std::ranges::any_of(formatsOf(device).fourccs, [](std::uint32_t fourcc) {
+        return std::ranges::find(kUsable, fourcc, &V4l2PixelFormat::fourcc) != std::end(kUsable);
+    });
 }
 
 std::int64_t largestPicture(const V4l2Device& device) {

@@ -209,7 +209,7 @@ void TracedScene::setLook(const TracedMesh& mesh, const RayHit& hit, SurfacePoin
     const Eigen::Vector2f uv = textureAt(mesh, hit);
     point.look = {m.baseColour.head<3>(), m.metallic, m.roughness};
     point.emission = emissionAt(mesh, hit);
-    point.emits = m.emission.maxCoeff() > 0;
+    point.emits = m.emits();
     if (const SurfaceTexture* t = mesh.texture(m.baseColourTexture))
         point.look.baseColour = point.look.baseColour.cwiseProduct(lookUp(*t, uv).head<3>());
     if (const SurfaceTexture* t = mesh.texture(m.metallicRoughnessTexture)) {

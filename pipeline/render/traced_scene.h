@@ -57,9 +57,7 @@ public:
     [[nodiscard]] std::array<Eigen::Vector3f, 3> corners(std::uint32_t mesh,
                                                          std::uint32_t triangle) const;
     /// False if no point of the mesh emits light.
-    [[nodiscard]] bool emits(std::uint32_t mesh) const {
-        return meshes_[mesh]->material().emission.maxCoeff() > 0;
-    }
+    [[nodiscard]] bool emits(std::uint32_t mesh) const { return meshes_[mesh]->material().emits(); }
     /// True if only the fronts of the mesh's triangles emit light.
     [[nodiscard]] bool isSingleSided(std::uint32_t mesh) const {
         return !meshes_[mesh]->material().doubleSided;

@@ -37,6 +37,8 @@ struct Material {
     /// metallicRoughnessTexture has roughness in G and metallic in B.
     int baseColourTexture = -1, metallicRoughnessTexture = -1;
     int normalTexture = -1, emissionTexture = -1;
+
+    [[nodiscard]] bool emits() const { return emission.maxCoeff() > 0; }
 };
 
 /// Triangles with the same material. All vertex arrays have the same length, or are empty if the

@@ -136,8 +136,8 @@ public:
                          bool usePrior) override {
         flow_.run(lumaOf(luma), work, usePrior);
         if (work.matched > 0) {
-            copy(flow_.backward());
-            takeForward();
+            copy(flow_.backward(), row_[0] + cells_.count());
+            copy(flow_.forward(), row_[0]);
             correct(pictures, work, nullptr);
         }
         return written();
@@ -146,8 +146,8 @@ public:
                             const AlongLines& along) override {
         flow_.refine(lumaOf(luma), work, along.vectors, along.errors);
         if (work.matched > 0) {
-            copy(flow_.errors());
-            takeForward();
+            copy(flow_.errors(), errors());
+            copy(flow_.forward(), row_[0]);
             matchDirectly(pictures, work, along.vectors);
             correct(pictures, work, errors());
         }
@@ -180,23 +180,12 @@ private:
     void correct(const Pictures& pictures, const TileWork& work, const ErrorCell* errors) {
         subpixel_.run(pictures.video.planes, stills_->of(pictures.still), work, row_[0], errors);
     }
-    // copy() and takeForward() must not be called if no tile is matched: row_ then contains the
-    // corrected flow of the last frame and its errors, which are still valid.
-    void copy(Rows<const ErrorCell> given) {
-        ErrorCell* to = errors();
-        for (int y = 0; y < given.size.height; ++y)
-            to = std::copy_n(given[y], given.size.width, to);
-    }
-    void copy(Rows<const FlowCell> backward) {
-        FlowCell* to = row_[0] + cells_.count();
-        for (int y = 0; y < backward.size.height; ++y)
-            to = std::copy_n(backward[y], backward.size.width, to);
-    }
-    void takeForward() {
-        const Rows<const FlowCell> forward = flow_.forward();
-        FlowCell* to = row_[0];
-        for (int y = 0; y < forward.size.height; ++y)
-            to = std::copy_n(forward[y], forward.size.width, to);
+    // Must not be called if no tile is matched: row_ then contains the corrected flow of the last
+    // frame and its errors, which are still valid.
+    template <class Cell>
+    static void copy(Rows<const Cell> from, Cell* to) {
+        for (int y = 0; y < from.size.height; ++y)
+            to = std::copy_n(from[y], from.size.width, to);
     }
     const FlowCells& written() {
         cells_.errorsGiven = flow_.errorsGiven();

@@ -1,6 +1,5 @@
 #include "pipeline/warp/paint_pyramid.h"
 
-#include "base/light_word.h"
 #include "base/srgb.h"
 #include "pipeline/render/paint.h"
 
@@ -56,7 +55,7 @@ std::uint32_t rootByte(float linear) {
     return nearestByte(kMost * std::sqrt(linear));
 }
 
-std::uint32_t rootsOf(const std::array<float, 3>& linear) {
+std::uint32_t rootsOf(const Eigen::Vector3f& linear) {
     return rootByte(linear[0]) | rootByte(linear[1]) << 8 | rootByte(linear[2]) << 16;
 }
 
@@ -64,18 +63,13 @@ std::uint32_t rootsOf(const std::array<float, 3>& linear) {
 /// clamped to [0, 1] as in TracedScene, so that a surface never reflects more light than it
 /// receives.
 PaintWords wordsOf(const Values& base, bool emits) {
-    std::array<float, 3> diffuse{}, facing{};
-    for (std::size_t c = 0; c < 3; ++c) {
-        const float colour = std::clamp(base[c], 0.0F, 1.0F);
-        diffuse[c] = (1 - base[3]) * colour;
-        facing[c] = (1 - base[3]) * kDielectricReflectance + base[3] * colour;
-        if (emits) facing[c] = std::max(facing[c], kLeastFacingOfLamps);
-    }
-    return {rootsOf(diffuse), rootsOf(facing)};
+    const Eigen::Array3f colour(base[0], base[1], base[2]);
+    const Paint paint = paintOf(colour.max(0.0F).min(1.0F), base[3], {}, emits);
+    return {rootsOf(paint.diffuse), rootsOf(paint.facing)};
 }
 
-void addSquares(std::uint32_t roots, float weight, std::array<float, 3>& sum) {
-    for (std::size_t c = 0; c < 3; ++c) {
+void addSquares(std::uint32_t roots, float weight, Eigen::Vector3f& sum) {
+    for (int c = 0; c < 3; ++c) {
         const float root = static_cast<float>(roots >> 8 * c & 0xFFU) / kMost;
         sum[c] += weight * root * root;
     }
@@ -115,7 +109,7 @@ PaintPicture halved(const PaintPicture& picture) {
         const Taps rows = tapsOf(y, size.height, half.height);
         for (int x = 0; x < half.width; ++x) {
             const Taps& c = columns[static_cast<std::size_t>(x)];
-            std::array<float, 3> diffuse{}, facing{};
+            Eigen::Vector3f diffuse{0, 0, 0}, facing{0, 0, 0};
             for (int j = 0; j < rows.count; ++j)
                 for (int i = 0; i < c.count; ++i) {
                     const PaintWords& t =
@@ -162,7 +156,7 @@ PaintSource paintSourceOf(const SilhouetteModels::Part& part) {
     return {part.baseColour,
             part.metallicRoughness,
             {m.baseColour.x(), m.baseColour.y(), m.baseColour.z(), m.metallic},
-            m.emission.maxCoeff() > 0};
+            m.emits()};
 }
 
 std::vector<PaintPicture> paintPyramid(const PaintSource& source, int longestSide) {
