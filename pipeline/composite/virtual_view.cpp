@@ -98,8 +98,7 @@ PixelRect VirtualView::place(const std::optional<RigidTransform>& T_world_video,
     if (traced_) {
         boxes_.setTime(time);
         addTiles(silhouette_.run(boxes_, *T_world_video), known, true, decides);
-        if (!region_.empty())
-            addTiles(catcherSilhouette_.run(catcherBoxes_, *T_world_video), known, false, decides);
+        addTiles(catcherSilhouette_.run(catcherBoxes_, *T_world_video), known, false, decides);
     } else {
         addTiles(silhouette_.run(objects_, *T_world_video), known, true, decides);
     }
@@ -120,7 +119,7 @@ void VirtualView::addTiles(const std::vector<SurfaceRange>& tiles, const Inverse
         const int x = i % columns * kTileSize, y = i / columns * kTileSize;
         const PixelRect tile{x, y, x + kTileSize, y + kTileSize};
         region_ = around(region_, widened(tile, 0, video_));
-        if (objects) hidden_ = hidden_ && isHidden(tile, nearest, known);
+        hidden_ = hidden_ && isHidden(tile, nearest, known);
         if (!relies ||
             (objects ? mayHide(tile, farthest, known) : mayHideShadow(tile, nearest, known)))
             decides = around(decides, widened(tile, kTileSize, video_));
@@ -154,8 +153,8 @@ bool VirtualView::mayHideShadow(const PixelRect& tile, float nearest,
     });
 }
 
-// True if the real surface certainly hides all objects in and around the tile, whose smallest z is
-// `nearest`. At most kMostGaps pixels of the tile may have unknown depth. At all others, the real
+// True if the real surface certainly hides all virtual surfaces in and around the tile, whose
+// smallest z is `nearest`. At most kMostGaps pixels of the tile may have unknown depth. At all others, the real
 // surface must certainly be nearer than `nearest`.
 bool VirtualView::isHidden(const PixelRect& tile, float nearest,
                            const InverseDepthField& known) const {

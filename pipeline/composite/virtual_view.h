@@ -38,12 +38,14 @@ public:
     /// Places the objects for a camera at this pose. Without a pose, no object is shown. `known` is
     /// the approximate depth of the real scene as the camera sees it. Returns the rectangle of the
     /// video pixels whose real depth must be measured to find which parts of the objects are
-    /// visible. The rectangle is empty if no object is in the picture. It is also empty in up to
-    /// kMostRelied frames in a row if `known` shows that the real scene lies behind all objects.
+    /// visible. The rectangle is empty if neither an object nor a surface that may be shaded is in
+    /// the picture. It is also empty in up to kMostRelied frames in a row if `known` shows that the
+    /// real scene lies behind all objects.
     PixelRect place(const std::optional<RigidTransform>& T_world_video, Timestamp time,
                     const InverseDepthField& known);
     [[nodiscard]] const PixelRect& region() const { return region_; }
-    /// True if the real scene completely hides all placed objects. Shadows are ignored.
+    /// True if the real scene completely hides all placed objects and all places where they may cast
+    /// shadows or light.
     [[nodiscard]] bool isHidden() const { return hidden_; }
     /// Returns which changes of the video require that the objects are drawn again. Always: they
     /// are drawn even if the video did not change, because objects changed, appeared or

@@ -63,6 +63,14 @@ std::vector<ObjectBall> objectBalls(const Scene& scene) {
     return out;
 }
 
+std::optional<ObjectBall> catcherBall(const Scene& scene) {
+    Eigen::AlignedBox3f box;
+    for (const Eigen::Vector3f& p : scene.catcher.positions)
+        box.extend(p);
+    if (box.isEmpty()) return {};
+    return ObjectBall{box.center().cast<double>(), 0.5 * box.diagonal().norm()};
+}
+
 Eigen::AlignedBox3d boundsIn(const RigidTransform& T_frame_world, const SceneObject& object) {
     if (object.path) return sweptBounds(T_frame_world, object);
     const RigidTransform T = T_frame_world * object.T_world_object;

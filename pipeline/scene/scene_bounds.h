@@ -21,6 +21,9 @@ struct ObjectBall {
 /// Returns one ball in the world for each object that has vertices, at its present pose.
 [[nodiscard]] std::vector<ObjectBall> objectBalls(const Scene& scene);
 
+/// Returns a ball around the shadow catcher in the world. Empty if the scene has no catcher.
+[[nodiscard]] std::optional<ObjectBall> catcherBall(const Scene& scene);
+
 /// Returns the bounds of the object in the given frame. They contain a moving object at all times.
 [[nodiscard]] Eigen::AlignedBox3d boundsIn(const RigidTransform& T_frame_world,
                                            const SceneObject& object);

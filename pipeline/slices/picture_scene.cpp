@@ -6,10 +6,17 @@
 
 namespace mfar {
 
+double PictureScene::changeOf(const RenderView& from, const RenderView& to,
+                              const ViewLimits& limits) const {
+    if (!shaded || isSeen(balls, to)) return viewChange(from, to, balls, limits);
+    return viewChange(from, to, {&*shaded, 1}, limits);
+}
+
 PictureScene pictureScene(std::shared_ptr<const Scene> source, const PathTracerOptions& options) {
     PictureScene out;
     out.tracer = std::make_shared<PathTracer>(source, options);
     out.balls = objectBalls(*source);
+    out.shaded = catcherBall(*source);
     for (std::size_t i = 0; i < source->objects.size(); ++i) {
         const SceneObject& object = source->objects[i];
         if (!object.path) continue;

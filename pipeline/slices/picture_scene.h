@@ -2,10 +2,12 @@
 
 #include "pipeline/render/path_tracer.h"
 #include "pipeline/scene/scene_bounds.h"
+#include "pipeline/slices/view_change.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace mfar {
@@ -20,11 +22,16 @@ struct PictureScene {
     std::shared_ptr<const PathTracer> tracer;
     std::shared_ptr<const Scene> source;  ///< the scene as the caller set it, for all instants
     std::vector<ObjectBall> balls;        ///< balls around the objects at this instant, world frame
+    std::optional<ObjectBall> shaded;     ///< ball around the shadow catcher, world frame
     std::vector<MovingBall> moving;
     std::vector<RigidTransform> poses;  ///< T_world_object at this instant; empty if nothing moves
     std::uint64_t objects = 0, light = 0;
 
     [[nodiscard]] bool moves() const { return !moving.empty(); }
+    /// viewChange() of the objects. If `to` shows none of them, viewChange() of the shadow catcher,
+    /// because shadows and glow can be visible without the objects.
+    [[nodiscard]] double changeOf(const RenderView& from, const RenderView& to,
+                                  const ViewLimits& limits) const;
 };
 
 /// Throws the same exceptions as PathTracer.

@@ -70,7 +70,7 @@ std::optional<double> TracedPictures::changeSince(const Picture& picture) const 
     if (!picture.scene || picture.scene->objects != scene_->objects ||
         (isShown && picture.scene->light != scene_->light))
         return {};
-    return viewChange(picture.view, now_, picture.scene->balls, policy_.limits);
+    return picture.scene->changeOf(picture.view, now_, policy_.limits);
 }
 
 /// Returns the largest motion of an object since a picture, divided by its limit. The warp can move
@@ -269,7 +269,7 @@ int TracedPictures::leastSamples(const Picture& picture) const {
     if (picture.wasShown) return std::max(kSamplesRatio * picture.shownSamples, 1);
     const Picture& shown = pictures_[shown_];
     if (!shown.scene || shown.scene->objects != picture.scene->objects ||
-        viewChange(shown.view, now_, scene_->balls, policy_.limits) >= kHopeless)
+        scene_->changeOf(shown.view, now_, policy_.limits) >= kHopeless)
         return 1;
     return nextRests_ ? std::max(policy_.samplesToReplace, shown.shownSamples)
                       : policy_.samplesToReplace;

@@ -110,6 +110,12 @@ double viewChange(const RenderView& from, const RenderView& to, std::span<const 
     return change;
 }
 
+bool isSeen(std::span<const ObjectBall> balls, const RenderView& view) {
+    const ViewCones cones(view.camera);
+    return std::ranges::any_of(
+        balls, [&](const ObjectBall& ball) { return BallSight(view, ball).seen(cones); });
+}
+
 double pixelChange(const RenderView& from, const RenderView& to,
                    std::span<const ObjectBall> objects) {
     if (!sameLens(from.camera, to.camera)) return kInfinity;

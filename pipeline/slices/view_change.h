@@ -24,6 +24,9 @@ struct ViewLimits {
 [[nodiscard]] double viewChange(const RenderView& from, const RenderView& to,
                                 std::span<const ObjectBall> objects, const ViewLimits& limits);
 
+/// True if a ball may be at least partly in the picture.
+[[nodiscard]] bool isSeen(std::span<const ObjectBall> balls, const RenderView& view);
+
 /// Largest motion of the objects between two views [px], without lens distortion. Only points in
 /// front of both cameras count. Infinite if the cameras differ.
 [[nodiscard]] double pixelChange(const RenderView& from, const RenderView& to,

@@ -18,6 +18,7 @@ prepared(const std::shared_ptr<const Scene>& scene, std::uint64_t objects, std::
     auto out = std::make_shared<PictureScene>();
     out->tracer = std::make_shared<PathTracer>(scene);
     out->balls = objectBalls(*scene);
+    out->shaded = catcherBall(*scene);
     out->objects = objects;
     out->light = light;
     return out;

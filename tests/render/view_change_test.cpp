@@ -1,3 +1,4 @@
+#include "pipeline/slices/picture_scene.h"
 #include "pipeline/slices/view_change.h"
 #include "tests/render/render_scenes.h"
 #include "tests/render/still_life.h"
@@ -70,6 +71,20 @@ TEST(ViewChange, IsFiniteInsideAnObject) {
     EXPECT_TRUE(std::isfinite(change(inside, turned(inside, 5))));
     EXPECT_FALSE(std::isnan(change(inside, middle)));
     EXPECT_FALSE(std::isnan(change(middle, middle)));
+}
+
+TEST(PictureScene, ChangeOfAViewWithoutObjectsIsThatOfTheirShadows) {
+    PictureScene scene;
+    scene.balls = kBall;
+    const RenderView near = viewFrom(kSize, 20), away = turned(near, 40);
+    EXPECT_EQ(scene.changeOf(near, away, kLimits), 0) << "without shadow catcher";
+    scene.shaded = ObjectBall{kBall[0].centre, 0.5};
+    EXPECT_GT(scene.changeOf(near, away, kLimits), 5);
+    EXPECT_NEAR(scene.changeOf(away, turned(away, 2), kLimits), 0.5, 0.01);
+    EXPECT_TRUE(std::isinf(scene.changeOf(turned(near, 180), away, kLimits)));
+    EXPECT_EQ(scene.changeOf(away, turned(near, 180), kLimits), 0);
+    // Shadows make no difference where objects are visible.
+    EXPECT_EQ(scene.changeOf(near, turned(near, 8), kLimits), change(near, turned(near, 8)));
 }
 
 TEST(ObjectBalls, BoundingSpheresContainAllVertices) {

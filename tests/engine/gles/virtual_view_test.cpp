@@ -1,8 +1,12 @@
 #include "pipeline/composite/shadow_catcher.h"
 #include "pipeline/composite/virtual_view.h"
 #include "tests/engine/gl_test.h"
+#include "tests/warp/warp_engine.h"
 
+#include <algorithm>
+#include <chrono>
 #include <memory>
+#include <thread>
 #include <vector>
 
 namespace mfar {
@@ -22,6 +26,8 @@ std::shared_ptr<const Scene> hovering() {
     auto scene = std::make_shared<Scene>();
     scene->objects.push_back({model, {}, 1});
     scene->catcher = planeCatcher(boundsOf(*scene));
+    // The shadow falls towards +x.
+    scene->lighting.sun = Sun{Eigen::Vector3f(-1, 0, 0.8F).normalized(), {3, 3, 3}, 0.01F};
     return scene;
 }
 
@@ -47,12 +53,24 @@ protected:
         view_->setScene(hovering());
     }
     std::vector<PixelRect> placed(const InverseDepthField& known, int frames = 18) {
-        const RigidTransform down{Eigen::Quaterniond(0, 1, 0, 0), {0, 0, kTable}};
         std::vector<PixelRect> out;
         for (int i = 0; i < frames; ++i)
-            out.push_back(view_->place(down, Timestamp::fromSeconds(i), known));
+            out.push_back(view_->place(above(0), Timestamp::fromSeconds(i), known));
         return out;
     }
+    static RigidTransform above(double x) {
+        return {Eigen::Quaterniond(0, 1, 0, 0), {x, 0, kTable}};
+    }
+    /// Largest coverage of a pixel by the virtual layer [grey levels of 255].
+    std::uint8_t darkest(const RigidTransform& T_world_video) {
+        const std::vector<std::uint8_t> rgba =
+            test::bytesOf(view_->traced()->render(T_world_video).colour);
+        std::uint8_t out = 0;
+        for (std::size_t i = 3; i < rgba.size(); i += 4)
+            out = std::max(out, rgba[i]);
+        return out;
+    }
+    [[nodiscard]] VirtualView& view() { return *view_; }
     [[nodiscard]] bool isAll(const PixelRect& r) const { return r == view_->region(); }
 
 private:
@@ -84,6 +102,38 @@ TEST_F(ShadowDepthGl, RealObjectsAboveTheTableAreAlwaysMeasured) {
             field.inverseDepth[static_cast<std::size_t>(y) * kSeen.width + x] *= 1.1F;
     for (const PixelRect& r : placed(field))
         EXPECT_EQ(around(r, kThing), r);
+}
+
+TEST_F(ShadowDepthGl, AShadowIsShownEvenIfItsObjectIsOutsideThePicture) {
+    constexpr double kAside = 0.312;  // the left border of the picture cuts the shadow
+    constexpr std::uint8_t kDark = 60;
+    std::uint8_t found = 0;
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    for (int i = 0; found < kDark && std::chrono::steady_clock::now() < end; ++i) {
+        view().place(above(kAside), Timestamp::fromSeconds(0.033 * i), tableField(0.01));
+        ASSERT_FALSE(view().region().empty());
+        EXPECT_LT(view().region().x1, kSeen.width / 4);
+        found = darkest(above(kAside));
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    EXPECT_GE(found, kDark);
+    view().place(above(2 * kAside), Timestamp::fromSeconds(100), tableField(0.01));
+    EXPECT_TRUE(view().region().empty());
+}
+
+TEST_F(ShadowDepthGl, AHiddenObjectIsOnlySkippedIfItsShadowIsHiddenToo) {
+    InverseDepthField field = tableField(0.001);
+    const auto coverColumns = [&](int from, int to) {
+        for (int y = 0; y < kSeen.height; ++y)
+            for (int x = from; x < to; ++x)
+                field.inverseDepth[static_cast<std::size_t>(y) * kSeen.width + x] = 1 / 0.3F;
+    };
+    coverColumns(0, 192);  // the object ends at column 181, the shaded part of the table at 205
+    view().place(above(0), {}, field);
+    EXPECT_FALSE(view().isHidden());
+    coverColumns(192, kSeen.width);
+    view().place(above(0), {}, field);
+    EXPECT_TRUE(view().isHidden());
 }
 
 }  // namespace
