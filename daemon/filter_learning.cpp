@@ -46,9 +46,10 @@ std::string describe(const LearningCounts& counts) {
                     "enlargement: {:.2f} dB, with the shipped filters {:.2f} dB",
                     of.stills, of.classes, enlarge::kUnique, of.gainDb, of.priorDb);
     if (of.guidance.any())
-        out += fmt::format("; guidance adds {:.2f} of the still's finest detail and removes {:.2f} "
-                           "of the video's; gain over no guidance: {:.2f} dB",
-                           of.guidance.still, of.guidance.video, of.guidanceGainDb);
+        out +=
+            fmt::format("; guidance adds {:.2f} of the still's finest detail and removes {:.2f} "
+                        "of the video's; light factor {:.2f}; gain over no guidance: {:.2f} dB",
+                        of.guidance.still, of.guidance.video, of.guidance.light, of.guidanceGainDb);
     return out;
 }
 

@@ -200,6 +200,7 @@ nlohmann::ordered_json learningSummary(const LearningCounts& counts) {
             {"still_pairs", counts.learner.pairs},
             {"guidance_still", counts.learner.guidance.still},
             {"guidance_video", counts.learner.guidance.video},
+            {"guidance_light", counts.learner.guidance.light},
             {"guidance_gain_db", counts.learner.guidanceGainDb},
             {"fine_noise", counts.learner.fineMatch.noise},
             {"fine_share", counts.learner.fineMatch.share}};

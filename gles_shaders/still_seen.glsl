@@ -8,17 +8,19 @@ vec2 inStill(vec2 p) {
            vec2(params.stillTexelX, params.stillTexelY);
 }
 
-// Returns the mean of 4x4 samples of the still over this video pixel. inStill() gives the positions
-// of the four corner samples. The other positions are interpolated bilinearly between them.
-float stillSeen() {
+// Returns the mean of 4x4 samples of the still over this video pixel (x), and the mean of their
+// squares (y). inStill() gives the positions of the four corner samples. The other positions are
+// interpolated bilinearly between them.
+vec2 stillMeans() {
     const float reach = 0.375 * kSeen;
     vec2 first = inStill(gl_FragCoord.xy - reach), last = inStill(gl_FragCoord.xy + reach);
     vec2 right = inStill(gl_FragCoord.xy + vec2(reach, -reach));
     vec2 below = inStill(gl_FragCoord.xy + vec2(-reach, reach));
-    float sum = 0.0;
+    vec2 sums = vec2(0.0);
     for (int i = 0; i < 16; ++i) {
         vec2 share = vec2(i & 3, i >> 2) / 3.0;
-        sum += textureLod(still, mix(mix(first, right, share.x), mix(below, last, share.x), share.y), 0.0).r;
+        float value = textureLod(still, mix(mix(first, right, share.x), mix(below, last, share.x), share.y), 0.0).r;
+        sums += vec2(value, value * value);
     }
-    return sum / 16.0;
+    return sums / 16.0;
 }

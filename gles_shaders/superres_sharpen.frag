@@ -27,5 +27,5 @@ void main() {
                 kSharpenNear * kSharpenNear * (diagonal - 2.0 * near + 4.0 * centre);
     vec4 w = textureLod(weightField, gl_FragCoord.xy / (4.0 * vec2(cellCount())), 0.0);
     float strength = params.sharpening * (1.0 - min(2.0 * w.x, 1.0)) * w.z;
-    colour = vec4(centre + strength * high, stillSeen());
+    colour = vec4(centre + strength * high, stillMeans().x);
 }

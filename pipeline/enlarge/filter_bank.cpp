@@ -85,7 +85,7 @@ FilterBank::FilterBank(std::span<const Filter> unique, const Guidance& guidance,
                               " classes; expected " + std::to_string(kUnique));
     if (!guidance.isValid())
         throw FilterBankError(
-            "the guidance factors must be from 0 to 1 (still) and from 0 to 2 (video)");
+            "the guidance factors must be from 0 to 1 (still) and from 0 to 2 (video, light)");
     if (!fineMatch.isValid())
         throw FilterBankError("fine_noise must be from 0 to 4096, and fine_share from 0 to 1");
     for (std::size_t i = 0; i < unique.size(); ++i)

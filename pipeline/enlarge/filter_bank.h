@@ -17,17 +17,20 @@ class FilterBankError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// Shares in which the still's finest detail replaces the video's; see params::kGuideReach. If
-/// both factors are zero, there is no guidance. If both sensors have the same exposure, the factors
-/// are similar.
+/// How still and video are compared at the video's resolution. `still` and `video` are the shares
+/// in which the still's finest detail replaces the video's; see params::kGuideReach. If both
+/// sensors have the same exposure, they are similar. `light` describes how a video pixel averages
+/// what it sees; see params::kSeen. If all factors are zero, there is no guidance.
 struct Guidance {
     float still = 0;  ///< added share of the still's detail, [0, 1]
     float video = 0;  ///< removed share of the video's detail, [0, kMost]
+    float light = 0;  ///< 0: grey levels are averaged, 1: their squares, [0, kMost]
 
     static constexpr float kMost = 2;
-    [[nodiscard]] bool any() const { return still > 0 || video > 0; }
+    [[nodiscard]] bool any() const { return still > 0 || video > 0 || light > 0; }
     [[nodiscard]] bool isValid() const {
-        return still >= 0 && still <= 1 && video >= 0 && video <= kMost;
+        return still >= 0 && still <= 1 && video >= 0 && video <= kMost && light >= 0 &&
+               light <= kMost;
     }
     bool operator==(const Guidance&) const = default;
 };

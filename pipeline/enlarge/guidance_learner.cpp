@@ -20,11 +20,13 @@ constexpr double kPriorPixels = 2000;
 constexpr double kLeastPixels = 0.02;
 // Guidance is used only if it reduces the squared error by at least this share.
 constexpr double kWorthwhile = 0.005;
-// If both new factors differ from the factors in use by at most this, they are ignored, because
-// they would change the pictures without improving them.
+// If all new factors differ from the factors in use by at most this, they are ignored, because they
+// would change the pictures without improving them.
 constexpr float kSame = 0.01F;
-// The two factors cannot be determined separately if the determinant of the normal equations,
-// divided by the product of their diagonal, is below this.
+// The fit alternates between the light and the other factors, this often.
+constexpr int kRounds = 12;
+// The factors of still and video cannot be determined separately if the determinant of the normal
+// equations, divided by the product of their diagonal, is below this.
 constexpr double kLeastDeterminant = 1e-9;
 constexpr double kMostPairs = 1e15;  // a double represents counts below this exactly
 // Pixels with a video luma outside these limits may be saturated [1/8 grey level].
@@ -39,7 +41,7 @@ public:
         : in_(pictures), filters_(filters), known_(pictures.lookUps.size()),
           cells_(pictures.lookUps.size()), still_(pictures.video),
           stillFine_(static_cast<std::size_t>(pictures.video.width) * pictures.video.height),
-          videoFine_(stillFine_.size()),
+          videoFine_(stillFine_.size()), light_(stillFine_.size()), lightFine_(stillFine_.size()),
           sums_({pictures.video.width + 2 * MatchedPictures::kMargin, 3}),
           classes_({pictures.video.width, 2}), range_({pictures.video.width, 2}),
           residual_({kGrid * pictures.video.width, kGrid}) {
@@ -79,22 +81,22 @@ public:
     }
     struct Added {
         Phases unguided;  ///< addition to the cubic enlargement without guidance
-        /// Change of `unguided` if Guidance::still were 1 (`still`), and if Guidance::video were 1
-        /// (`video`).
-        Phases still, video;
+        FactorSums::Parts parts;
     };
     void addedTo(int x, int y, Added& out) const {
         const Phases low = cubicOf(x, y, [&](int i, int j) { return still_.mean(i, j); });
         const Phases weights = betweenCells(cells_, &LookUpCell::weight, x, y);
-        out.still = cubicOf(x, y, [&](int i, int j) { return stillFine_[at(i, j)]; });
-        out.video = cubicOf(x, y, [&](int i, int j) { return -videoFine_[at(i, j)]; });
+        const auto enlarged = [&](const std::vector<float>& values) {
+            return cubicOf(x, y, [&](int i, int j) { return values[at(i, j)]; });
+        };
+        out.parts << enlarged(stillFine_), -enlarged(videoFine_), -enlarged(light_),
+            enlarged(lightFine_);
         for (int phase = 0; phase < kPhases; ++phase) {
             const int row = phase / kGrid, column = kGrid * x + phase % kGrid;
             const double residual = double(residual_[row][column]) / kResidualScale;
             const double detail = still_.at(x, y, phase) - low[phase], weight = weights[phase];
             out.unguided[phase] = weight * detail + (1 - std::min(weight, 1.0)) * residual;
-            out.still[phase] *= weight;
-            out.video[phase] *= weight;
+            out.parts.row(phase) *= weight;
         }
     }
 
@@ -119,7 +121,11 @@ private:
     }
     void compare() {
         const BoxSums counts(in_.video, [&](int x, int y) { return isKnown(x, y) ? 1.0 : 0.0; });
+        for (int y = 0; y < in_.video.height; ++y)
+            for (int x = 0; x < in_.video.width; ++x)
+                if (isKnown(x, y)) light_[at(x, y)] = still_.rootAboveMean(x, y);
         beyondMean(counts, stillFine_, [&](int x, int y) { return double(still_.mean(x, y)); });
+        beyondMean(counts, lightFine_, [&](int x, int y) { return double(light_[at(x, y)]); });
         beyondMean(counts, videoFine_,
                    [&](int x, int y) { return in_.row(y)[x] / double(kLumaScale); });
     }
@@ -129,16 +135,11 @@ private:
     AlignedRows<std::uint8_t> known_;
     AlignedRows<LookUpCell> cells_;
     WarpedGrid still_;
-    std::vector<float> stillFine_, videoFine_;
+    std::vector<float> stillFine_, videoFine_, light_, lightFine_;
     AlignedRows<float> sums_;
     AlignedRows<std::uint16_t> classes_;
     AlignedRows<std::int16_t> range_, residual_;
 };
-
-constexpr std::array kSums{&FactorSums::still2,       &FactorSums::video2,
-                           &FactorSums::missing2,     &FactorSums::stillVideo,
-                           &FactorSums::stillMissing, &FactorSums::videoMissing,
-                           &FactorSums::pixels};
 
 bool isSaturated(const MatchedPictures& pictures, int x, int y) {
     const int luma = pictures.row(y)[x];
@@ -147,38 +148,116 @@ bool isSaturated(const MatchedPictures& pictures, int x, int y) {
 
 }  // namespace
 
+void FactorSums::add(const Parts& parts, const Phases& missing) {
+    products_.noalias() += parts.transpose() * parts;
+    withMissing_.noalias() += parts.transpose() * missing;
+    missing2_ += missing.squaredNorm();
+    pixels_ += 1;
+}
+
 void FactorSums::add(const FactorSums& other) {
-    for (const auto sum : kSums)
-        this->*sum += other.*sum;
+    products_ += other.products_;
+    withMissing_ += other.withMissing_;
+    missing2_ += other.missing2_;
+    pixels_ += other.pixels_;
 }
 
 void FactorSums::fade(double share) {
-    for (const auto sum : kSums)
-        this->*sum *= share;
+    products_ *= share;
+    withMissing_ *= share;
+    missing2_ *= share;
+    pixels_ *= share;
+}
+
+bool FactorSums::isFinite() const {
+    // Products of different values are not larger than their squares, so they are finite as well.
+    return std::isfinite(products_.trace() + missing2_);
 }
 
 double FactorSums::gainOf(const Guidance& of) const {
-    const double a = of.still, b = of.video;
-    return 2 * (a * stillMissing + b * videoMissing) - a * a * still2 - b * b * video2 -
-           2 * a * b * stillVideo;
+    const Weights weights{of.still, of.video, of.light, double(of.light) * of.still};
+    return 2 * weights.dot(withMissing_) - weights.dot(products_ * weights);
 }
 
-Guidance FactorSums::best(double prior) const {
-    if (!(still2 > 0 && video2 > 0 && pixels > 0)) return {};
+/// Returns the best guidance with the given light.
+Guidance FactorSums::withLight(double light, double prior) const {
+    Weights byStill = Weights::Unit(kStill), byVideo = Weights::Unit(kVideo);
+    byStill[kLightOfStill] = light;
+    const Weights left = withMissing_ - products_.col(kLight) * light;
+    const double still2 = byStill.dot(products_ * byStill), video2 = products_(kVideo, kVideo);
+    const double stillVideo = byStill.dot(products_ * byVideo);
+    const double stillMissing = byStill.dot(left), videoMissing = byVideo.dot(left);
+    Guidance out{0, 0, static_cast<float>(light)};
+    if (!(still2 > 0 && video2 > 0)) return out;
     const double apart = std::max(still2 - stillVideo * stillVideo / video2, 0.0);
-    const double pull = apart * prior / pixels;
+    const double pull = apart * prior / pixels_;
     const double a2 = still2 + pull, b2 = video2 + pull;
     const double determinant = a2 * b2 - stillVideo * stillVideo;
-    if (!(determinant > kLeastDeterminant * a2 * b2)) return {};
+    if (!(determinant > kLeastDeterminant * a2 * b2)) return out;
     const auto stillFor = [&](double video) { return (stillMissing - video * stillVideo) / a2; };
     const auto videoFor = [&](double still) { return (videoMissing - still * stillVideo) / b2; };
     // `free` is the best factor if factors could have any value. If it is out of range, the best
     // point on the border of the range is used.
     const double free = (stillMissing * b2 - videoMissing * stillVideo) / determinant;
-    double still = std::clamp(free, 0.0, 1.0);
+    const double still = std::clamp(free, 0.0, 1.0);
     const double video = std::clamp(videoFor(still), 0.0, double(Guidance::kMost));
-    still = std::clamp(stillFor(video), 0.0, 1.0);
-    return {static_cast<float>(still), static_cast<float>(video)};
+    out.still = static_cast<float>(std::clamp(stillFor(video), 0.0, 1.0));
+    out.video = static_cast<float>(video);
+    return out;
+}
+
+/// Returns the best light with the other factors of `of`.
+double FactorSums::lightFor(const Guidance& of, double prior) const {
+    Weights byLight = Weights::Unit(kLight), others = Weights::Zero();
+    byLight[kLightOfStill] = of.still;
+    others[kStill] = of.still;
+    others[kVideo] = of.video;
+    const double square = byLight.dot(products_ * byLight) * (1 + prior / pixels_);
+    if (!(square > 0)) return 0;
+    return std::clamp(byLight.dot(withMissing_ - products_ * others) / square, 0.0,
+                      double(Guidance::kMost));
+}
+
+Guidance FactorSums::best(double prior, bool fitsLight) const {
+    if (!(pixels_ > 0)) return {};
+    Guidance out = withLight(0, prior);
+    for (int round = 0; fitsLight && round < kRounds; ++round)
+        out = withLight(lightFor(out, prior), prior);
+    return out;
+}
+
+std::array<double, FactorSums::kNumbers> FactorSums::stored() const {
+    const auto& p = products_;
+    const Weights& m = withMissing_;
+    return {p(kStill, kStill),
+            p(kVideo, kVideo),
+            missing2_,
+            p(kStill, kVideo),
+            m[kStill],
+            m[kVideo],
+            pixels_,
+            p(kLight, kLight),
+            p(kLightOfStill, kLightOfStill),
+            p(kStill, kLight),
+            p(kStill, kLightOfStill),
+            p(kVideo, kLight),
+            p(kVideo, kLightOfStill),
+            p(kLight, kLightOfStill),
+            m[kLight],
+            m[kLightOfStill]};
+}
+
+bool FactorSums::restore(const std::array<double, kNumbers>& of) {
+    constexpr std::array kSquares{0, 1, 2, 6, 7, 8};
+    if (!std::ranges::all_of(kSquares, [&](int i) { return of[i] >= 0; })) return false;
+    products_ << of[0], of[3], of[9], of[10],  //
+        of[3], of[1], of[11], of[12],          //
+        of[9], of[11], of[7], of[13],          //
+        of[10], of[12], of[13], of[8];
+    withMissing_ << of[4], of[5], of[14], of[15];
+    missing2_ = of[2];
+    pixels_ = of[6];
+    return true;
 }
 
 bool GuidanceLearner::add(const TrustedPairs& truth, const MatchedPictures& older,
@@ -197,64 +276,67 @@ bool GuidanceLearner::add(const TrustedPairs& truth, const MatchedPictures& olde
             // One third of the tiles is held out. Guidance is learned from the other tiles, and its
             // gain is measured in the held-out tiles.
             FactorSums& to = (x / kTileSize + y / kTileSize) % 3 == 0 ? held : learn;
-            to.add({added.still.squaredNorm(), added.video.squaredNorm(), missing.squaredNorm(),
-                    added.still.dot(added.video), added.still.dot(missing),
-                    added.video.dot(missing), 1});
+            to.add(added.parts, missing);
         }
     }
-    // The sums of products are not larger than the sums of squares, so they are finite as well.
-    const double sum =
-        learn.still2 + learn.video2 + learn.missing2 + held.still2 + held.video2 + held.missing2;
-    if (stop.stop_requested() || !std::isfinite(sum)) return false;
-    if (!(learn.pixels >= kLeastPixels * width * height && held.pixels > 0)) return false;
+    if (stop.stop_requested() || !learn.isFinite() || !held.isFinite()) return false;
+    if (!(learn.pixels() >= kLeastPixels * width * height && held.pixels() > 0)) return false;
     ++pairs_;
     learned_.fade(kForgetting);
     learned_.add(learn);
     held_.fade(kForgetting);
     held_.add(held);
-    const Guidance candidate = learned_.best(kPriorPixels);
+    const double worthwhile = kWorthwhile * held_.missing2();
     const auto helps = [&](const Guidance& of) {
-        return held_.gainOf(of) > kWorthwhile * held_.missing2 && held.gainOf(of) > 0;
+        return held_.gainOf(of) > worthwhile && held.gainOf(of) > 0;
     };
+    Guidance candidate = learned_.best(kPriorPixels, false);
+    const Guidance withLight = learned_.best(kPriorPixels, true);
+    if (helps(withLight) && held_.gainOf(withLight) > held_.gainOf(candidate) + worthwhile)
+        candidate = withLight;
     if (!helps(candidate))
         guidance_ = helps(guidance_) ? guidance_ : Guidance{};
     else if (std::abs(candidate.still - guidance_.still) > kSame ||
-             std::abs(candidate.video - guidance_.video) > kSame)
+             std::abs(candidate.video - guidance_.video) > kSame ||
+             std::abs(candidate.light - guidance_.light) > kSame)
         guidance_ = candidate;
     return true;
 }
 
 double GuidanceLearner::gainDb() const {
-    const double left = held_.missing2 - held_.gainOf(guidance_);
-    return left > 0 ? 10 * std::log10(held_.missing2 / left) : 0;
+    const double left = held_.missing2() - held_.gainOf(guidance_);
+    return left > 0 ? 10 * std::log10(held_.missing2() / left) : 0;
 }
 
 std::array<double, GuidanceLearner::kNumbers> GuidanceLearner::stored() const {
     std::array<double, kNumbers> out{static_cast<double>(pairs_), guidance_.still, guidance_.video};
-    std::size_t next = 3;
-    for (const FactorSums* of : {&learned_, &held_})
-        for (const auto sum : kSums)
-            out[next++] = of->*sum;
+    const auto learned = learned_.stored(), held = held_.stored();
+    constexpr auto kOld = FactorSums::kOldNumbers;
+    auto to = std::copy_n(learned.begin(), kOld, out.begin() + 3);
+    to = std::copy_n(held.begin(), kOld, to);
+    *to++ = guidance_.light;
+    to = std::copy(learned.begin() + kOld, learned.end(), to);
+    std::copy(held.begin() + kOld, held.end(), to);
     return out;
 }
 
 bool GuidanceLearner::restore(const std::array<double, kNumbers>& numbers) {
-    const auto sums = [&](std::size_t first) {
-        FactorSums out;
-        for (const auto sum : kSums)
-            out.*sum = numbers[first++];
-        return out;
-    };
-    const auto sound = [](const FactorSums& of) {
-        return of.still2 >= 0 && of.video2 >= 0 && of.missing2 >= 0 && of.pixels >= 0;
-    };
-    const Guidance guidance{static_cast<float>(numbers[1]), static_cast<float>(numbers[2])};
+    constexpr auto kOld = FactorSums::kOldNumbers, kNew = FactorSums::kNumbers - kOld;
+    const Guidance guidance{static_cast<float>(numbers[1]), static_cast<float>(numbers[2]),
+                            static_cast<float>(numbers[kOldNumbers])};
     if (!(numbers[0] >= 0 && numbers[0] < kMostPairs) || !guidance.isValid()) return false;
-    if (!sound(sums(3)) || !sound(sums(10))) return false;
+    const auto sums = [&](std::size_t i, FactorSums& out) {
+        std::array<double, FactorSums::kNumbers> of{};
+        const auto to = std::copy_n(numbers.begin() + 3 + i * kOld, kOld, of.begin());
+        std::copy_n(numbers.begin() + kOldNumbers + 1 + i * kNew, kNew, to);
+        return out.restore(of);
+    };
+    FactorSums learned, held;
+    if (!sums(0, learned) || !sums(1, held)) return false;
     pairs_ = static_cast<std::uint64_t>(numbers[0]);
     guidance_ = guidance;
-    learned_ = sums(3);
-    held_ = sums(10);
+    learned_ = learned;
+    held_ = held;
     return true;
 }
 

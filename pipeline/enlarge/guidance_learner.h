@@ -1,5 +1,6 @@
 #pragma once
 
+#include "pipeline/enlarge/class_sums.h"
 #include "pipeline/enlarge/filter_bank.h"
 #include "pipeline/enlarge/matched_pictures.h"
 #include "pipeline/enlarge/trusted_pairs.h"
@@ -11,27 +12,52 @@
 
 namespace mfar::enlarge {
 
-/// Sums over sub-pixels from which the two factors of Guidance are fitted by least squares. They
-/// are sums of squares and products of three values. `still` is the detail that the still would
-/// add. `video` is the change if the video's own detail is removed. `missing` is the new still
-/// minus the frame as drawn without guidance. The fit approximates `missing` by a weighted sum of
-/// `still` and `video`.
-struct FactorSums {
-    double still2 = 0, video2 = 0, missing2 = 0;
-    double stillVideo = 0, stillMissing = 0, videoMissing = 0;
-    double pixels = 0;
+/// Sums over sub-pixels from which the factors of Guidance are fitted by least squares. They are
+/// sums of products of five values. The first four, the parts, are changes of the drawn frame:
+///
+/// kStill: the detail that the still would add, for Guidance::still = 1
+/// kVideo: the video's own detail that would be removed, for Guidance::video = 1
+/// kLight: what changes in the still's mean, for Guidance::light = 1
+/// kLightOfStill: what this changes in kStill
+///
+/// The fifth value is what the frame misses: the new still minus the frame as drawn without
+/// guidance. The fit approximates it by a sum of the parts with the weights still, video, light and
+/// light * still.
+class FactorSums {
+public:
+    enum Part { kStill, kVideo, kLight, kLightOfStill, kParts };
+    using Parts = Eigen::Matrix<double, kPhases, kParts>;
 
+    void add(const Parts& parts, const Phases& missing);
     void add(const FactorSums& other);
     void fade(double share);
+    [[nodiscard]] double missing2() const { return missing2_; }
+    [[nodiscard]] double pixels() const { return pixels_; }
+    [[nodiscard]] bool isFinite() const;
     /// Returns by how much the sum of squared errors decreases with the guidance `of`.
     [[nodiscard]] double gainOf(const Guidance& of) const;
-    /// Returns the factors with the largest gainOf(). The prior of the fit is zero guidance. It
-    /// counts as much as `prior` pixels.
-    [[nodiscard]] Guidance best(double prior) const;
+    /// Returns the factors with the largest gainOf(), and light = 0 if not `fitsLight`. The prior
+    /// of the fit is zero guidance. It counts as much as `prior` pixels.
+    [[nodiscard]] Guidance best(double prior, bool fitsLight) const;
+
+    /// All sums, to be stored. The first kOldNumbers do not contain the parts of the light.
+    static constexpr std::size_t kNumbers = 16, kOldNumbers = 7;
+    [[nodiscard]] std::array<double, kNumbers> stored() const;
+    /// Returns false, and changes nothing, if a number is out of range.
+    [[nodiscard]] bool restore(const std::array<double, kNumbers>& numbers);
+
+private:
+    using Weights = Eigen::Matrix<double, kParts, 1>;
+    [[nodiscard]] Guidance withLight(double light, double prior) const;
+    [[nodiscard]] double lightFor(const Guidance& of, double prior) const;
+
+    Eigen::Matrix<double, kParts, kParts> products_ = decltype(products_)::Zero();
+    Weights withMissing_ = Weights::Zero();
+    double missing2_ = 0, pixels_ = 0;
 };
 
 /// Learns FilterBank::guidance(). A new still shows what a frame that was drawn with an older still
-/// should have looked like. Guidance is the pair of factors with which the frame would have been
+/// should have looked like. Guidance is the set of factors with which the frame would have been
 /// most similar to the new still. The method is recursive least squares with forgetting, and its
 /// prior is zero guidance. Some tiles are used for a check and not for learning: guidance is used
 /// only while it makes these tiles more similar to the new stills.
@@ -53,8 +79,10 @@ public:
     [[nodiscard]] double gainDb() const;
 
     /// stored() returns the state of the learner, to be kept for a later run of mfard. restore()
-    /// returns false if a number is out of range.
-    static constexpr std::size_t kNumbers = 17;
+    /// returns false if a number is out of range. The numbers from kOldNumbers on concern
+    /// Guidance::light; they are 0 if it was not learned.
+    static constexpr std::size_t kOldNumbers = 3 + 2 * FactorSums::kOldNumbers;
+    static constexpr std::size_t kNumbers = 4 + 2 * FactorSums::kNumbers;
     [[nodiscard]] std::array<double, kNumbers> stored() const;
     [[nodiscard]] bool restore(const std::array<double, kNumbers>& numbers);
 

@@ -13,14 +13,15 @@ using namespace enlarge;
 
 constexpr char kMagic[] = "mfarlern";
 constexpr std::size_t kMagicSize = 8;
-constexpr std::array<std::uint64_t, 4> kHeader{7, kUnique, kTaps, kPhases};
+constexpr std::array<std::uint64_t, 4> kHeader{8, kUnique, kTaps, kPhases};
 // Older versions of the format, which can still be read. Version 1 has no guidance. Version 2 has
 // one factor of guidance (ten numbers). Version 3 has both factors, but no FineMatch. Version 4 has
 // no tone curve. In versions 4 and 5, FineMatch was measured within blocks of 2x2 pixels; it is
 // skipped and learned again. Versions 5 and 6 do not store whether the tone curve is used; it then
-// counts as used.
+// counts as used. Versions 3 to 7 have no numbers of Guidance::light, which are at the end of the
+// file.
 constexpr std::uint64_t kWithoutGuidance = 1, kOneFactor = 2, kTwoFactors = 3, kWithoutTone = 4,
-                        kFineInBlocks = 5, kToneInUse = 6;
+                        kFineInBlocks = 5, kToneInUse = 6, kWithoutLight = 7;
 constexpr int kOneFactorNumbers = 10;
 constexpr std::size_t kChecksumSize = 4;
 constexpr std::size_t kMostKeySize = 4096;
@@ -81,11 +82,14 @@ public:
         if (!std::isfinite(out)) refuse("has numbers that are not finite");
         return out;
     }
+    void reals(std::span<double> out) {
+        for (double& value : out)
+            value = real();
+    }
     template <std::size_t Count>
     std::array<double, Count> reals() {
         std::array<double, Count> out{};
-        for (double& value : out)
-            value = real();
+        reals(out);
         return out;
     }
     std::string text() {
@@ -115,8 +119,7 @@ public:
     }
     std::array<double, ToneLearner::kNumbers> tone() {
         std::array<double, ToneLearner::kNumbers> out{};
-        for (double& value : std::span(out).first(ToneSums::kNumbers))
-            value = real();
+        reals(std::span(out).first(ToneSums::kNumbers));
         out.back() = version_ > kToneInUse ? real() : 1;
         return out;
     }
@@ -153,11 +156,14 @@ std::vector<std::uint8_t> EnlargerLearner::stored(const std::string& key) const 
         out.sums(sums_[i]);
         out.sums(held_[i]);
     }
-    for (const double value : guidance_.stored())
+    const auto guidance = guidance_.stored();
+    for (const double value : std::span(guidance).first(GuidanceLearner::kOldNumbers))
         out.number(value);
     for (const double value : fineMatch_.stored())
         out.number(value);
     for (const double value : tone_.stored())
+        out.number(value);
+    for (const double value : std::span(guidance).subspan(GuidanceLearner::kOldNumbers))
         out.number(value);
     return std::move(out).finished();
 }
@@ -183,9 +189,10 @@ EnlargerLearner EnlargerLearner::restored(std::span<const std::uint8_t> bytes,
     if (in.version() == kOneFactor)  // Skips the numbers; guidance is learned again.
         for (int i = 0; i < kOneFactorNumbers; ++i)
             (void)in.real();
-    if (in.version() >= kTwoFactors &&
-        !out.guidance_.restore(in.reals<GuidanceLearner::kNumbers>()))
-        in.refuse("has guidance factors that are out of range");
+    std::array<double, GuidanceLearner::kNumbers> guidance{};
+    const auto ofLight = std::span(guidance).subspan(GuidanceLearner::kOldNumbers);
+    if (in.version() >= kTwoFactors)
+        in.reals(std::span(guidance).first(GuidanceLearner::kOldNumbers));
     if (in.version() >= kWithoutTone) {
         const auto fineMatch = in.reals<FineMatchLearner::kNumbers>();
         if (in.version() > kFineInBlocks && !out.fineMatch_.restore(fineMatch))
@@ -193,6 +200,8 @@ EnlargerLearner EnlargerLearner::restored(std::span<const std::uint8_t> bytes,
     }
     if (in.version() >= kFineInBlocks && !out.tone_.restore(in.tone()))
         in.refuse("has values of the tone curve that are out of range");
+    if (in.version() > kWithoutLight) in.reals(ofLight);
+    if (!out.guidance_.restore(guidance)) in.refuse("has guidance factors that are out of range");
     in.finish();
     if (!out.putInPlace(weights, learned)) in.refuse("has filter weights that are too large");
     out.measure();

@@ -84,9 +84,11 @@ float TrustedPairs::toneOf(float value) const {
 }
 
 /// Fits a symmetric 5x5 kernel that blurs the still as much as the video, because the sensors have
-/// different point spread functions. Afterwards, only wrong matches appear as differences.
+/// different point spread functions, and the factor Guidance::light with which a video pixel
+/// averages what it sees. Afterwards, only wrong matches appear as differences.
 void TrustedPairs::fitBlur() {
-    constexpr int kReach = 2, kWeights = 6;
+    // The last weight is the light. Weight 0 belongs to the pixel itself and is not used.
+    constexpr int kReach = 2, kWeights = 7, kLight = 6;
     using Weights = Eigen::Matrix<double, kWeights, 1>;
     const auto numberOf = [](int dx, int dy) {
         const int a = std::max(std::abs(dx), std::abs(dy)),
@@ -102,6 +104,8 @@ void TrustedPairs::fitBlur() {
         for (int dy = -kReach; dy <= kReach; ++dy)
             for (int dx = -kReach; dx <= kReach; ++dx)
                 sums[numberOf(dx, dy)] += toned[at(x + dx, y + dy)] - toned[at(x, y)];
+        const float mean = still_.mean(x, y);
+        sums[kLight] = toneOf(mean + still_.rootAboveMean(x, y)) - toneOf(mean);
         return sums;
     };
     const auto isKnown = [&](int x, int y) {
@@ -121,7 +125,14 @@ void TrustedPairs::fitBlur() {
             squares.noalias() += sums * sums.transpose();
             products += sums * (videoAt(x, y) - toned[at(x, y)]);
         }
-    const Weights weights = squares.llt().solve(products);
+    Weights weights = squares.llt().solve(products);
+    const double light = std::clamp(weights[kLight], 0.0, double(Guidance::kMost));
+    if (light != weights[kLight]) {
+        // The best kernel for the nearest allowed light.
+        weights.head<kLight>() = squares.topLeftCorner<kLight, kLight>().llt().solve(
+            products.head<kLight>() - light * squares.col(kLight).head<kLight>());
+        weights[kLight] = light;
+    }
     for (int y = kBorder; y < video_.height - kBorder; ++y)
         for (int x = kBorder; x < video_.width - kBorder; ++x)
             if (isKnown(x, y)) seen_[at(x, y)] += static_cast<float>(weights.dot(around(x, y)));

@@ -96,6 +96,16 @@ void WarpedGrid::warp(const MatchedPictures& pictures, const AlignedRows<LookUpC
         }
 }
 
+float WarpedGrid::rootAboveMean(int x, int y) const {
+    float sum = 0, squares = 0;
+    for (int phase = 0; phase < kPhases; ++phase) {
+        const float value = at(x, y, phase);
+        sum += value;
+        squares += value * value;
+    }
+    return std::max(std::sqrt(squares / kPhases) - sum / kPhases, 0.0F);
+}
+
 Phases betweenCells(const AlignedRows<LookUpCell>& cells, float LookUpCell::* part, int x, int y) {
     Phases out;
     for (int phase = 0; phase < kPhases; ++phase) {

@@ -10,7 +10,7 @@
 
 namespace mfar::enlarge {
 
-/// The grey levels of a still at the sub-pixels of a video frame, and their mean over each pixel.
+/// The grey levels of a still at the sub-pixels of a video frame, and their means over each pixel.
 class WarpedGrid {
 public:
     explicit WarpedGrid(Size video);
@@ -28,6 +28,10 @@ public:
     [[nodiscard]] float mean(int x, int y) const {
         return mean_[static_cast<std::size_t>(y) * video_.width + x];
     }
+
+    /// Returns the root of the mean square of a pixel's grey levels minus their mean. It is never
+    /// negative, and 0 if all are equal.
+    [[nodiscard]] float rootAboveMean(int x, int y) const;
 
 private:
     static constexpr int kScale = 64;

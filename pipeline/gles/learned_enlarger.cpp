@@ -25,6 +25,7 @@ gpu::Framebuffer targetOf(const gpu::Texture& first, const gpu::Texture& second)
 void setGuidance(params::DrawTiles& params, const FilterBank& filters) {
     params.guidanceStill = filters.guidance().still;
     params.guidanceVideo = filters.guidance().video;
+    params.guidanceLight = filters.guidance().light;
 }
 
 PixelRect tilesAround(const TileWork& work) {

@@ -123,6 +123,36 @@ void WeighRowsFixed(const std::int16_t* const* rows, const float* weights, int n
     SumOfRows(rows, weights, number, begin, end, to);
 }
 
+void WeighRowsAndSquares(const std::int16_t* const* rows, const float* weights, int number,
+                         int begin, int end, float* to, float* squares) {
+    const F df;
+    const I di;
+    const hn::Rebind<std::int16_t, F> narrow;
+    const int lanes = static_cast<int>(hn::Lanes(df));
+    for (int x = begin; x < end; x += lanes) {
+        auto sum = hn::Zero(df), square = sum;
+        for (int i = 0; i < number; ++i) {
+            const auto value = hn::ConvertTo(df, hn::PromoteTo(di, hn::LoadU(narrow, rows[i] + x)));
+            const auto weighed = hn::Mul(value, hn::Set(df, weights[i]));
+            sum = hn::Add(sum, weighed);
+            square = hn::MulAdd(weighed, value, square);
+        }
+        hn::StoreU(sum, df, to + x);
+        hn::StoreU(square, df, squares + x);
+    }
+}
+
+void MeanOfLightRow(const float* squares, float light, int begin, int end, float* mean) {
+    const F df;
+    const auto share = hn::Set(df, light);
+    const int lanes = static_cast<int>(hn::Lanes(df));
+    for (int x = begin; x < end; x += lanes) {
+        const auto m = hn::LoadU(df, mean + x);
+        const auto root = hn::Sqrt(hn::Max(hn::LoadU(df, squares + x), hn::Zero(df)));
+        hn::StoreU(hn::MulAdd(hn::Sub(root, m), share, m), df, mean + x);
+    }
+}
+
 }  // namespace
 }  // namespace mfar::simd::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -135,6 +165,8 @@ HWY_EXPORT(ResampleRowFixed);
 HWY_EXPORT(ResampleRowBytes);
 HWY_EXPORT(WeighRows);
 HWY_EXPORT(WeighRowsFixed);
+HWY_EXPORT(WeighRowsAndSquares);
+HWY_EXPORT(MeanOfLightRow);
 
 void resampleRow(const float* source, const TapTable& taps, int begin, int end, float* to) {
     HWY_DYNAMIC_DISPATCH(ResampleRow)(source, taps, begin, end, to);
@@ -157,6 +189,15 @@ void weighRows(const std::int16_t* const* rows, const float* weights, int number
 void weighRows(const std::uint8_t* const* rows, const float* weights, int number, int count,
                float* to) {
     HWY_DYNAMIC_DISPATCH(WeighRows)(rows, weights, number, count, to);
+}
+
+void weighRowsAndSquares(const std::int16_t* const* rows, const float* weights, int number,
+                         int begin, int end, float* to, float* squares) {
+    HWY_DYNAMIC_DISPATCH(WeighRowsAndSquares)(rows, weights, number, begin, end, to, squares);
+}
+
+void meanOfLightRow(const float* squares, float light, int begin, int end, float* mean) {
+    HWY_DYNAMIC_DISPATCH(MeanOfLightRow)(squares, light, begin, end, mean);
 }
 
 }  // namespace mfar::simd

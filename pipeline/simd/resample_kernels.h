@@ -26,6 +26,12 @@ void resampleRow(const float* source, const TapTable& taps, int begin, int end, 
 /// 64 bytes beyond `end`.
 void weighRows(const std::int16_t* const* rows, const float* weights, int number, int begin,
                int end, float* to);
+/// Like weighRows(), and also writes the weighted sum of the rows' squares to `squares`.
+void weighRowsAndSquares(const std::int16_t* const* rows, const float* weights, int number,
+                         int begin, int end, float* to, float* squares);
+/// Replaces entries [begin, end) of `mean`, m, by m + light * (r - m), where r is the root of the
+/// mean of the squares; see params::kSeen. Reads and writes up to 64 bytes beyond `end`.
+void meanOfLightRow(const float* squares, float light, int begin, int end, float* mean);
 /// Writes entries [0, count) of the weighted sum of `number` rows to `to`. Reads and writes up to
 /// 64 bytes beyond `count`.
 void weighRows(const std::uint8_t* const* rows, const float* weights, int number, int count,

@@ -54,7 +54,8 @@ WarpedStillTaps::WarpedStillTaps(Size video, Size output)
 WarpedStill::WarpedStill(Size video, Size output, const WarpedStillTaps& taps)
     : video_(video), output_(output), lookUps_(cellsOf(video), output.width),
       warpedRows_(taps.keptGuided), luma_({output.width, taps.keptGuided}),
-      column_({output.width, 1}), mean_({video.width, 1}), low_({output.width, 4}),
+      column_({output.width, 1}), mean_({video.width, 1}),
+      squares_({std::max(output.width, video.width), 2}), low_({output.width, 4}),
       videoLuma_({video.width, 1}), seen_({video.width + 2 * kMargin, GuideRows::kRows}),
       differences_(seen_.size()), trusted_(seen_.size()) {
     const std::size_t most = static_cast<std::size_t>(output.width) / 2 + 1;
@@ -128,11 +129,21 @@ void WarpedStill::makeMean(int row, float* to) {
         weighed_.push_back(luma_[y % slots_]);
         weights_.push_back(weight);
     }
-    for (const PixelSpan& span : warped_)
-        weighRows(weighed_.data(), weights_.data(), static_cast<int>(weighed_.size()), span.begin,
-                  span.end, column_[0]);
-    for (const PixelSpan& span : compared_)
-        resampleRow(column_[0], taps_->meanRows.table(), span.begin, span.end, to);
+    const int number = static_cast<int>(weighed_.size());
+    const bool ofLight = guidance_.light > 0;
+    for (const auto& [begin, end] : warped_) {
+        if (ofLight)
+            weighRowsAndSquares(weighed_.data(), weights_.data(), number, begin, end, column_[0],
+                                squares_[0]);
+        else
+            weighRows(weighed_.data(), weights_.data(), number, begin, end, column_[0]);
+    }
+    for (const auto& [begin, end] : compared_) {
+        resampleRow(column_[0], taps_->meanRows.table(), begin, end, to);
+        if (!ofLight) continue;
+        resampleRow(squares_[0], taps_->meanRows.table(), begin, end, squares_[1]);
+        meanOfLightRow(squares_[1], guidance_.light, begin, end, to);
+    }
 }
 
 void WarpedStill::compare(int row) {

@@ -77,8 +77,8 @@ private:
     std::vector<float> weights_;
     AlignedRows<std::int16_t> luma_;  // slots_ rows of the warped still [1/32 grey level]
     // One row of the warped still, reduced along columns (column_), and along both axes to the
-    // video's resolution (mean_).
-    AlignedRows<float> column_, mean_;
+    // video's resolution (mean_). squares_: means of the squares, reduced in the same two steps.
+    AlignedRows<float> column_, mean_, squares_;
     // Four rows of the still at the video's resolution, enlarged to the output's width [1/64 grey
     // level].
     AlignedRows<std::int16_t> low_;

@@ -64,6 +64,18 @@ TEST(GuidanceLearner, LearnedFactorsFitTheExposureOfTheStill) {
     }
 }
 
+TEST(GuidanceLearner, FindsWhetherAVideoPixelAveragesGreyLevelsOrLight) {
+    for (const bool averagesLight : {false, true}) {
+        GuidanceLearner learner;
+        for (unsigned i = 1; i <= 3; ++i) {
+            const Stills of(2, 0, i, {.averagesLight = averagesLight});
+            EXPECT_TRUE(learner.add(TrustedPairs(of.truth), of.older, FilterBank::prior()));
+        }
+        EXPECT_NEAR(learner.guidance().light, averagesLight ? 1 : 0, 0.15);
+        EXPECT_GT(learner.guidance().still, 0.8);
+    }
+}
+
 TEST(GuidanceLearner, NoiseOfTheStillAloneGivesNoGuidance) {
     EXPECT_FALSE(learned(0, 16).guidance().any());
     EXPECT_FALSE(learned(1, 24).guidance().any())
@@ -148,7 +160,11 @@ TEST(GuidanceLearner, StoredNumbersOutOfRangeAreRefused) {
                                     {5, -1.0},
                                     {9, -1.0},
                                     {10, -1.0},
-                                    {16, -1.0}}) {
+                                    {16, -1.0},
+                                    {17, 2.5},
+                                    {17, -0.1},
+                                    {18, -1.0},
+                                    {27, -1.0}}) {
         auto bad = good;
         bad[static_cast<std::size_t>(at)] = value;
         EXPECT_FALSE(learner.restore(bad)) << at;

@@ -76,7 +76,8 @@ TEST(LearnerState, NonFiniteNumbersAreRefusedDespiteAValidChecksum) {
     EXPECT_THAT(faultOf(bytes), HasSubstr("not finite"));
 }
 
-constexpr std::size_t kGuidanceSize = 8 * enlarge::GuidanceLearner::kNumbers,
+constexpr std::size_t kGuidanceSize = 8 * enlarge::GuidanceLearner::kOldNumbers,
+                      kLightSize = 8 * enlarge::GuidanceLearner::kNumbers - kGuidanceSize,
                       kFineMatchSize = 8 * enlarge::FineMatchLearner::kNumbers,
                       kToneSize = 8 * enlarge::ToneLearner::kNumbers, kToneInUseSize = 8;
 
@@ -84,7 +85,7 @@ TEST(LearnerState, StatesOfVersionsOneAndTwoAreReadWithoutGuidance) {
     const EnlargerLearner now = learned();
     for (const auto& [version, numbers] : {std::pair{1, 0}, {2, 10}}) {
         auto bytes = now.stored("a, b");
-        bytes.resize(bytes.size() - 4 - kGuidanceSize - kFineMatchSize - kToneSize);
+        bytes.resize(bytes.size() - 4 - kGuidanceSize - kFineMatchSize - kToneSize - kLightSize);
         bytes[8] = static_cast<std::uint8_t>(version);
         bytes.resize(bytes.size() + 8U * numbers);
         enlarge::putNumber(bytes, enlarge::fnv1a(bytes), 4);
@@ -100,12 +101,30 @@ TEST(LearnerState, StatesOfVersionsOneAndTwoAreReadWithoutGuidance) {
 TEST(LearnerState, StateOfVersionThreeIsReadWithGuidanceButWithoutFineMatch) {
     const EnlargerLearner now = learned();
     auto bytes = now.stored("a, b");
-    bytes.resize(bytes.size() - 4 - kFineMatchSize - kToneSize);
+    bytes.resize(bytes.size() - 4 - kFineMatchSize - kToneSize - kLightSize);
     bytes[8] = 3;
     enlarge::putNumber(bytes, enlarge::fnv1a(bytes), 4);
     const EnlargerLearner then = EnlargerLearner::restored(bytes, "a, b", "state");
     EXPECT_EQ(then.filters()->guidance(), now.filters()->guidance());
     EXPECT_FALSE(then.filters()->fineMatch().isKnown());
+}
+
+TEST(LearnerState, StateOfVersionSevenIsReadWithGuidanceButWithoutLight) {
+    EnlargerLearner now;
+    const SensorPair sensors{.videoNoise = 3, .averagesLight = true};
+    const auto truth = matchedPictures(sharpDiscs(1), sensors);
+    now.addOlder(truth, truth);
+    ASSERT_GT(now.filters()->guidance().light, 0.5F);
+    const auto whole = now.stored("a, b");
+    EXPECT_EQ(EnlargerLearner::restored(whole, "a, b", "state").filters()->guidance(),
+              now.filters()->guidance());
+    auto bytes = whole;
+    bytes.resize(bytes.size() - 4 - kLightSize);
+    bytes[8] = 7;
+    enlarge::putNumber(bytes, enlarge::fnv1a(bytes), 4);
+    const Guidance then = EnlargerLearner::restored(bytes, "a, b", "state").filters()->guidance();
+    EXPECT_EQ(then.still, now.filters()->guidance().still);
+    EXPECT_EQ(then.light, 0);
 }
 
 TEST(LearnerState, StatesOfVersionsFourToSixAreReadWithoutMissingAndOutdatedValues) {
@@ -120,7 +139,7 @@ TEST(LearnerState, StatesOfVersionsFourToSixAreReadWithoutMissingAndOutdatedValu
     EXPECT_EQ(again.filters()->fineMatch(), now.filters()->fineMatch());
     for (const int version : {4, 5, 6}) {
         auto bytes = whole;
-        bytes.resize(bytes.size() - 4 - (version == 4 ? kToneSize : kToneInUseSize));
+        bytes.resize(bytes.size() - 4 - kLightSize - (version == 4 ? kToneSize : kToneInUseSize));
         bytes[8] = static_cast<std::uint8_t>(version);
         enlarge::putNumber(bytes, enlarge::fnv1a(bytes), 4);
         const EnlargerLearner then = EnlargerLearner::restored(bytes, "a, b", "state");
@@ -135,12 +154,14 @@ TEST(LearnerState, StatesOfVersionsFourToSixAreReadWithoutMissingAndOutdatedValu
 TEST(LearnerState, NumbersOutOfRangeAreRefusedDespiteAValidChecksum) {
     auto bytes = learned().stored("a, b");
     bytes.resize(bytes.size() - 4);
-    const std::size_t guidance = bytes.size() - kToneSize - kFineMatchSize - kGuidanceSize;
+    const std::size_t tone = bytes.size() - kLightSize,
+                      guidance = tone - kToneSize - kFineMatchSize - kGuidanceSize;
     // Sets a bit of an exponent, so that the number is far above its range.
     for (const auto& [at, fault] :
          {std::pair{guidance + 15, "guidance factors that are out of range"},
-          {bytes.size() - kToneSize - 1, "fine_share that are out of range"},
-          {bytes.size() - kToneInUseSize - 1, "tone curve that are out of range"}}) {
+          {tone - kToneSize - 1, "fine_share that are out of range"},
+          {tone - kToneInUseSize - 1, "tone curve that are out of range"},
+          {tone + 7, "guidance factors that are out of range"}}) {
         auto wrong = bytes;
         wrong[at] ^= 0x40;
         enlarge::putNumber(wrong, enlarge::fnv1a(wrong), 4);

@@ -92,9 +92,12 @@ Grey videoOf(const Grey& sharp, const SensorPair& pair) {
     Grey out =
         twin::greyOf({sharp.size.width / kGrid, sharp.size.height / kGrid}, [&](int x, int y) {
             double sum = 0;
-            for (int k = 0; k < kGrid * kGrid; ++k)
-                sum += sharp.at(kGrid * x + k % kGrid, kGrid * y + k / kGrid);
-            return sum / (kGrid * kGrid);
+            for (int k = 0; k < kGrid * kGrid; ++k) {
+                const double value = sharp.at(kGrid * x + k % kGrid, kGrid * y + k / kGrid);
+                sum += pair.averagesLight ? value * value : value;
+            }
+            const double mean = sum / (kGrid * kGrid);
+            return pair.averagesLight ? std::sqrt(mean) : mean;
         });
     finish(out, pair.videoBlur, pair.videoNoise, pair.seed);
     return out;

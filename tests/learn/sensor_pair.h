@@ -17,6 +17,8 @@ struct SensorPair {
     double videoNoise = 0;
     double stillNoise = 0;
     double gain = 1, gamma = 1;  ///< exposure and tone curve of the still
+    /// True: a video pixel is the root of the mean square of what it sees. False: it is the mean.
+    bool averagesLight = false;
     /// Blur of the still: number of passes of (1 2 1)/4 along both axes.
     int stillBlur = 0;
     double shift = 0;  ///< error in x of all matched positions in the still [video px]

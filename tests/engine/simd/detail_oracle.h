@@ -80,14 +80,7 @@ public:
         if (detail_.values.empty()) {
             const Grey warped =
                 twin::greyOf(output_, [&](int i, int j) { return there(i, j, still); });
-            const Size video = frame_.rig.video.size;
-            const Grey seen =
-                ofWarped_ ? twin::seenOf(warped, video)
-                          : twin::seen(video, [&](double i, double j) {
-                                return there(i * output_.width / video.width - 0.5,
-                                             j * output_.height / video.height - 0.5, still);
-                            });
-            detail_ = twin::enlarged(guided(seen), output_);
+            detail_ = twin::enlarged(guided(ofLight(warped, still)), output_);
             for (std::size_t i = 0; i < detail_.values.size(); ++i)
                 detail_.values[i] = warped.values[i] - detail_.values[i];
         }
@@ -110,12 +103,34 @@ private:
         return still.bilinear(std::clamp(px, -1.0, double(still.size.width)),
                               std::clamp(py, -1.0, double(still.size.height)));
     }
+    [[nodiscard]] Guidance guidance() const {
+        return options_.learned != nullptr ? options_.learned->guidance() : Guidance{};
+    }
+    /// Returns the mean of the still over each video pixel; see params::kSeen.
+    [[nodiscard]] Grey ofLight(const Grey& warped, const Grey& still) const {
+        const Size video = frame_.rig.video.size;
+        const auto meanOf = [&](const auto& valueOf) {
+            if (ofWarped_)
+                return twin::seenOf(
+                    twin::greyOf(output_, [&](int x, int y) { return valueOf(warped.at(x, y)); }),
+                    video);
+            return twin::seen(video, [&](double x, double y) {
+                return valueOf(there(x * output_.width / video.width - 0.5,
+                                     y * output_.height / video.height - 0.5, still));
+            });
+        };
+        const Grey mean = meanOf([](double value) { return value; }),
+                   squares = meanOf([](double value) { return value * value; });
+        return twin::greyOf(video, [&](int x, int y) {
+            return std::lerp(mean.at(x, y), std::sqrt(std::max(squares.at(x, y), 0.0)),
+                             double(guidance().light));
+        });
+    }
     /// Returns seen - guidance.still * d(seen) + guidance.video * d(luma of the video). d(p) is the
     /// difference of a pixel of p from the mean of the 5x5 pixels around it. Only pixels whose cell
     /// has a weight above 0 change and count in the mean.
     [[nodiscard]] Grey guided(const Grey& seen) const {
-        const Guidance guidance =
-            options_.learned != nullptr ? options_.learned->guidance() : Guidance{};
+        const Guidance guidance = this->guidance();
         if (!guidance.any()) return seen;
         const auto [width, height] = seen.size;
         const auto trusted = [&](int x, int y) {
@@ -209,7 +224,7 @@ inline const FilterBank& evenBank() {
     return bank;
 }
 inline const FilterBank& guidedBank() {
-    static const FilterBank bank(evenFilters(), {0.7F, 0.5F});
+    static const FilterBank bank(evenFilters(), {0.7F, 0.5F, 0.9F});
     return bank;
 }
 

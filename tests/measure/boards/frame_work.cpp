@@ -40,7 +40,7 @@ struct Options {
 /// With these values, a frame needs the same work as with learned filters.
 std::shared_ptr<const FilterBank> learnedFilters() {
     return std::make_shared<FilterBank>(readFilters(enlarge::priorFilters(), "prior"),
-                                        Guidance{0.5F, 0.5F}, FineMatch{4.0F, 0.1F});
+                                        Guidance{0.5F, 0.5F, 0.5F}, FineMatch{4.0F, 0.1F});
 }
 
 class Frames {
