@@ -64,9 +64,9 @@ Place placeOf(ivec2 cell, vec2 u, vec2 dx, vec2 dy) {
 // levels]. The still is sampled at 4x4 positions around the pixel, half a pixel apart. The mean of
 // the middle 2x2 samples is the luma. The derivative along x is the mean of the 2x2 samples half a
 // pixel to the right minus the mean of the 2x2 samples half a pixel to the left. The derivative
-// along y is computed in the same way.
+// along y is computed in the same way. The mean is that of the light, see kSubpixelReach.
 vec3 seenAt(ivec2 cell, ivec2 p, Place place, vec2 size) {
-    vec3 seen = vec3(0.0);
+    vec3 seen = vec3(0.0), squares = vec3(0.0);
     for (int j = cell.x; j < cell.x + 16; ++j) {
         ivec2 q = ivec2((j - cell.x) % 4, (j - cell.x) / 4);
         bvec2 middle = equal(abs(2 * q - 3), ivec2(1));
@@ -74,9 +74,14 @@ vec3 seenAt(ivec2 cell, ivec2 p, Place place, vec2 size) {
         vec2 o = vec2(p) - 1.5 + 0.5 * (vec2(q) - 1.5);
         vec2 r = clamp(place.centre + o.x * place.alongX + o.y * place.alongY, vec2(0.0), size - 1.0);
         vec2 side = vec2(middle.yx) * sign(vec2(q) - 1.5);
-        seen += linearly(still, (r + 0.5) / size) * vec3(all(middle) ? 1.0 : 0.0, side);
+        float value = linearly(still, (r + 0.5) / size);
+        vec3 counts = vec3(all(middle) ? 1.0 : 0.0, side);
+        seen += value * counts;
+        squares += value * value * counts;
     }
-    return 63.75 * seen;
+    float root = sqrt(0.25 * squares.x);
+    vec3 ofLight = vec3(root, squares.yz / (8.0 * max(root, 1.0 / 255.0)));
+    return 255.0 * mix(0.25 * seen, ofLight, params.light);
 }
 
 void main() {

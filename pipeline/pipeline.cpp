@@ -231,10 +231,10 @@ Pipeline::State::Match Pipeline::State::matchStill(const VideoFrame& frame, cons
         const int tiles = forDepth.empty() ? work.matched : work.changed;
         if (tiles > 0 && !where.empty()) epipolar->run(frame.view, *pose, where);
         lap("epipolar");
-        found = &newest.flow->refine({frame, *newest.pictures}, pyramids, work,
+        found = &newest.flow->refine({frame, *newest.pictures, light()}, pyramids, work,
                                      {epipolar->forward(), epipolar->occlusion()});
     } else {
-        found = &newest.flow->run({frame, *newest.pictures}, pyramids, work,
+        found = &newest.flow->run({frame, *newest.pictures, light()}, pyramids, work,
                                   newest.lastFlow != nullptr && options.skips.knownFlow);
     }
     lap("flow");
@@ -268,10 +268,10 @@ const CellWeights* Pipeline::State::matchSecond(const VideoFrame& frame, const T
     const TileWork& missed = secondTiles.choose(work, plan.measured(), shown, most);
     newest.count(secondTiles.matched(), secondTiles.shownByNewest());
     if (missed.matched == 0) return nullptr;
-    const LumaPyramid& pyramids = second.pyramid->video(frame, missed);
-    const bool usePrior = lastFlow != nullptr && options.skips.knownFlow;
-    second.lastFlow = &second.flow->run({frame, *second.pictures}, pyramids, missed, usePrior);
-    second.lastWeights = &weighed(second, frame, pyramids, *second.lastFlow, missed);
+    const LumaPyramid& luma = second.pyramid->video(frame, missed);
+    const bool prior = lastFlow != nullptr && options.skips.knownFlow;
+    second.lastFlow = &second.flow->run({frame, *second.pictures, light()}, luma, missed, prior);
+    second.lastWeights = &weighed(second, frame, luma, *second.lastFlow, missed);
     secondTiles.judge(shown, second.lastWeights->weighed.host());
     second.count(missed.matched, secondTiles.gained());
     result.stats.matchedSecond = missed.matched;

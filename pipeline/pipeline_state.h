@@ -110,6 +110,7 @@ struct Pipeline::State {
     [[nodiscard]] const FilterBank* filterBank() const {
         return filters ? filters.get() : &FilterBank::prior();
     }
+    [[nodiscard]] float light() const { return filterBank()->guidance().light; }
     void lap(const char* stage);
 
     [[nodiscard]] Reference makeReference();

@@ -106,6 +106,7 @@ public:
     struct Pictures {
         const VideoFrame& video;
         const StillPictures& still;
+        float light = 0;  ///< Guidance::light
     };
 
     virtual ~FlowStep() = default;

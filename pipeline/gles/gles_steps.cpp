@@ -203,7 +203,7 @@ private:
     void correct(const Pictures& pictures, const TileWork& work, int errors) {
         if (work.matched > 0)
             subpixel_.run(flow_.cells(), {flow_.forward().offset, errors},
-                          frame_.video(pictures.video), raisedOf(pictures.still),
+                          frame_.video(pictures.video), raisedOf(pictures.still), pictures.light,
                           frame_.tiles(work));
     }
     const FlowCells& written() {

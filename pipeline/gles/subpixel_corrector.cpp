@@ -13,7 +13,7 @@ SubpixelCorrector::SubpixelCorrector(const StereoRig& stillRig)
       sum_("flow_subpixel_sums.comp"), correct_("flow_subpixel.comp") {}
 
 void SubpixelCorrector::run(const gpu::Buffer& cells, const Fields& fields,
-                            const gpu::Texture& video, const gpu::Texture& still,
+                            const gpu::Texture& video, const gpu::Texture& still, float light,
                             const TileBuffer& tiles) {
     const TileWork& work = tiles.work();
     if (work.matched == 0) return;
@@ -27,7 +27,8 @@ void SubpixelCorrector::run(const gpu::Buffer& cells, const Fields& fields,
               .source = fields.flow,
               .errors = fields.errors,
               .texelX = 1.0F / static_cast<float>(rig_.still.size.width),
-              .texelY = 1.0F / static_cast<float>(rig_.still.size.height)},
+              .texelY = 1.0F / static_cast<float>(rig_.still.size.height),
+              .light = light},
              {gpu::storage(1, cells), gpu::storage(2, tiles.buffer()), gpu::storage(3, sums_),
               gpu::sampler(0, video), gpu::sampler(1, still)},
              groups);

@@ -20,9 +20,9 @@ public:
         int flow, errors;
     };
     /// Changes the flow in `cells` where tiles are matched. `still` is luma with amplified finest
-    /// detail and a linear filter.
+    /// detail and a linear filter. `light`: Guidance::light.
     void run(const gpu::Buffer& cells, const Fields& fields, const gpu::Texture& video,
-             const gpu::Texture& still, const TileBuffer& tiles);
+             const gpu::Texture& still, float light, const TileBuffer& tiles);
 
 private:
     StereoRig rig_;

@@ -178,7 +178,8 @@ private:
         });
     }
     void correct(const Pictures& pictures, const TileWork& work, const ErrorCell* errors) {
-        subpixel_.run(pictures.video.planes, stills_->of(pictures.still), work, row_[0], errors);
+        subpixel_.run(pictures.video.planes, stills_->of(pictures.still), pictures.light, work,
+                      row_[0], errors);
     }
     // Must not be called if no tile is matched: row_ then contains the corrected flow of the last
     // frame and its errors, which are still valid.

@@ -30,9 +30,9 @@ SubpixelFlow::SubpixelFlow(const StereoRig& stillRig, std::shared_ptr<Workers> w
           return AlignedRows<std::int16_t>({kCell * wholeVectors(cells_).width + kRoom, kCell});
       }) {}
 
-void SubpixelFlow::run(const RgbPlanes& video, const StillPairs& still, const TileWork& work,
-                       FlowCell* flow, const ErrorCell* errors) {
-    const Frame frame{video, still, work, flow, errors};
+void SubpixelFlow::run(const RgbPlanes& video, const StillPairs& still, float light,
+                       const TileWork& work, FlowCell* flow, const ErrorCell* errors) {
+    const Frame frame{video, still, light, work, flow, errors};
     const auto forCellRows = [&](const auto& body) {
         forRows(workers_.get(), 0, cells_.height, kCellsPerTile, body);
     };
@@ -91,7 +91,8 @@ void SubpixelFlow::sum(const Frame& frame, AlignedRows<std::int16_t>& luma, int 
                         {alongX_[0][row], alongX_[1][row]},
                         {alongY_[0][row], alongY_[1][row]},
                         compared_[row],
-                        {}};
+                        {},
+                        frame.light};
     for (int k = 0; k < kCell; ++k)
         cells.video[k] = luma[k];
     forRuns(frame.work, row / kCellsPerTile, kCellsPerTile, cells_.width,

@@ -24,13 +24,15 @@ public:
 
     /// Changes the flow of the cells in matched tiles. `flow` and `errors` have one entry per cell.
     /// `errors`: may be null; otherwise, cells with an error of kNotShown or more are not compared.
-    void run(const RgbPlanes& video, const StillPairs& still, const TileWork& work, FlowCell* flow,
-             const ErrorCell* errors);
+    /// `light`: Guidance::light.
+    void run(const RgbPlanes& video, const StillPairs& still, float light, const TileWork& work,
+             FlowCell* flow, const ErrorCell* errors);
 
 private:
     struct Frame {
         const RgbPlanes& video;
         const StillPairs& still;
+        float light;
         const TileWork& work;
         FlowCell* flow;
         const ErrorCell* errors;

@@ -123,12 +123,18 @@ public:
                 samples_[j][i] = MeanOfFour(blocks.scattered(at.x, at.y), at);
             }
     }
-    /// Returns the mean of the 2x2 samples from column i and row j on, minus 128 [grey levels].
-    /// (Small numbers have small rounding errors.)
+    /// Returns the mean of the 2x2 samples from column i and row j on [grey levels].
     HWY_INLINE V mean(int i, int j) const {
         const V sum = hn::Add(hn::Add(samples_[j][i], samples_[j][i + 1]),
                               hn::Add(samples_[j + 1][i], samples_[j + 1][i + 1]));
-        return hn::MulAdd(sum, Const(1.0F / 1024), Const(-128));
+        return hn::Mul(sum, Const(1.0F / 1024));
+    }
+    /// Returns the mean of the squares of the same samples [grey levels^2].
+    HWY_INLINE V meanSquare(int i, int j) const {
+        const V *upper = samples_[j] + i, *lower = samples_[j + 1] + i;
+        const V above = hn::MulAdd(upper[0], upper[0], hn::Mul(upper[1], upper[1]));
+        const V all = hn::MulAdd(lower[0], lower[0], hn::MulAdd(lower[1], lower[1], above));
+        return hn::Mul(all, Const(1.0F / (256 * 1024)));
     }
 
 private:
@@ -140,6 +146,36 @@ HWY_INLINE V VideoAt(hn::Vec<I16> eighths) {
     return hn::MulAdd(wide, Const(1.0F / 8), Const(-128));
 }
 
+/// Luma of the still as a video pixel sees it, and its derivatives; see params::kSubpixelReach.
+struct SeenPixel {
+    V luma, alongX, alongY;
+};
+
+template <bool kOfLight>
+HWY_INLINE SeenPixel PixelOf(const Seen& seen, int column, int row, float light) {
+    const int c = 2 * column + 1, r = 2 * row + 1;
+    SeenPixel out{seen.mean(c, r), hn::Sub(seen.mean(c + 1, r), seen.mean(c - 1, r)),
+                  hn::Sub(seen.mean(c, r + 1), seen.mean(c, r - 1))};
+    if constexpr (kOfLight) {
+        const V root = hn::Sqrt(seen.meanSquare(c, r));
+        const V perRoot = hn::Div(Const(0.5F), hn::Max(root, Const(1)));
+        const auto mix = [&](V mean, V ofLight) HWY_ATTR {
+            return hn::MulAdd(hn::Sub(ofLight, mean), Const(light), mean);
+        };
+        out.luma = mix(out.luma, root);
+        out.alongX =
+            mix(out.alongX,
+                hn::Mul(perRoot, hn::Sub(seen.meanSquare(c + 1, r), seen.meanSquare(c - 1, r))));
+        out.alongY =
+            mix(out.alongY,
+                hn::Mul(perRoot, hn::Sub(seen.meanSquare(c, r + 1), seen.meanSquare(c, r - 1))));
+    }
+    // Small numbers have small rounding errors.
+    out.luma = hn::Add(out.luma, Const(-128));
+    return out;
+}
+
+template <bool kOfLight>
 void SumsOf(const LookUpParams& lookUp, const StillPairs& still, const SubpixelCells& cells, int x,
             const std::array<float*, kSubpixelSums>& to) {
     const Place place = PlaceOf(lookUp, cells, x);
@@ -150,10 +186,8 @@ void SumsOf(const LookUpParams& lookUp, const StillPairs& still, const SubpixelC
         hn::LoadInterleaved4(I16(), cells.video[static_cast<std::size_t>(j)] + kCell * x, v[0],
                              v[1], v[2], v[3]);
         for (int i = 0; i < kCell; ++i) {
-            const int c = 2 * i + 1, r = 2 * j + 1;
-            sums.add(VideoAt(v[i]), seen.mean(c, r),
-                     hn::Sub(seen.mean(c + 1, r), seen.mean(c - 1, r)),
-                     hn::Sub(seen.mean(c, r + 1), seen.mean(c, r - 1)));
+            const SeenPixel pixel = PixelOf<kOfLight>(seen, i, j, cells.light);
+            sums.add(VideoAt(v[i]), pixel.luma, pixel.alongX, pixel.alongY);
         }
     }
     const auto counts = hn::Gt(hn::LoadU(D(), cells.compared + x), Const(0));
@@ -164,9 +198,10 @@ void SubpixelSumsRow(const LookUpParams& lookUp, const StillPairs& still,
                      const SubpixelCells& cells, int begin, int end,
                      const std::array<float*, kSubpixelSums>& to) {
     const D d;
+    const auto sums = cells.light > 0 ? SumsOf<true> : SumsOf<false>;
     for (int x = begin; x < end; x += static_cast<int>(hn::Lanes(d)))
         if (!hn::AllFalse(d, hn::Gt(hn::LoadU(d, cells.compared + x), Const(0))))
-            SumsOf(lookUp, still, cells, x, to);
+            sums(lookUp, still, cells, x, to);
 }
 
 /// Weighted sums over a cell and its neighbours. awayX and awayY: sum of the products of each

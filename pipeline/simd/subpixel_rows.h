@@ -29,6 +29,7 @@ struct SubpixelCells {
     const float* compared;
     /// Four rows of the video's luma [1/8 grey level].
     std::array<const std::int16_t*, 4> video;
+    float light;  ///< Guidance::light
 };
 
 /// Computes the sums of the cells [begin, end). If no cell of a vector is compared, its sums are

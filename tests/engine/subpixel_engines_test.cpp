@@ -36,6 +36,11 @@ double textureAt(const Eigen::Vector2d& p) {
     return sum;
 }
 
+/// Dark and bright patches with sharp borders.
+double patchesAt(const Eigen::Vector2d& p) {
+    return 128 + 110 * std::tanh((textureAt(p) - 128) / 8);
+}
+
 /// Column of cells at which another surface begins, with a step of the flow of 3 px.
 constexpr int kEdge = 22;
 
@@ -50,8 +55,8 @@ Eigen::Vector2d middleOf(int x, int y) {
 
 /// Flow with errors of 0.15 px. Some tiles are not matched, some cells are not in the still.
 struct Surfaces : SeenStill {
-    explicit Surfaces(Size video = kVideo)
-        : SeenStill(bentRig(video, stillOf(video)), textureAt, trueFlow), cells(cellsOf(video)),
+    explicit Surfaces(Size video = kVideo, decltype(&textureAt) texture = textureAt)
+        : SeenStill(bentRig(video, stillOf(video)), texture, trueFlow), cells(cellsOf(video)),
           work(TileWork::everything(tilesOf(video))) {
         work.noise = kNoise;
         for (std::size_t i = 0; i < work.flags.size(); ++i)
@@ -82,14 +87,15 @@ struct Surfaces : SeenStill {
     std::vector<ErrorCell> errors;
 };
 
-std::vector<FlowCell> correctedOnHost(const Surfaces& in, bool usesErrors = true) {
+std::vector<FlowCell> correctedOnHost(const Surfaces& in, bool usesErrors = true, float light = 0) {
     std::vector<FlowCell> out = in.given;
     simd::SubpixelFlow(in.rig, std::make_shared<Workers>(2))
-        .run(in.video, in.pairs(), in.work, out.data(), usesErrors ? in.errors.data() : nullptr);
+        .run(in.video, in.pairs(), light, in.work, out.data(),
+             usesErrors ? in.errors.data() : nullptr);
     return out;
 }
 
-std::vector<FlowCell> correctedOnGpu(const Surfaces& in, bool usesErrors = true) {
+std::vector<FlowCell> correctedOnGpu(const Surfaces& in, bool usesErrors = true, float light = 0) {
     const std::size_t count = in.given.size();
     gpu::Buffer cells(2 * count * sizeof(FlowCell));
     cells.write(std::span(in.given), 0);
@@ -97,12 +103,12 @@ std::vector<FlowCell> correctedOnGpu(const Surfaces& in, bool usesErrors = true)
     TileBuffer tiles(in.rig.video.size);
     tiles.set(in.work);
     SubpixelCorrector(in.rig).run(cells, {0, usesErrors ? static_cast<int>(count) : -1},
-                                  in.videoTexture(), in.stillTexture(), tiles);
+                                  in.videoTexture(), in.stillTexture(), light, tiles);
     return cells.read<FlowCell>(count, 0);
 }
 
-twin::SubpixelCase oracleOf(const Surfaces& in, bool usesErrors) {
-    twin::SubpixelCase out{in.rig, in.grey, in.still, in.cells, {}, {}, kNoise};
+twin::SubpixelCase oracleOf(const Surfaces& in, bool usesErrors, float light) {
+    twin::SubpixelCase out{in.rig, in.grey, in.still, in.cells, {}, {}, kNoise, light};
     for (int y = 0; y < in.cells.height; ++y)
         for (int x = 0; x < in.cells.width; ++x) {
             const std::size_t i = in.index(x, y);
@@ -120,8 +126,9 @@ twin::SubpixelCase oracleOf(const Surfaces& in, bool usesErrors) {
 }
 
 /// Returns the number of cells whose flow changes by more than 0.02 px.
-int expectTheOraclesFlow(const Surfaces& in, const std::vector<FlowCell>& got, bool usesErrors) {
-    const twin::SubpixelCase oracle = oracleOf(in, usesErrors);
+int expectTheOraclesFlow(const Surfaces& in, const std::vector<FlowCell>& got, bool usesErrors,
+                         float light = 0) {
+    const twin::SubpixelCase oracle = oracleOf(in, usesErrors, light);
     std::vector<Eigen::Matrix4d> scatter;
     for (int y = 0; y < in.cells.height; ++y)
         for (int x = 0; x < in.cells.width; ++x)
@@ -153,6 +160,20 @@ TEST_F(SubpixelEngines, BothEnginesMatchTheOracle) {
         const Surfaces in;
         EXPECT_GT(expectTheOraclesFlow(in, correctedOnHost(in, usesErrors), usesErrors), 400);
         EXPECT_GT(expectTheOraclesFlow(in, correctedOnGpu(in, usesErrors), usesErrors), 400);
+    }
+}
+
+TEST_F(SubpixelEngines, BothEnginesMatchTheOracleForPixelsThatAverageLight) {
+    const Surfaces in(kVideo, patchesAt);
+    const auto withoutLight = correctedOnHost(in);
+    for (const float light : {0.7F, 1.5F}) {
+        const auto onHost = correctedOnHost(in, true, light);
+        EXPECT_GT(expectTheOraclesFlow(in, onHost, true, light), 400);
+        EXPECT_GT(expectTheOraclesFlow(in, correctedOnGpu(in, true, light), true, light), 400);
+        double most = 0;
+        for (std::size_t i = 0; i < onHost.size(); ++i)
+            most = std::max<double>(most, std::abs(onHost[i].x - withoutLight[i].x));
+        EXPECT_GT(most, 0.05) << "the light must make a difference";
     }
 }
 

@@ -20,7 +20,7 @@ struct SubpixelCase {
     Size cells;
     std::vector<Eigen::Vector2d> flow;  ///< one vector per cell
     std::vector<bool> compared;         ///< cells that are compared with the still
-    double noise = 0;
+    double noise = 0, light = 0;
 
     [[nodiscard]] bool has(int x, int y) const {
         return x >= 0 && y >= 0 && x < cells.width && y < cells.height;
@@ -64,13 +64,16 @@ inline Eigen::Matrix4d scatterOf(const SubpixelCase& in, int x, int y) {
     const Eigen::Vector2d at = place({0, 0});
     Eigen::Matrix2d along;  // change of the position in the still per video pixel
     along << (place({4, 0}) - at) / 4, (place({0, 4}) - at) / 4;
-    const auto seen = [&](double right, double down) {
-        double sum = 0;
+    // Returns the mean of the still over a pixel, and the mean of its squares.
+    const auto seen = [&](double right, double down) -> Eigen::Array2d {
+        Eigen::Array2d sum(0, 0);
         for (const double dy : {-0.25, 0.25})
             for (const double dx : {-0.25, 0.25}) {
                 const Eigen::Vector2d p = at + along * Eigen::Vector2d(right + dx, down + dy);
-                sum += in.still.bilinear(std::clamp(p.x(), 0.0, in.still.size.width - 1.0),
-                                         std::clamp(p.y(), 0.0, in.still.size.height - 1.0));
+                const double value =
+                    in.still.bilinear(std::clamp(p.x(), 0.0, in.still.size.width - 1.0),
+                                      std::clamp(p.y(), 0.0, in.still.size.height - 1.0));
+                sum += Eigen::Array2d(value, value * value);
             }
         return sum / 4;
     };
@@ -78,8 +81,14 @@ inline Eigen::Matrix4d scatterOf(const SubpixelCase& in, int x, int y) {
     for (int k = 0; k < 16; ++k) {
         const int column = k % 4, row = k / 4;
         const double i = column - 1.5, j = row - 1.5;
-        all.col(k) << in.video.at(4 * x + column, 4 * y + row), seen(i, j),
-            seen(i + 0.5, j) - seen(i - 0.5, j), seen(i, j + 0.5) - seen(i, j - 0.5);
+        const Eigen::Array2d here = seen(i, j), alongX = seen(i + 0.5, j) - seen(i - 0.5, j),
+                             alongY = seen(i, j + 0.5) - seen(i, j - 0.5);
+        const double root = std::max(std::sqrt(here[1]), 1.0);
+        const auto mixed = [&](double mean, double ofLight) {
+            return std::lerp(mean, ofLight, in.light);
+        };
+        all.col(k) << in.video.at(4 * x + column, 4 * y + row), mixed(here[0], root),
+            mixed(alongX[0], alongX[1] / (2 * root)), mixed(alongY[0], alongY[1] / (2 * root));
     }
     all.colwise() -= all.rowwise().mean().eval();
     return all * all.transpose();

@@ -86,7 +86,9 @@ inline constexpr float kSteepestFlow = 0.25F;
 /// Because of aliasing (see kPatchSamples), the flow of most cells is off by about 0.1 px.
 /// Therefore, every cell is finally compared with the still at its full resolution, and one
 /// Gauss-Newton step corrects its flow. The derivative of the still along x is its mean half a
-/// pixel to the right minus its mean half a pixel to the left; along y likewise. The sums over a
+/// pixel to the right minus its mean half a pixel to the left; along y likewise. The mean is that
+/// of the light that a pixel sees, see kSeen; the derivative of the root r of a mean square is the
+/// derivative of the mean square divided by 2 r. The sums over a
 /// cell's pixels count with weight 4, those of the cells beside, above and below it with weight 2,
 /// and those of the diagonal neighbours with weight 1.
 ///
@@ -181,6 +183,7 @@ struct alignas(16) SumSubpixel {
     /// are no ErrorCells.
     std::int32_t source, errors;
     float texelX, texelY;
+    float light;  ///< Guidance::light
 };
 
 struct alignas(16) CorrectSubpixel {
