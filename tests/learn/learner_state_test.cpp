@@ -113,7 +113,8 @@ TEST(LearnerState, StateOfVersionSevenIsReadWithGuidanceButWithoutLight) {
     EnlargerLearner now;
     const SensorPair sensors{.videoNoise = 3, .averagesLight = true};
     const auto truth = matchedPictures(sharpDiscs(1), sensors);
-    now.addOlder(truth, truth);
+    auto older = matchedPictures(sharpDiscs(1), sensors);
+    now.addOlder(truth, older);
     ASSERT_GT(now.filters()->guidance().light, 0.5F);
     const auto whole = now.stored("a, b");
     EXPECT_EQ(EnlargerLearner::restored(whole, "a, b", "state").filters()->guidance(),
@@ -156,14 +157,14 @@ TEST(LearnerState, NumbersOutOfRangeAreRefusedDespiteAValidChecksum) {
     bytes.resize(bytes.size() - 4);
     const std::size_t tone = bytes.size() - kLightSize,
                       guidance = tone - kToneSize - kFineMatchSize - kGuidanceSize;
-    // Sets a bit of an exponent, so that the number is far above its range.
+    // Changes an exponent, so that the number is far above its range.
     for (const auto& [at, fault] :
          {std::pair{guidance + 15, "guidance factors that are out of range"},
           {tone - kToneSize - 1, "fine_share that are out of range"},
           {tone - kToneInUseSize - 1, "tone curve that are out of range"},
           {tone + 7, "guidance factors that are out of range"}}) {
         auto wrong = bytes;
-        wrong[at] ^= 0x40;
+        wrong[at] ^= 0x41;
         enlarge::putNumber(wrong, enlarge::fnv1a(wrong), 4);
         EXPECT_THAT(faultOf(wrong), HasSubstr(fault));
     }
