@@ -88,9 +88,9 @@ inline constexpr float kSteepestFlow = 0.25F;
 /// Gauss-Newton step corrects its flow. The derivative of the still along x is its mean half a
 /// pixel to the right minus its mean half a pixel to the left; along y likewise. The mean is that
 /// of the light that a pixel sees, see kSeen; the derivative of the root r of a mean square is the
-/// derivative of the mean square divided by 2 r. The sums over a
-/// cell's pixels count with weight 4, those of the cells beside, above and below it with weight 2,
-/// and those of the diagonal neighbours with weight 1.
+/// derivative of the mean square divided by 2 r. The sums over a cell's pixels count with weight 4,
+/// those of the cells beside, above and below it with weight 2, and those of the diagonal
+/// neighbours with weight 1.
 ///
 /// The flow of a cell and its change per pixel define a plane. A neighbour was compared at its own
 /// flow, so its sums are first converted to the flow that the plane has there. If its flow is
