@@ -154,8 +154,8 @@ bool VirtualView::mayHideShadow(const PixelRect& tile, float nearest,
 }
 
 // True if the real surface certainly hides all virtual surfaces in and around the tile, whose
-// smallest z is `nearest`. At most kMostGaps pixels of the tile may have unknown depth. At all others, the real
-// surface must certainly be nearer than `nearest`.
+// smallest z is `nearest`. At most kMostGaps pixels of the tile may have unknown depth. At all
+// others, the real surface must certainly be nearer than `nearest`.
 bool VirtualView::isHidden(const PixelRect& tile, float nearest,
                            const InverseDepthField& known) const {
     const TileBounds most{.findings = 0, .unknown = kMostGaps};

@@ -44,8 +44,8 @@ public:
     PixelRect place(const std::optional<RigidTransform>& T_world_video, Timestamp time,
                     const InverseDepthField& known);
     [[nodiscard]] const PixelRect& region() const { return region_; }
-    /// True if the real scene completely hides all placed objects and all places where they may cast
-    /// shadows or light.
+    /// True if the real scene completely hides all placed objects and all places where they may
+    /// cast shadows or light.
     [[nodiscard]] bool isHidden() const { return hidden_; }
     /// Returns which changes of the video require that the objects are drawn again. Always: they
     /// are drawn even if the video did not change, because objects changed, appeared or

@@ -181,10 +181,10 @@ double FactorSums::gainOf(const Guidance& of) const {
 
 /// Returns the best guidance with the given light.
 Guidance FactorSums::withLight(double light, double prior) const {
-    Weights byStill = Weights::Unit(kStill), byVideo = Weights::Unit(kVideo);
-    byStill[kLightOfStill] = light;
-    const Weights left = withMissing_ - products_.col(kLight) * light;
-    const double still2 = byStill.dot(products_ * byStill), video2 = products_(kVideo, kVideo);
+    Weights byStill = Weights::Unit(Still), byVideo = Weights::Unit(Video);
+    byStill[LightOfStill] = light;
+    const Weights left = withMissing_ - products_.col(Light) * light;
+    const double still2 = byStill.dot(products_ * byStill), video2 = products_(Video, Video);
     const double stillVideo = byStill.dot(products_ * byVideo);
     const double stillMissing = byStill.dot(left), videoMissing = byVideo.dot(left);
     Guidance out{0, 0, static_cast<float>(light)};
@@ -208,10 +208,10 @@ Guidance FactorSums::withLight(double light, double prior) const {
 
 /// Returns the best light with the other factors of `of`.
 double FactorSums::lightFor(const Guidance& of, double prior) const {
-    Weights byLight = Weights::Unit(kLight), others = Weights::Zero();
-    byLight[kLightOfStill] = of.still;
-    others[kStill] = of.still;
-    others[kVideo] = of.video;
+    Weights byLight = Weights::Unit(Light), others = Weights::Zero();
+    byLight[LightOfStill] = of.still;
+    others[Still] = of.still;
+    others[Video] = of.video;
     const double square = byLight.dot(products_ * byLight) * (1 + prior / pixels_);
     if (!(square > 0)) return 0;
     return std::clamp(byLight.dot(withMissing_ - products_ * others) / square, 0.0,
@@ -229,22 +229,22 @@ Guidance FactorSums::best(double prior, bool fitsLight) const {
 std::array<double, FactorSums::kNumbers> FactorSums::stored() const {
     const auto& p = products_;
     const Weights& m = withMissing_;
-    return {p(kStill, kStill),
-            p(kVideo, kVideo),
+    return {p(Still, Still),
+            p(Video, Video),
             missing2_,
-            p(kStill, kVideo),
-            m[kStill],
-            m[kVideo],
+            p(Still, Video),
+            m[Still],
+            m[Video],
             pixels_,
-            p(kLight, kLight),
-            p(kLightOfStill, kLightOfStill),
-            p(kStill, kLight),
-            p(kStill, kLightOfStill),
-            p(kVideo, kLight),
-            p(kVideo, kLightOfStill),
-            p(kLight, kLightOfStill),
-            m[kLight],
-            m[kLightOfStill]};
+            p(Light, Light),
+            p(LightOfStill, LightOfStill),
+            p(Still, Light),
+            p(Still, LightOfStill),
+            p(Video, Light),
+            p(Video, LightOfStill),
+            p(Light, LightOfStill),
+            m[Light],
+            m[LightOfStill]};
 }
 
 bool FactorSums::restore(const std::array<double, kNumbers>& of) {

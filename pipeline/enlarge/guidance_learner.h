@@ -15,17 +15,18 @@ namespace mfar::enlarge {
 /// Sums over sub-pixels from which the factors of Guidance are fitted by least squares. They are
 /// sums of products of five values. The first four, the parts, are changes of the drawn frame:
 ///
-/// kStill: the detail that the still would add, for Guidance::still = 1
-/// kVideo: the video's own detail that would be removed, for Guidance::video = 1
-/// kLight: what changes in the still's mean, for Guidance::light = 1
-/// kLightOfStill: what this changes in kStill
+/// Still: the detail that the still would add, for Guidance::still = 1
+/// Video: the video's own detail that would be removed, for Guidance::video = 1
+/// Light: what changes in the still's mean, for Guidance::light = 1
+/// LightOfStill: what this changes in Still
 ///
 /// The fifth value is what the frame misses: the new still minus the frame as drawn without
 /// guidance. The fit approximates it by a sum of the parts with the weights still, video, light and
 /// light * still.
 class FactorSums {
 public:
-    enum Part { kStill, kVideo, kLight, kLightOfStill, kParts };
+    enum Part : std::uint8_t { Still, Video, Light, LightOfStill };
+    static constexpr int kParts = LightOfStill + 1;
     using Parts = Eigen::Matrix<double, kPhases, kParts>;
 
     void add(const Parts& parts, const Phases& missing);

@@ -33,6 +33,31 @@ double noiseOf(std::vector<double>& differences) {
     return std::max(kLeastNoise, 1.5 * *fifth);
 }
 
+// Weights of fitBlur(). The last one is the light. The first one belongs to the pixel itself and is
+// not used.
+constexpr int kWeights = 7, kLight = 6;
+using Weights = Eigen::Matrix<double, kWeights, 1>;
+using WeightSquares = Eigen::Matrix<double, kWeights, kWeights>;
+
+/// Returns the index of a kernel's weight. Offsets that a rotation by 90 degrees or a reflection
+/// maps onto each other share a weight.
+int weightOf(int dx, int dy) {
+    const int a = std::max(std::abs(dx), std::abs(dy)), b = std::min(std::abs(dx), std::abs(dy));
+    return a * (a + 1) / 2 + b;
+}
+
+/// Solves the normal equations. If the light is out of range, returns the best weights with the
+/// nearest light in range.
+Weights bestWeights(const WeightSquares& squares, const Weights& products) {
+    Weights out = squares.llt().solve(products);
+    const double light = std::clamp(out[kLight], 0.0, double(Guidance::kMost));
+    if (light == out[kLight]) return out;
+    out.head<kLight>() = squares.topLeftCorner<kLight, kLight>().llt().solve(
+        products.head<kLight>() - light * squares.col(kLight).head<kLight>());
+    out[kLight] = light;
+    return out;
+}
+
 }  // namespace
 
 TrustedPairs::TrustedPairs(const MatchedPictures& pictures, std::stop_token stop)
@@ -87,14 +112,7 @@ float TrustedPairs::toneOf(float value) const {
 /// different point spread functions, and the factor Guidance::light with which a video pixel
 /// averages what it sees. Afterwards, only wrong matches appear as differences.
 void TrustedPairs::fitBlur() {
-    // The last weight is the light. Weight 0 belongs to the pixel itself and is not used.
-    constexpr int kReach = 2, kWeights = 7, kLight = 6;
-    using Weights = Eigen::Matrix<double, kWeights, 1>;
-    const auto numberOf = [](int dx, int dy) {
-        const int a = std::max(std::abs(dx), std::abs(dy)),
-                  b = std::min(std::abs(dx), std::abs(dy));
-        return a * (a + 1) / 2 + b;
-    };
+    constexpr int kReach = 2;
     Plane toned(seen_.size());
     for (int y = 0; y < video_.height; ++y)
         for (int x = 0; x < video_.width; ++x)
@@ -103,7 +121,7 @@ void TrustedPairs::fitBlur() {
         Weights sums = Weights::Zero();
         for (int dy = -kReach; dy <= kReach; ++dy)
             for (int dx = -kReach; dx <= kReach; ++dx)
-                sums[numberOf(dx, dy)] += toned[at(x + dx, y + dy)] - toned[at(x, y)];
+                sums[weightOf(dx, dy)] += toned[at(x + dx, y + dy)] - toned[at(x, y)];
         const float mean = still_.mean(x, y);
         sums[kLight] = toneOf(mean + still_.rootAboveMean(x, y)) - toneOf(mean);
         return sums;
@@ -114,7 +132,7 @@ void TrustedPairs::fitBlur() {
                 if (known_[(y + dy) / kCell][(x + dx) / kCell] == 0) return false;
         return true;
     };
-    Eigen::Matrix<double, kWeights, kWeights> squares;
+    WeightSquares squares;
     squares.setIdentity();
     Weights products = Weights::Zero();
     seen_ = toned;
@@ -125,14 +143,7 @@ void TrustedPairs::fitBlur() {
             squares.noalias() += sums * sums.transpose();
             products += sums * (videoAt(x, y) - toned[at(x, y)]);
         }
-    Weights weights = squares.llt().solve(products);
-    const double light = std::clamp(weights[kLight], 0.0, double(Guidance::kMost));
-    if (light != weights[kLight]) {
-        // The best kernel for the nearest allowed light.
-        weights.head<kLight>() = squares.topLeftCorner<kLight, kLight>().llt().solve(
-            products.head<kLight>() - light * squares.col(kLight).head<kLight>());
-        weights[kLight] = light;
-    }
+    const Weights weights = bestWeights(squares, products);
     for (int y = kBorder; y < video_.height - kBorder; ++y)
         for (int x = kBorder; x < video_.width - kBorder; ++x)
             if (isKnown(x, y)) seen_[at(x, y)] += static_cast<float>(weights.dot(around(x, y)));

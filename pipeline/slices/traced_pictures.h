@@ -23,8 +23,9 @@ enum class TracedStep : unsigned char {
 };
 
 /// `sinceShown` is PictureScene::changeOf() from the view of the shown picture to the present view;
-/// `sinceNext` is the same for the next picture. A value is empty if its picture does not exist or shows
-/// another scene. Without a next picture, one begins if `sinceShown` is empty or reaches `renewed`.
+/// `sinceNext` is the same for the next picture. A value is empty if its picture does not exist or
+/// shows another scene. Without a next picture, one begins if `sinceShown` is empty or reaches
+/// `renewed`.
 [[nodiscard]] TracedStep nextStep(std::optional<double> sinceShown, std::optional<double> sinceNext,
                                   double renewed);
 

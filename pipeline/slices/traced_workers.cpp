@@ -146,8 +146,7 @@ RenderView TracedWorkers::predictedView() const {
         std::min(ms / budget_.msPerFrame() * tickSeconds_, options_.prediction.seconds);
     for (int i = 0; i < 4; ++i, seconds /= 2) {
         const RenderView there{now.camera, predictor_.predict(seconds, distance)};
-        if (scene_->changeOf(now, there, options_.policy.limits) < kPredictedChange)
-            return there;
+        if (scene_->changeOf(now, there, options_.policy.limits) < kPredictedChange) return there;
     }
     return now;
 }
