@@ -48,7 +48,7 @@ struct FrameStats {
     /// known to lie behind the object.
     int depthTilesSkipped = 0;
     bool objectsInView = false;
-    bool objectsHidden = false;  ///< no object was drawn, because real things hide all objects
+    bool objectsHidden = false;  ///< nothing virtual was drawn, because real things hide it
     DepthSource depth = DepthSource::None;
     Transfers transfers{};
 };

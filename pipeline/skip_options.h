@@ -16,7 +16,7 @@ struct SkipOptions {
     bool knownFlow = true;      ///< the 2-D search starts from the last frame's flow
     bool knownBehind = true;    ///< real depth that is known to lie behind objects is not measured
     bool objectsAtRest = true;  ///< objects over unchanged tiles are not drawn again
-    bool hiddenObjects = true;  ///< objects completely occluded by real things are not drawn
+    bool hiddenObjects = true;  ///< objects and shadows that real things occlude are not drawn
     bool objectBounds = true;   ///< the layer is drawn only in a rectangle around the objects
 };
 

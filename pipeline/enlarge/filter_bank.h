@@ -17,10 +17,10 @@ class FilterBankError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// How still and video are compared at the video's resolution. `still` and `video` are the shares
-/// in which the still's finest detail replaces the video's; see params::kGuideReach. If both
-/// sensors have the same exposure, they are similar. `light` describes how a video pixel averages
-/// what it sees; see params::kSeen. If all factors are zero, there is no guidance.
+/// Learned factors that combine still and video at the video's resolution. `still` and `video`
+/// determine how far the still's finest detail replaces the video's; see params::kGuideReach. They
+/// are similar if both sensors have the same exposure. `light` determines how a video pixel
+/// averages what it sees; see params::kSeen. If all factors are zero, there is no guidance.
 struct Guidance {
     float still = 0;  ///< added share of the still's detail, [0, 1]
     float video = 0;  ///< removed share of the video's detail, [0, kMost]

@@ -42,6 +42,11 @@ Eigen::AlignedBox3d sweptBounds(const RigidTransform& T_frame_world, const Scene
     return box;
 }
 
+std::optional<ObjectBall> ballAround(const Eigen::AlignedBox3f& box, double scale) {
+    if (box.isEmpty()) return {};
+    return ObjectBall{scale * box.center().cast<double>(), 0.5 * scale * box.diagonal().norm()};
+}
+
 }  // namespace
 
 std::optional<ObjectBall> ownBall(const SceneObject& object) {
@@ -50,9 +55,7 @@ std::optional<ObjectBall> ownBall(const SceneObject& object) {
     for (const Mesh& mesh : meshesOf(object))
         for (const Eigen::Vector3f& p : mesh.positions)
             box.extend(p);
-    if (box.isEmpty()) return {};
-    return ObjectBall{object.scale * box.center().cast<double>(),
-                      0.5 * object.scale * box.diagonal().norm()};
+    return ballAround(box, object.scale);
 }
 
 std::vector<ObjectBall> objectBalls(const Scene& scene) {
@@ -67,8 +70,7 @@ std::optional<ObjectBall> catcherBall(const Scene& scene) {
     Eigen::AlignedBox3f box;
     for (const Eigen::Vector3f& p : scene.catcher.positions)
         box.extend(p);
-    if (box.isEmpty()) return {};
-    return ObjectBall{box.center().cast<double>(), 0.5 * box.diagonal().norm()};
+    return ballAround(box, 1);
 }
 
 Eigen::AlignedBox3d boundsIn(const RigidTransform& T_frame_world, const SceneObject& object) {

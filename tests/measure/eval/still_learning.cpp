@@ -39,9 +39,8 @@ void StillLearning::report(const char* program) const {
         "learned filter. On pixels kept for the check, learned filters gain {:.2f} dB over "
         "bicubic, shipped filters {:.2f} dB. Guidance, learned from {} pairs of stills, adds "
         "{:.2f} of the still's finest detail and removes {:.2f} of the video's, with a light "
-        "factor "
-        "of {:.2f} (0: a video pixel averages grey levels, 1: light); on pixels of its check, this "
-        "gains {:.2f} dB over no guidance. A well matched still does not predict all "
+        "factor of {:.2f} (0: a video pixel averages grey levels, 1: light); on pixels of its "
+        "check, this gains {:.2f} dB over no guidance. A well matched still does not predict all "
         "of the video's finest detail: the variance of the rest is {:.2f} grey levels^2 + {:.3f} "
         "times the whole variance\n",
         program, counts.stills, counts.refused, counts.repeated, counts.classes, enlarge::kUnique,
