@@ -1,6 +1,6 @@
 // Computes the finest pyramid level of the still, in the geometry and resolution of the video. The
 // tone curve is applied to the still's luma, which is then averaged over the area of each video
-// pixel.
+// pixel; see kSeen for the mean.
 // In: still, RGBA8; tone curve. Out: words of luma. One invocation per word.
 #include "luma.glsl"
 #include "rig.glsl"
@@ -17,15 +17,17 @@ layout(std430, binding = 0) writeonly buffer Luma {
 
 float footprintMean(vec2 centre) {
     vec2 texel = vec2(params.texelX, params.texelY);
-    float sum = 0.0;
+    vec2 sums = vec2(0.0);  // of the samples, of their squares
     for (int j = 0; j < kFootprintTaps; ++j) {
         for (int i = 0; i < kFootprintTaps; ++i) {
             vec2 off = (vec2(i, j) + 0.5) / float(kFootprintTaps) - 0.5;
             vec2 q = centre + off * params.footprint;
-            sum += toned(lumaOf(textureLod(still, (q + 0.5) * texel, 0.0).rgb));
+            float value = toned(lumaOf(textureLod(still, (q + 0.5) * texel, 0.0).rgb));
+            sums += vec2(value, value * value);
         }
     }
-    return 255.0 * sum / float(kFootprintTaps * kFootprintTaps);
+    vec2 means = sums / float(kFootprintTaps * kFootprintTaps);
+    return 255.0 * mix(means.x, sqrt(means.y), params.light);
 }
 
 void main() {

@@ -16,7 +16,7 @@ void FrameMatcher::match(const RgbPlanes& video, Rows<const std::uint8_t> still,
     const ImageView view{still.data, still.size, static_cast<std::size_t>(still.pitch),
                          PixelFormat::Gray8};
     const StillPictures& pictures = still_->run(view, SuperResMode::Detail, {}, 0);
-    pyramid_->still(pictures);
+    pyramid_->still(pictures, 0);
     const TileWork work = TileWork::everything(tilesOf(rig_.video.size));
     const VideoFrame frame{view, video, ++frames_};  // the steps read only the planes, not the view
     const LumaPyramid& luma = pyramid_->video(frame, work);

@@ -87,7 +87,7 @@ void Pipeline::setStill(const ImageView& still, Timestamp time, const std::optio
     s.tellReplaced();
     s.retireNewest();
     s.filters = s.nextFilters;
-    s.newest.take(still, time, s.quality.mode, s.filterBank()->tone());
+    s.newest.take(still, time, s.quality.mode, *s.filterBank());
     if (s.options.engines.weigh == EngineKind::Simd || s.options.engines.detail == EngineKind::Simd)
         s.simd->take(*s.newest.pictures);
     if (s.epipolar) s.epipolar->dropStill();

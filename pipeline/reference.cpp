@@ -17,10 +17,10 @@ constexpr double kSameView = 0.5 * kTileSize;
 }  // namespace
 
 void Reference::take(const ImageView& picture, Timestamp taken, SuperResMode mode,
-                     const StillTone& tone) {
+                     const FilterBank& filters) {
     time = taken;
-    pictures = &still->run(picture, mode, tone, simd::noiseOfStill(picture));
-    pyramid->still(*pictures);
+    pictures = &still->run(picture, mode, filters.tone(), simd::noiseOfStill(picture));
+    pyramid->still(*pictures, filters.guidance().light);
     lastFlow = nullptr;
     shows = 1;
     first.clear();

@@ -2,6 +2,7 @@
 
 #include "base/time.h"
 #include "pipeline/engine/steps.h"
+#include "pipeline/enlarge/filter_bank.h"
 
 #include <memory>
 #include <vector>
@@ -24,7 +25,9 @@ struct Reference {
     /// Cells of the first frame that was matched with the still, or empty.
     std::vector<WeighedCell> first{};
 
-    void take(const ImageView& picture, Timestamp taken, SuperResMode mode, const StillTone& tone);
+    /// Prepares a new still with the tone curve and the guidance of `filters`.
+    void take(const ImageView& picture, Timestamp taken, SuperResMode mode,
+              const FilterBank& filters);
     void drop();
     /// Updates `shows` after a frame. `tiles` is the number of tiles that were matched with the
     /// still. `shown` is the number of these tiles that show it.

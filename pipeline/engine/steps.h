@@ -92,7 +92,8 @@ public:
     virtual ~PyramidStep() = default;
     /// Computes the video's pyramid. Does nothing if no tile of the frame is matched with a still.
     virtual const LumaPyramid& video(const VideoFrame& frame, const TileWork& work) = 0;
-    virtual const LumaPyramid& still(const StillPictures& still) = 0;
+    /// Computes the still's pyramid. `light`: Guidance::light.
+    virtual const LumaPyramid& still(const StillPictures& still, float light) = 0;
 };
 
 class FlowStep {

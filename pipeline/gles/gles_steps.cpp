@@ -134,7 +134,7 @@ public:
         if (work.matched > 0) pyramids_.buildVideo(frame_.video(frame));
         return written();
     }
-    const LumaPyramid& still(const StillPictures& still) override {
+    const LumaPyramid& still(const StillPictures& still, float light) override {
         DeviceCopy& copy = still.luma.device([&] {
             return std::make_unique<TextureCopy>(still.luma.size(), gpu::TexelFormat::R8,
                                                  gpu::Filter::Linear);
@@ -142,9 +142,10 @@ public:
         // If the SIMD engine prepared the still, `copy` is a texture of the still's luma, to which
         // the tone curve is already applied. The shaders read this texture as a grey picture.
         if (const auto* own = dynamic_cast<const StillLumaCopy*>(&copy))
-            pyramids_.buildStill(own->texture(), own->tone(), rig_);
+            pyramids_.buildStill(own->texture(), own->tone(), rig_, light);
         else
-            pyramids_.buildStill(static_cast<const TextureCopy&>(copy).texture(), untoned_, rig_);
+            pyramids_.buildStill(static_cast<const TextureCopy&>(copy).texture(), untoned_, rig_,
+                                 light);
         return written();
     }
 

@@ -38,14 +38,15 @@ void LumaPyramids::buildVideo(const gpu::Texture& video) {
 }
 
 void LumaPyramids::buildStill(const gpu::Texture& still, const ToneTexture& tone,
-                              const StereoRig& rig) {
+                              const StereoRig& rig, float light) {
     const double footprint = lumaBoxWidening() * rig.still.fx / rig.video.fx;
     fromStill_.run(
         {.rig = rigParams(rig),
          .target = still_[0],
          .texelX = static_cast<float>(1.0 / still.size().width),
          .texelY = static_cast<float>(1.0 / still.size().height),
-         .footprint = static_cast<float>(footprint)},
+         .footprint = static_cast<float>(footprint),
+         .light = light},
         {gpu::sampler(0, still), gpu::sampler(1, tone.texture()), gpu::storage(0, words_)},
         groupsOf(still_[0]));
     buildCoarse(still_);

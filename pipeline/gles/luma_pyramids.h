@@ -28,8 +28,9 @@ public:
     /// `video` is an RGBA8 or R8 texture of the video's size.
     void buildVideo(const gpu::Texture& video);
     /// `still` is an RGBA8 or R8 texture with a linear filter. Must be called once for each new
-    /// still.
-    void buildStill(const gpu::Texture& still, const ToneTexture& tone, const StereoRig& rig);
+    /// still. `light`: Guidance::light.
+    void buildStill(const gpu::Texture& still, const ToneTexture& tone, const StereoRig& rig,
+                    float light);
     /// Makes the still's pyramid from a picture in the video's geometry. Used for the flow between
     /// two frames.
     void buildSecond(const gpu::Texture& picture);

@@ -42,9 +42,14 @@ struct StillPicture {
     std::ptrdiff_t pitch;
     int width, height;
 };
-/// Writes for each video pixel of a row the mean of the still over a square of width `footprint`
-/// [still px] around (stillX, stillY). The mean has 4x4 bilinear taps, as in luma_from_still.comp.
-void footprintRow(const StillPicture& still, float footprint, const float* stillX,
+/// The area of a video pixel in the still.
+struct Footprint {
+    float width;  ///< width of the square [still px]
+    float light;  ///< Guidance::light
+};
+/// Writes for each video pixel of a row the mean of the still over the footprint around (stillX,
+/// stillY). The mean has 4x4 bilinear taps, as in luma_from_still.comp.
+void footprintRow(const StillPicture& still, const Footprint& footprint, const float* stillX,
                   const float* stillY, int width, std::uint8_t* to);
 
 }  // namespace mfar::simd

@@ -99,11 +99,12 @@ void LumaPyramids::findStillPixels(const StillLens& lens) {
     });
 }
 
-void LumaPyramids::buildStill(Rows<const std::uint8_t> luma, const StereoRig& rig) {
+void LumaPyramids::buildStill(Rows<const std::uint8_t> luma, const StereoRig& rig, float light) {
     findStillPixels(lensOf(rig));
     const LumaLevel& level = still_[0];
     const StillPicture still{luma.data, luma.pitch, luma.size.width, luma.size.height};
-    const auto footprint = static_cast<float>(lumaBoxWidening() * rig.still.fx / rig.video.fx);
+    const double width = lumaBoxWidening() * rig.still.fx / rig.video.fx;
+    const Footprint footprint{static_cast<float>(width), light};
     workers_->forRange(level.height, 8, [&](int first, int last) {
         for (int y = first; y < last; ++y) {
             footprintRow(still, footprint, stillX_[y], stillY_[y], level.width, rowOf(level, y));

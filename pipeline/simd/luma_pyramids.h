@@ -25,7 +25,8 @@ public:
 
     void buildVideo(const RgbPlanes& video);
     /// Builds the still's pyramid from its luma, of size rig.still.size. Needed once per still.
-    void buildStill(Rows<const std::uint8_t> luma, const StereoRig& rig);
+    /// `light`: Guidance::light.
+    void buildStill(Rows<const std::uint8_t> luma, const StereoRig& rig, float light);
     /// For flow between two frames: builds the still's pyramid from the luma of the second frame.
     void buildSecond(Rows<const std::uint8_t> luma);
     /// Builds the video's pyramid from the luma of a frame, without its colours.

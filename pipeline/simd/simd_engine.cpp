@@ -59,8 +59,8 @@ public:
         if (work.matched > 0) pyramids_.buildVideo(frame.planes);
         return written();
     }
-    const LumaPyramid& still(const StillPictures& still) override {
-        pyramids_.buildStill(still.luma.host(), rig_);
+    const LumaPyramid& still(const StillPictures& still, float light) override {
+        pyramids_.buildStill(still.luma.host(), rig_, light);
         return written();
     }
 

@@ -73,13 +73,12 @@ HWY_INLINE void placeTaps(float centre, float footprint, int size, Taps& out) {
     }
 }
 
-std::uint8_t footprintMean(const StillPicture& p, const Taps& x, const Taps& y) {
+std::uint8_t footprintMean(const StillPicture& p, float light, const Taps& x, const Taps& y) {
     const auto row = [&](int i) { return p.pixels + std::clamp(i, 0, p.height - 1) * p.pitch; };
     const auto column = [&](int i) { return std::clamp(i, 0, p.width - 1); };
-    float sum = 0;
+    float sum = 0, squares = 0;
     for (int j = 0; j < kTaps; ++j) {
         const std::uint8_t *upper = row(y.first[j]), *lower = row(y.first[j] + 1);
-        float across = 0;
         for (int i = 0; i < kTaps; ++i) {
             const int left = column(x.first[i]), right = column(x.first[i] + 1);
             const auto down = static_cast<float>(y.share[j]) / kShare;
@@ -87,11 +86,14 @@ std::uint8_t footprintMean(const StillPicture& p, const Taps& x, const Taps& y) 
                             static_cast<float>(lower[left] - upper[left]) * down;
             const float b = static_cast<float>(upper[right]) +
                             static_cast<float>(lower[right] - upper[right]) * down;
-            across += a + (b - a) * (static_cast<float>(x.share[i]) / kShare);
+            const float value = a + (b - a) * (static_cast<float>(x.share[i]) / kShare);
+            sum += value;
+            squares += value * value;
         }
-        sum += across;
     }
-    return static_cast<std::uint8_t>(std::clamp(sum / (kTaps * kTaps) + 0.5F, 0.0F, 255.0F));
+    const float mean = sum / (kTaps * kTaps), root = std::sqrt(squares / (kTaps * kTaps));
+    const float seen = mean + light * (root - mean);
+    return static_cast<std::uint8_t>(std::clamp(seen + 0.5F, 0.0F, 255.0F));
 }
 
 #if HWY_TARGET != HWY_SCALAR
@@ -124,8 +126,27 @@ HWY_INLINE hn::Vec<Taps16> tapsOf(const std::uint8_t* window,
     return hn::PromoteTo(Taps16(), hn::TableLookupBytes(hn::LoadU(dWindow, window), at));
 }
 
+/// Returns the samples between the pairs of pixels in `pairs`. `share`: weight of the second pixel.
+HWY_INLINE hn::Vec<Four> between(hn::Vec<Taps16> pairs, hn::Vec<Four> share) {
+    const Four d;
+    const FourInt dInt;
+    const auto both = hn::BitCast(dInt, pairs);
+    const auto first = hn::ConvertTo(d, hn::And(both, hn::Set(dInt, 0xFFFF)));
+    const auto second = hn::ConvertTo(d, hn::ShiftRight<16>(both));
+    return hn::MulAdd(hn::Sub(second, first), share, first);
+}
+
+/// Sums of a footprint's samples, in four parts, and of their squares, which are only needed for
+/// means of light. A sample's unit is 1/16 grey level; the sums are also scaled by kShare.
+struct FootprintSums {
+    std::int32_t samples[kMostLanes][kTaps] = {};
+    float squares[kMostLanes][kTaps] = {};
+};
+
+template <bool kOfLight>
 HWY_INLINE void sumWindow(const StillPicture& p, const TapLanes& x, const TapLanes& y, int left,
-                          std::int32_t* parts) {
+                          int pixel, FootprintSums& to) {
+    const Four d;
     const Taps16 d16;
     const FourInt dInt;
     const hn::FixedTag<std::uint16_t, kTaps> dPairs;
@@ -139,6 +160,8 @@ HWY_INLINE void sumWindow(const StillPicture& p, const TapLanes& x, const TapLan
     hn::StoreU(y.first, dInt, rows);
     hn::StoreU(y.share, dInt, shares);
     auto sum = hn::Zero(dInt), sum1 = hn::Zero(dInt);
+    auto squares = hn::Zero(d);
+    const auto across = hn::Mul(hn::ConvertTo(d, x.share), hn::Set(d, 1 / kShare));
     for (int j = 0; j < kTaps; ++j) {
         const std::uint8_t* window = p.pixels + rows[j] * p.pitch + left;
         const auto upper = tapsOf(window, at), lower = tapsOf(window + p.pitch, at);
@@ -146,26 +169,89 @@ HWY_INLINE void sumWindow(const StillPicture& p, const TapLanes& x, const TapLan
         const auto down = hn::Set(d16, static_cast<std::int16_t>(shares[j]));
         const auto v = hn::Add(hn::ShiftLeft<kValueBits>(upper), hn::MulFixedPoint15(step, down));
         sum = hn::ReorderWidenMulAccumulate(dInt, v, weights, sum, sum1);
+        if constexpr (kOfLight) {
+            const auto sample = between(v, across);
+            squares = hn::MulAdd(sample, sample, squares);
+        }
     }
-    hn::StoreU(hn::Add(sum, sum1), dInt, parts);
+    hn::StoreU(hn::Add(sum, sum1), dInt, to.samples[pixel]);
+    if constexpr (kOfLight) hn::StoreU(squares, d, to.squares[pixel]);
 }
 
-HWY_INLINE void storeMeans(const std::int32_t (*parts)[4], int count, std::uint8_t* to) {
+/// Returns the sums of the four parts of each pixel's sum, for as many pixels as Floats has lanes.
+template <class D>
+HWY_INLINE hn::Vec<D> sumsOfParts(D d, const hn::TFromD<D> (*parts)[kTaps]) {
+    hn::Vec<D> a, b, c, e;
+    hn::LoadInterleaved4(d, parts[0], a, b, c, e);
+    return hn::Add(hn::Add(a, b), hn::Add(c, e));
+}
+
+template <bool kOfLight>
+HWY_INLINE void storeMeans(const FootprintSums& sums, float light, int count, std::uint8_t* to) {
     const Floats d;
     const hn::RebindToSigned<Floats> dInt;
     const hn::Rebind<std::uint8_t, Floats> dBytes;
     std::uint8_t means[kMostLanes];
-    const auto unit = hn::Set(d, 1.0F / ((1 << kValueBits) * kShare * kTaps * kTaps));
+    constexpr float kUnit = 1 << kValueBits, kSamples = kTaps * kTaps;
+    const auto unit = hn::Set(d, 1 / (kUnit * kShare * kSamples)), half = hn::Set(d, 0.5F);
+    const auto squareUnit = hn::Set(d, 1 / (kUnit * kUnit * kSamples));
     for (int i = 0; i < count; i += static_cast<int>(hn::Lanes(d))) {
-        hn::Vec<decltype(dInt)> a, b, c, e;
-        hn::LoadInterleaved4(dInt, parts[i], a, b, c, e);
-        const auto sum = hn::ConvertTo(d, hn::Add(hn::Add(a, b), hn::Add(c, e)));
-        const auto mean = hn::ConvertTo(dInt, hn::MulAdd(sum, unit, hn::Set(d, 0.5F)));
-        hn::StoreU(hn::DemoteTo(dBytes, mean), dBytes, means + i);
+        const auto sum = hn::ConvertTo(d, sumsOfParts(dInt, sums.samples + i));
+        auto rounded = hn::MulAdd(sum, unit, half);
+        if constexpr (kOfLight) {
+            const auto root = hn::Sqrt(hn::Mul(sumsOfParts(d, sums.squares + i), squareUnit));
+            const auto above = hn::Sub(root, hn::Mul(sum, unit));
+            rounded = hn::MulAdd(hn::Set(d, light), above, rounded);
+        }
+        hn::StoreU(hn::DemoteTo(dBytes, hn::ConvertTo(dInt, rounded)), dBytes, means + i);
     }
     std::copy_n(means, count, to);
 }
 #endif
+
+template <bool kOfLight>
+void meanRow(const StillPicture& still, const Footprint& footprint, const float* stillX,
+             const float* stillY, int width, std::uint8_t* to) {
+    const auto slowly = [&](int i) {
+        Taps x, y;
+        placeTaps(stillX[i], footprint.width, still.width, x);
+        placeTaps(stillY[i], footprint.width, still.height, y);
+        to[i] = footprintMean(still, footprint.light, x, y);
+    };
+#if HWY_TARGET == HWY_SCALAR
+    for (int i = 0; i < width; ++i)
+        slowly(i);
+#else
+    const Four d;
+    const auto offsets = hn::Mul(hn::Sub(hn::Iota(d, 0.5F), hn::Set(d, kTaps / 2.0F)),
+                                 hn::Set(d, footprint.width / kTaps));
+    const float reach = footprint.width * (kTaps - 1) / (2 * kTaps);
+    // All comparisons are false if q is NaN.
+    const auto within = [&](float q, int room, int size) {
+        return q - reach >= 0 && q - reach + static_cast<float>(room) <= static_cast<float>(size) &&
+               q + reach + 2 <= static_cast<float>(size);
+    };
+    FootprintSums sums;
+    for (int first = 0; first < width; first += kMostLanes) {
+        const int count = std::min(kMostLanes, width - first);
+        unsigned outside = 0;
+        for (int k = 0; k < count; ++k) {
+            const float x = stillX[first + k], y = stillY[first + k];
+            if (footprint.width <= kMostFootprint && within(x, kWindow, still.width) &&
+                within(y, 2, still.height)) {
+                const TapLanes across(offsets, x);
+                sumWindow<kOfLight>(still, across, TapLanes(offsets, y), hn::GetLane(across.first),
+                                    k, sums);
+            } else {
+                outside |= 1U << k;
+            }
+        }
+        storeMeans<kOfLight>(sums, footprint.light, count, to + first);
+        for (int k = 0; outside != 0; ++k, outside >>= 1)
+            if ((outside & 1) != 0) slowly(first + k);
+    }
+#endif
+}
 
 }  // namespace
 
@@ -194,46 +280,12 @@ void StillPixelRow(const StillLens& lens, int y, int width, float* stillX, float
     }
 }
 
-void FootprintRow(const StillPicture& still, float footprint, const float* stillX,
+void FootprintRow(const StillPicture& still, const Footprint& footprint, const float* stillX,
                   const float* stillY, int width, std::uint8_t* to) {
-    const auto slowly = [&](int i) {
-        Taps x, y;
-        placeTaps(stillX[i], footprint, still.width, x);
-        placeTaps(stillY[i], footprint, still.height, y);
-        to[i] = footprintMean(still, x, y);
-    };
-#if HWY_TARGET == HWY_SCALAR
-    for (int i = 0; i < width; ++i)
-        slowly(i);
-#else
-    const Four d;
-    const auto offsets = hn::Mul(hn::Sub(hn::Iota(d, 0.5F), hn::Set(d, kTaps / 2.0F)),
-                                 hn::Set(d, footprint / kTaps));
-    const float reach = footprint * (kTaps - 1) / (2 * kTaps);
-    // All comparisons are false if q is NaN.
-    const auto within = [&](float q, int room, int size) {
-        return q - reach >= 0 && q - reach + static_cast<float>(room) <= static_cast<float>(size) &&
-               q + reach + 2 <= static_cast<float>(size);
-    };
-    alignas(64) std::int32_t parts[kMostLanes][4] = {};
-    for (int first = 0; first < width; first += kMostLanes) {
-        const int count = std::min(kMostLanes, width - first);
-        unsigned outside = 0;
-        for (int k = 0; k < count; ++k) {
-            const float x = stillX[first + k], y = stillY[first + k];
-            if (footprint <= kMostFootprint && within(x, kWindow, still.width) &&
-                within(y, 2, still.height)) {
-                const TapLanes across(offsets, x);
-                sumWindow(still, across, TapLanes(offsets, y), hn::GetLane(across.first), parts[k]);
-            } else {
-                outside |= 1U << k;
-            }
-        }
-        storeMeans(parts, count, to + first);
-        for (int k = 0; outside != 0; ++k, outside >>= 1)
-            if ((outside & 1) != 0) slowly(first + k);
-    }
-#endif
+    if (footprint.light > 0)
+        meanRow<true>(still, footprint, stillX, stillY, width, to);
+    else
+        meanRow<false>(still, footprint, stillX, stillY, width, to);
 }
 
 }  // namespace mfar::simd::HWY_NAMESPACE
@@ -249,7 +301,7 @@ void stillPixelRow(const StillLens& lens, int y, int width, float* stillX, float
     HWY_DYNAMIC_DISPATCH(StillPixelRow)(lens, y, width, stillX, stillY);
 }
 
-void footprintRow(const StillPicture& still, float footprint, const float* stillX,
+void footprintRow(const StillPicture& still, const Footprint& footprint, const float* stillX,
                   const float* stillY, int width, std::uint8_t* to) {
     HWY_DYNAMIC_DISPATCH(FootprintRow)(still, footprint, stillX, stillY, width, to);
 }

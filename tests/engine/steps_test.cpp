@@ -1,5 +1,6 @@
 #include "base/workers.h"
 #include "pipeline/engine/engine.h"
+#include "pipeline/enlarge/filter_bank.h"
 #include "tests/engine/engine_name.h"
 #include "tests/engine/gl_test.h"
 #include "tests/engine/pictures.h"
@@ -82,13 +83,16 @@ TEST_P(StepsTest, StillPyramidIsResampledToPixelsOfTheVideo) {
         const TestPicture still = Waves(3, 12, 200, 40).shoot(rig.still.size, {});
         const auto engine = engineFor(rig, rig.still.size);
         const auto prepare = engine->still();
+        const StillPictures& pictures = prepare->run(still.view(), SuperResMode::Detail, {}, 0);
         const auto step = engine->pyramid();
-        const LumaPyramid& pyramid =
-            step->still(prepare->run(still.view(), SuperResMode::Detail, {}, 0));
-        // Tolerance: the shaders' filter has weights of 8 bits; the kernels filter rounded luma.
-        EXPECT_LE(worstOf(levelOf(pyramid, pyramid.still[0]),
-                          twin::lumaFromStill(twin::luma(still.view()), rig)),
-                  kToABit + 1);
+        for (const float light : {0.0F, 0.8F, Guidance::kMost}) {
+            const LumaPyramid& pyramid = step->still(pictures, light);
+            // Tolerance: the shaders' filter has weights of 8 bits; the kernels filter rounded
+            // luma.
+            EXPECT_LE(worstOf(levelOf(pyramid, pyramid.still[0]),
+                              twin::lumaFromStill(twin::luma(still.view()), rig, light)),
+                      kToABit + 1);
+        }
     }
 }
 
@@ -176,9 +180,9 @@ TEST_P(StepsTest, TheToneCurveIsAppliedToTheStillsLumaPyramidAndDetail) {
                           curve(luma)),
                   2);
         const auto pyramids = engine->pyramid();
-        const LumaPyramid& pyramid = pyramids->still(made);
+        const LumaPyramid& pyramid = pyramids->still(made, 1);
         EXPECT_LE(
-            worstOf(levelOf(pyramid, pyramid.still[0]), twin::lumaFromStill(curve(luma), rig)),
+            worstOf(levelOf(pyramid, pyramid.still[0]), twin::lumaFromStill(curve(luma), rig, 1)),
             2.5);
         const twin::Grey shown = share == 0 ? twin::reduced(luma, made.rig.still.size) : luma;
         EXPECT_LE(worstOf(raisedOf(made), twin::raised(curve(shown), share)), 3) << share;

@@ -264,7 +264,7 @@ struct FlowOfOneFrame {
           luma(lumaOf(TileWork::everything(tilesOf(in.rig.video.size)))) {}
 
     const LumaPyramid& lumaOf(const TileWork& work) {
-        pyramid->still(pictures);
+        pyramid->still(pictures, 0);
         return pyramid->video(frame, work);
     }
     std::vector<FlowCell> run(const TileWork& work) {

@@ -35,7 +35,7 @@ TEST_F(WeighEngines, BothEnginesGiveTheSameWeights) {
     tiles.set(work);
     pyramids.buildVideo(uploaded(picture));
     const TestPicture still = waves.shoot(kStill, {.step = step, .footprint = step});
-    pyramids.buildStill(uploaded(still, gpu::Filter::Linear), ToneTexture(), rig);
+    pyramids.buildStill(uploaded(still, gpu::Filter::Linear), ToneTexture(), rig, 0);
     flow.run(pyramids.luma(), tiles, false);
     weigher.run({pyramids.video(), pyramids.still(), pyramids.words(), flow.cells(),
                  flow.forward().offset, flow.forward().cells, flow.backward().cells,

@@ -95,17 +95,22 @@ inline Eigen::Vector2d stillPixel(const StereoRig& rig, const Eigen::Vector2d& v
 }
 
 /// Resamples the still to the video's pixels. Each is the mean over its footprint in the still,
-/// widened by kBoxWidening.
-inline Grey lumaFromStill(const Grey& still, const StereoRig& rig) {
+/// widened by kBoxWidening. `light`: Guidance::light.
+inline Grey lumaFromStill(const Grey& still, const StereoRig& rig, double light) {
     const double footprint = kBoxWidening * rig.still.fx / rig.video.fx;
     return greyOf(rig.video.size, [&](int x, int y) {
         const Eigen::Vector2d q = stillPixel(rig, Eigen::Vector2d(x, y));
-        double sum = 0;
+        double sum = 0, squares = 0;
         for (int j = 0; j < kFootprintTaps; ++j)
-            for (int i = 0; i < kFootprintTaps; ++i)
-                sum += still.bilinear(q.x() + ((i + 0.5) / kFootprintTaps - 0.5) * footprint,
-                                      q.y() + ((j + 0.5) / kFootprintTaps - 0.5) * footprint);
-        return sum / (kFootprintTaps * kFootprintTaps);
+            for (int i = 0; i < kFootprintTaps; ++i) {
+                const double value =
+                    still.bilinear(q.x() + ((i + 0.5) / kFootprintTaps - 0.5) * footprint,
+                                   q.y() + ((j + 0.5) / kFootprintTaps - 0.5) * footprint);
+                sum += value;
+                squares += value * value;
+            }
+        constexpr double kSamples = kFootprintTaps * kFootprintTaps;
+        return std::lerp(sum / kSamples, std::sqrt(squares / kSamples), light);
     });
 }
 

@@ -57,6 +57,7 @@ struct alignas(16) LumaFromStill {
     LumaLevel target;
     float texelX, texelY;
     float footprint;  ///< size of a video pixel [still px]
+    float light;      ///< Guidance::light
 };
 
 struct alignas(16) LumaDown {

@@ -1,4 +1,5 @@
 #include "pipeline/simd/luma_pyramids.h"
+#include "pipeline/enlarge/filter_bank.h"
 #include "tests/engine/simd/flow_pictures.h"
 
 #include <gtest/gtest.h>
@@ -113,17 +114,18 @@ TEST(LumaPyramids, StillsAreResampledToPixelsOfTheVideo) {
     for (const Size size : {Size{345, 259}, Size{96, 72}, Size{1000, 750}}) {
         const FlowPicture still = wavesMoved(size, {0, 0});
         const Size video{96, 72};
-        for (const StereoRig& rig : {rigOf(video, size), bentRigOf(video, size)}) {
-            LumaPyramids pyramids(video, twoWorkers());
-            pyramids.buildStill(still.rows(), rig);
-            const Stored level(pyramids, pyramids.still()[0]);
-            const twin::Grey wanted = twin::lumaFromStill(greyOf(still), rig);
-            level.checkMargins();
-            for (int y = 0; y < video.height; ++y)
-                for (int x = 0; x < video.width; ++x)
-                    ASSERT_NEAR(level.at(x, y), wanted.at(x, y), kRounding + 0.15)
-                        << x << ", " << y << " of " << size.width;
-        }
+        for (const StereoRig& rig : {rigOf(video, size), bentRigOf(video, size)})
+            for (const float light : {0.0F, 0.7F, Guidance::kMost}) {
+                LumaPyramids pyramids(video, twoWorkers());
+                pyramids.buildStill(still.rows(), rig, light);
+                const Stored level(pyramids, pyramids.still()[0]);
+                const twin::Grey wanted = twin::lumaFromStill(greyOf(still), rig, light);
+                level.checkMargins();
+                for (int y = 0; y < video.height; ++y)
+                    for (int x = 0; x < video.width; ++x)
+                        ASSERT_NEAR(level.at(x, y), wanted.at(x, y), kRounding + 0.15)
+                            << x << ", " << y << " of " << size.width << ", " << light;
+            }
     }
 }
 
@@ -132,7 +134,7 @@ TEST(LumaPyramids, RaysBehindTheStillCameraGetTheValueOfTheBorder) {
     StereoRig rig = rigOf(video, video);
     rig.T_still_video.rotation = Eigen::AngleAxisd(3, Eigen::Vector3d::UnitY());
     LumaPyramids pyramids(video, twoWorkers());
-    pyramids.buildStill(FlowPicture(video, 91).rows(), rig);
+    pyramids.buildStill(FlowPicture(video, 91).rows(), rig, 1);
     const Stored level(pyramids, pyramids.still()[0]);
     for (int y = 0; y < video.height; ++y)
         for (int x = 0; x < video.width; ++x)

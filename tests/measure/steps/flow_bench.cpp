@@ -62,7 +62,9 @@ void measure(int threads, int runs) {
     std::printf("%d threads\n", threads);
     row("video pyramid", leastMs(runs, [&] { pyramids.buildVideo(planes); }));
     const StereoRig rig = rigOf(kVideo, kStill);
-    row("still pyramid", leastMs(runs / 10, [&] { pyramids.buildStill(still.rows(), rig); }));
+    for (const float light : {0.0F, 1.0F})
+        row(light > 0 ? "still pyramid, means of light" : "still pyramid",
+            leastMs(runs / 10, [&] { pyramids.buildStill(still.rows(), rig, light); }));
     pyramids.buildSecond(second.rows());
     const TileWork work = wholeWork(kVideo);
     Flow2d flow(kVideo, {}, workers);
