@@ -203,7 +203,8 @@ void FilterLearning::learn(const std::stop_token& stop) {
 
 bool FilterLearning::learnGuidance(const std::stop_token& stop) {
     if (!matcher_) matcher_ = std::make_unique<FrameMatcher>(*options_.rig);
-    matcher_->match(*olderVideo_, pictures_.still.rows(), truth_);
+    const float light = learner_.filters()->guidance().light;
+    matcher_->match(*olderVideo_, pictures_.still.rows(), light, truth_);
     const EnlargerLearner::Outcome outcome = learner_.addOlder(truth_, older_, stop);
     return outcome == EnlargerLearner::Outcome::Replaced ||
            outcome == EnlargerLearner::Outcome::Kept;

@@ -16,8 +16,9 @@ class FrameMatcher {
 public:
     explicit FrameMatcher(const StereoRig& rig);
 
-    /// `still` is the luma of a picture of the rig's still camera.
-    void match(const RgbPlanes& video, Rows<const std::uint8_t> still, MatchedPictures& out);
+    /// `still` is the luma of a picture of the rig's still camera. `light`: Guidance::light.
+    void match(const RgbPlanes& video, Rows<const std::uint8_t> still, float light,
+               MatchedPictures& out);
 
 private:
     StereoRig rig_;

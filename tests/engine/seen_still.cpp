@@ -10,20 +10,23 @@ namespace mfar {
 
 SeenStill::SeenStill(const StereoRig& cameras,
                      const std::function<double(const Eigen::Vector2d&)>& luma,
-                     const std::function<Eigen::Vector2d(const Eigen::Vector2d&)>& flow)
+                     const std::function<Eigen::Vector2d(const Eigen::Vector2d&)>& flow,
+                     double light)
     : rig(cameras), video(cameras.video.size) {
     still = twin::greyOf(rig.still.size, [&](int x, int y) {
         return std::clamp(std::round(luma(Eigen::Vector2d(x, y))), 0.0, 255.0);
     });
     bytes_.assign(still.values.begin(), still.values.end());
     grey = twin::greyOf(rig.video.size, [&](int x, int y) {
-        double sum = 0;
+        double sum = 0, squares = 0;
         for (int k = 0; k < 36; ++k) {
             const int column = k % 6, row = k / 6;
             const Eigen::Vector2d p(x + (column + 0.5) / 6 - 0.5, y + (row + 0.5) / 6 - 0.5);
-            sum += luma(twin::stillPixel(rig, p + flow(p))) / 36;
+            const double seen = luma(twin::stillPixel(rig, p + flow(p)));
+            sum += seen / 36;
+            squares += seen * seen / 36;
         }
-        return std::clamp(std::round(sum), 0.0, 255.0);
+        return std::clamp(std::round(std::lerp(sum, std::sqrt(squares), light)), 0.0, 255.0);
     });
     for (const double v : grey.values)
         pixels_.insert(pixels_.end(), {static_cast<std::uint8_t>(v), static_cast<std::uint8_t>(v),

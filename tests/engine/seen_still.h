@@ -16,9 +16,10 @@ namespace mfar {
 /// A still, and a video that shows the same surface with a given flow.
 struct SeenStill {
     /// `luma`: grey level at a position in the still. `flow`: true flow at a position in the video.
-    /// Pixels of the video are means over their area, so that fine structure aliases.
+    /// Pixels of the video are means over their area, so that fine structure aliases. `light`: how
+    /// they average, see Guidance::light.
     SeenStill(const StereoRig& cameras, const std::function<double(const Eigen::Vector2d&)>& luma,
-              const std::function<Eigen::Vector2d(const Eigen::Vector2d&)>& flow);
+              const std::function<Eigen::Vector2d(const Eigen::Vector2d&)>& flow, double light = 0);
 
     // The views are valid as long as this object exists.
     [[nodiscard]] simd::StillPairs pairs() const {

@@ -1,5 +1,6 @@
 #include "pipeline/engine/engine.h"
 #include "pipeline/flow/cell_field.h"
+#include "pipeline/frame_matcher.h"
 #include "pipeline/gles/subpixel_corrector.h"
 #include "pipeline/simd/subpixel_flow.h"
 #include "tests/engine/gl_test.h"
@@ -55,9 +56,10 @@ Eigen::Vector2d middleOf(int x, int y) {
 
 /// Flow with errors of 0.15 px. Some tiles are not matched, some cells are not in the still.
 struct Surfaces : SeenStill {
-    explicit Surfaces(Size video = kVideo, decltype(&textureAt) texture = textureAt)
-        : SeenStill(bentRig(video, stillOf(video)), texture, trueFlow), cells(cellsOf(video)),
-          work(TileWork::everything(tilesOf(video))) {
+    explicit Surfaces(Size video = kVideo, decltype(&textureAt) texture = textureAt,
+                      double light = 0)
+        : SeenStill(bentRig(video, stillOf(video)), texture, trueFlow, light),
+          cells(cellsOf(video)), work(TileWork::everything(tilesOf(video))) {
         work.noise = kNoise;
         for (std::size_t i = 0; i < work.flags.size(); ++i)
             work.flags[i].matched = i % 11 != 3 ? 1 : 0;
@@ -201,11 +203,14 @@ double meanError(const Surfaces& in, const std::vector<FlowCell>& flow, int firs
     return std::accumulate(all.begin(), all.end(), 0.0) / static_cast<double>(all.size());
 }
 
-double medianError(const Surfaces& in, const std::vector<FlowCell>& flow, int first, int end) {
-    std::vector<double> all = errorsOf(in, flow, first, end);
-    const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
-    std::ranges::nth_element(all, middle);
+double medianOf(std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::ranges::nth_element(values, middle);
     return *middle;
+}
+
+double medianError(const Surfaces& in, const std::vector<FlowCell>& flow, int first, int end) {
+    return medianOf(errorsOf(in, flow, first, end));
 }
 
 TEST_F(SubpixelEngines, ErrorsOfTheFlowShrink) {
@@ -257,18 +262,18 @@ TEST_F(SubpixelEngines, AnInvalidFlowStaysAndDoesNotSpread) {
 
 /// A flow step, and its input from one frame.
 struct FlowOfOneFrame {
-    FlowOfOneFrame(std::unique_ptr<Engine> made, const SeenStill& in)
+    FlowOfOneFrame(std::unique_ptr<Engine> made, const SeenStill& in, float ofLight = 0)
         : engine(std::move(made)), still(engine->still()), pyramid(engine->pyramid()),
-          flow(engine->flow()), view(in.videoView()), frame{view, in.video, 1},
+          flow(engine->flow()), light(ofLight), view(in.videoView()), frame{view, in.video, 1},
           pictures(still->run(in.stillView(), SuperResMode::Detail, {}, 0)),
           luma(lumaOf(TileWork::everything(tilesOf(in.rig.video.size)))) {}
 
     const LumaPyramid& lumaOf(const TileWork& work) {
-        pyramid->still(pictures, 0);
+        pyramid->still(pictures, light);
         return pyramid->video(frame, work);
     }
     std::vector<FlowCell> run(const TileWork& work) {
-        const FlowCells& cells = flow->run({frame, pictures}, luma, work, false);
+        const FlowCells& cells = flow->run({frame, pictures, light}, luma, work, false);
         const FlowCell* first = cells.cells.host().data;
         return {first, first + cells.count()};
     }
@@ -277,6 +282,7 @@ struct FlowOfOneFrame {
     std::unique_ptr<StillStep> still;
     std::unique_ptr<PyramidStep> pyramid;
     std::unique_ptr<FlowStep> flow;
+    float light;
     ImageView view;
     VideoFrame frame;
     const StillPictures& pictures;
@@ -298,6 +304,42 @@ TEST_F(SubpixelEngines, TheFlowStepsOfBothEnginesCorrectTheirFlow) {
         for (std::size_t i = 0; i < got.size(); ++i)
             ASSERT_EQ(later[i].x, got[i].x) << gles << ", " << i;
     }
+}
+
+TEST_F(SubpixelEngines, FlowIsMoreExactIfTheLightIsKnown) {
+    const Surfaces in(kVideo, patchesAt, 1);
+    const StepSetup setup{in.rig, in.rig.still.size, {}, std::make_shared<Workers>(2), nullptr};
+    const TileWork work = TileWork::everything(tilesOf(kVideo));
+    for (const bool gles : {true, false}) {
+        const auto error = [&](float light) {
+            FlowOfOneFrame step(gles ? makeGlesEngine(setup) : makeSimdEngine(setup), in, light);
+            return medianError(in, step.run(work), 2, kEdge - 2);
+        };
+        EXPECT_LT(error(1), 0.8 * error(0));
+    }
+}
+
+TEST_F(SubpixelEngines, TheFrameMatcherIsMoreExactIfTheLightIsKnown) {
+    const Surfaces in(kVideo, patchesAt, 1);
+    FrameMatcher matcher(in.rig);
+    const ImageView still = in.stillView();
+    const auto error = [&](float light) {
+        MatchedPictures found;
+        matcher.match(in.video, {still.data, in.rig.still.size.width, still.size}, light, found);
+        const Eigen::Array2d scale(found.scaleX, found.scaleY);
+        std::vector<double> errors;
+        for (int y = 1; y < in.cells.height - 1; ++y)
+            for (int x = 2; x < kEdge - 2; ++x) {
+                const Eigen::Vector2d p = middleOf(x, y);
+                const Eigen::Array2d seen = twin::stillPixel(in.rig, p + trueFlow(p)).array() + 0.5;
+                const LookUpCell& cell = found.lookUps[y][x];
+                const Eigen::Array2d read =
+                    (p.array() + 0.5) * scale + Eigen::Array2d(cell.x, cell.y);
+                errors.push_back(((seen - read) / scale).matrix().norm());
+            }
+        return medianOf(errors);
+    };
+    EXPECT_LT(error(1), 0.8 * error(0));
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ void StillLearning::matched(const RgbPlanes& video, Rows<const std::uint8_t> sti
     learner_.add(pictures_);
     if (!hasOlder_) return;
     hasOlder_ = false;
-    matcher_->match(olderVideo_, still, truth_);
+    matcher_->match(olderVideo_, still, learner_.filters()->guidance().light, truth_);
     learner_.addOlder(truth_, older_);
 }
 
