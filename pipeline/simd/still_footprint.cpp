@@ -136,11 +136,10 @@ HWY_INLINE hn::Vec<Four> between(hn::Vec<Taps16> pairs, hn::Vec<Four> share) {
     return hn::MulAdd(hn::Sub(second, first), share, first);
 }
 
-/// Sums of a footprint's samples, in four parts, and of their squares, which are only needed for
-/// means of light. A sample's unit is 1/16 grey level; the sums are also scaled by kShare.
+/// Sums over the samples of each pixel's footprint. Each sum is stored in four parts.
 struct FootprintSums {
-    std::int32_t samples[kMostLanes][kTaps] = {};
-    float squares[kMostLanes][kTaps] = {};
+    std::int32_t samples[kMostLanes][kTaps] = {};  ///< [1 / (16 * kShare) grey level]
+    float squares[kMostLanes][kTaps] = {};         ///< only for means of light [1/256 grey level^2]
 };
 
 template <bool kOfLight>

@@ -2,6 +2,7 @@
 // in the previous step. Otherwise one different decision of a search would make all later steps
 // differ.
 #include "pipeline/engine/engine.h"
+#include "pipeline/enlarge/filter_bank.h"
 #include "pipeline/plan/work_plan.h"
 #include "tests/stability/cases.h"
 
@@ -167,14 +168,15 @@ void stepByStep(Context& c) {
     compareStills(c, still, simdPictures, noise > 0);
 
     const auto glesPyramid = engines[0]->pyramid(), simdPyramid = engines[1]->pyramid();
-    glesPyramid->still(still);
-    simdPyramid->still(still);
+    const float light = c.hostile.pick({0.0F, 1.0F, Guidance::kMost});
+    glesPyramid->still(still, light);
+    simdPyramid->still(still, light);
     const LumaPyramid& pyramid = glesPyramid->video(frame, shot.work);
     const LumaPyramid& other = simdPyramid->video(frame, shot.work);
     if (shot.work.matched > 0) comparePyramids(c, pyramid, other);
 
     const auto flow = engines[0]->flow();
-    const FlowCells& cells = flow->run({frame, still}, pyramid, shot.work, false);
+    const FlowCells& cells = flow->run({frame, still, light}, pyramid, shot.work, false);
     const auto glesWeigh = engines[0]->weigh(), simdWeigh = engines[1]->weigh();
     const CellWeights& weights = glesWeigh->run(pyramid, cells, shot.work);
     if (shot.work.matched > 0)
