@@ -25,9 +25,9 @@ float stillAt(ivec2 p) {
 // Each of the four neighbours is subtracted with the weight params.neighbours. This weight is 0.08
 // if the still is not reduced. A least-squares fit over all sub-pixel positions and over the
 // frequencies that the video lacks gives 0.11 for the power spectrum of natural pictures (f^-2 to
-// f^-3). The smaller weight amplifies less where matches are slightly off. Compared with no
-// amplification, a weight of 0.08 gains 0.5 dB on synthetic scenes, loses 0.1 dB on photographs,
-// and recovers half of the missing sharpness (measured as LPC-SI).
+// f^-3). A smaller weight is used, because it amplifies the errors of slightly wrong matches less.
+// Compared with no amplification, a weight of 0.08 gains 0.5 dB on synthetic scenes, loses 0.1 dB on
+// photographs, and recovers half of the missing sharpness (measured as LPC-SI).
 // A reduced still is not amplified (weight 0), because its highest frequencies are strong enough.
 // On a photograph reduced from 2304 to 1067 pixels across, a weight of 0 is 2.5 dB better than
 // 0.08.

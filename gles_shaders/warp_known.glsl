@@ -36,8 +36,8 @@ Light lightAt(bool ofTraced, ivec2 t) {
 // Interpolates the colour of surface `id` bilinearly at `at` (pixel, z). Of the four texels, only
 // those that show this surface at this z are used. The rows of the picture begin at `firstRow`.
 // `found` becomes the premultiplied colour. Returns the sum of the weights, or 0 if it is not above
-// kLeastLookUpWeight. For the shadow catcher, texels without a surface count as catcher without a
-// shadow.
+// kLeastLookUpWeight. If `id` is the shadow catcher, a texel that shows no surface counts as a part
+// of the catcher without shadow.
 // The loop's length is a parameter, because compilers would unroll a loop of known length, and V3D
 // and Mali would then spill registers.
 float lookUp(bool ofTraced, int firstRow, vec3 at, float id, Paint paint, out vec4 found) {

@@ -55,8 +55,8 @@ struct LumaPyramid {
 };
 
 /// Flow between video and still. `cells` contains first the forward field (from video to still),
-/// then the backward field (from still to video). If `errorsGiven` is true, `cells` contains
-/// ErrorCells of the forward field instead of the backward field.
+/// then the backward field (from still to video). If `errorsGiven` is true, there is no backward
+/// field; the forward field's ErrorCells are in its place.
 struct FlowCells {
     Field<FlowCell> cells;
     Size forward, backward;

@@ -25,8 +25,9 @@ namespace mfar {
     return ((x & 0xAAAAAAAAU) >> 1) | ((x & 0x55555555U) << 1);
 }
 
-/// Nested uniform (Owen) scrambling of a number with reversed bits. Each bit is flipped by a hash
-/// of the seed and the bits below it (Laine and Karras 2011, Burley 2020; multipliers by Vegdahl).
+/// Nested uniform (Owen) scrambling of a number with reversed bits. A hash of the seed and the bits
+/// below a bit decides whether the bit is flipped (Laine and Karras 2011, Burley 2020; multipliers
+/// by Vegdahl).
 [[nodiscard]] constexpr std::uint32_t scrambledReversed(std::uint32_t x, std::uint32_t seed) {
     x ^= x * 0x3D20ADEAU;
     x += seed;

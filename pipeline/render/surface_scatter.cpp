@@ -19,7 +19,8 @@ float fifthPower(float x) {
     return x2 * x2 * x;
 }
 
-/// Returns the share of multiply reflected light that leaves the surface (Kulla and Conty 2017).
+/// Returns the share of the light that leaves the surface after more than one reflection (Kulla and
+/// Conty 2017).
 float manyfoldShare(float f0, const SpecularAlbedo& mean) {
     const float fresnel = f0 + (1 - f0) / 21;
     return fresnel * fresnel * mean.full() / (1 - fresnel * std::max(1 - mean.full(), 0.0F));

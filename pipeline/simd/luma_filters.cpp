@@ -5,7 +5,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/luma_filters.cpp"
 #include <hwy/foreach_target.h>
-// Must come after foreach_target.h, because this header is compiled once per instruction set.
+// The next header is compiled once per instruction set, so it must come after foreach_target.h.
 #include "pipeline/simd/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -6,7 +6,7 @@
 #define HWY_TARGET_INCLUDE "pipeline/simd/mirror_rows.cpp"
 
 #include <hwy/foreach_target.h>
-// Must come after foreach_target.h, because this header is compiled once per instruction set.
+// The next header is compiled once per instruction set, so it must come after foreach_target.h.
 #include "pipeline/simd/point_lens-inl.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -28,7 +28,8 @@ constexpr float kFlat = 1.0F / 256;
 constexpr int kShareBits = 14;
 constexpr float kShare = 1 << kShareBits;
 // Values (pixel - 128) [1/32 grey level] are clamped to +-kMostValue, so that sums of their squares
-// fit into 32 bits. Larger values occur only where the flow is steep and the contrast high.
+// fit into 32 bits. Larger values occur only where the flow changes quickly from pixel to pixel and
+// the contrast is high.
 constexpr std::int16_t kMostValue = 5792;
 
 struct Bend {

@@ -6,7 +6,7 @@
 #define HWY_TARGET_INCLUDE "pipeline/simd/still_look_up.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
-// Must come after foreach_target.h, because this header is compiled once per instruction set.
+// The next header is compiled once per instruction set, so it must come after foreach_target.h.
 #include "pipeline/simd/still_pixel-inl.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -94,8 +94,8 @@ private:
 };
 
 Eigen::Vector3f Cell::point(float farthest) const {
-    // The planes determine the point along an eigenvector if its eigenvalue is at least this share
-    // of the largest eigenvalue.
+    // The planes determine where the point lies in the direction of an eigenvector only if the
+    // eigenvalue of this direction is at least this share of the largest eigenvalue.
     constexpr float kDetermined = 0.1F;
     const Eigen::Vector3f mean = sum_ / count_;
     Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> axes;

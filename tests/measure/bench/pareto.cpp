@@ -46,8 +46,8 @@ std::string summaryOf(const ParetoStage& stage) {
         return fmt::format(" {}\n{}", title, lines.empty() ? "  none\n" : lines);
     };
     return fmt::format("{} ({}; {})\n", stage.name, stage.measure, stage.samples) +
-           part("settings of mfar that no other method dominates:", free) +
-           part("settings of mfar that another method dominates:", dominated) +
+           part("settings of mfar that none of the other methods dominates:", free) +
+           part("settings of mfar that one of the other methods dominates:", dominated) +
            part("other methods:", peers);
 }
 

@@ -64,7 +64,7 @@ ParetoCommand::ParetoCommand(CLI::App& app)
         ->check(CLI::Range(1, 1000));
     command_
         ->add_option("--rounds", run_.rounds,
-                     "number of times that each point of flow, superres and depth is timed")
+                     "number of timed repetitions of each setting of flow, superres and depth")
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
     const std::map<std::string, Clock> clocks{{"wall", Clock::Wall},

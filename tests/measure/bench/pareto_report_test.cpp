@@ -46,9 +46,9 @@ TEST(Pareto, SummaryNamesThePeersThatDominateAPoint) {
     EXPECT_TRUE(dominatingPeers(stage, stage.points[1]).empty());
     const std::string text = paretoSummary({stage});
     const auto at = [&](const char* what) { return text.find(what); };
-    EXPECT_LT(at("no other method dominates"), at("usual"));
-    EXPECT_LT(at("quick"), at(" another method dominates"));
-    EXPECT_LT(at(" another method dominates"), at("dominated by slow peer"));
+    EXPECT_LT(at("none of the other methods dominates"), at("usual"));
+    EXPECT_LT(at("quick"), at(" one of the other methods dominates"));
+    EXPECT_LT(at(" one of the other methods dominates"), at("dominated by slow peer"));
 }
 
 TEST(Pareto, CsvHasALineForEachPoint) {

@@ -8,7 +8,7 @@ namespace mfar::eval {
 
 /// Ratio of a filter's spread to its centre frequency, in the authors' release 1.0 and in another
 /// version in circulation. The other version gives higher values, which must not be compared with
-/// the release's.
+/// values of the release.
 inline constexpr double kLpcRelease = 0.75, kLpcVariant = 0.33;
 
 struct LpcOrientation {
