@@ -149,13 +149,15 @@ void compareDrawn(Context& c, SuperResMode mode, DetailStep& gles, DetailStep& s
                     "share of drawn pixels that differ");
 }
 
+Size outputOf(Scale scale, const StereoRig& rig) {
+    return scale == Scale::Product ? rig.still.size
+                                   : Size{2 * rig.video.size.width, 2 * rig.video.size.height};
+}
+
 void stepByStep(Context& c) {
     const Sensors sensors = c.hostile.chance(0.3) ? matchingSensors(c) : hostileSensors(c);
     const StereoRig& rig = sensors.rig;
-    const Size output = c.scale == Scale::Product
-                            ? rig.still.size
-                            : Size{2 * rig.video.size.width, 2 * rig.video.size.height};
-    const StepSetup setup{rig, output, {}, std::make_shared<Workers>(2), nullptr};
+    const StepSetup setup{rig, outputOf(c.scale, rig), {}, std::make_shared<Workers>(2), nullptr};
     const std::unique_ptr<Engine> engines[] = {makeGlesEngine(setup), makeSimdEngine(setup)};
     const auto mode = c.hostile.pick({SuperResMode::Detail, SuperResMode::Blend});
     const Shot shot(c, sensors.video);

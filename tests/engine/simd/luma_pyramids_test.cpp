@@ -1,5 +1,5 @@
-#include "pipeline/simd/luma_pyramids.h"
 #include "pipeline/enlarge/filter_bank.h"
+#include "pipeline/simd/luma_pyramids.h"
 #include "tests/engine/simd/flow_pictures.h"
 
 #include <gtest/gtest.h>
