@@ -36,8 +36,8 @@ inline constexpr float kBentFlow = 0.07F;
 /// Limits of the second difference of the flow between neighbouring cells [video px]. Up to
 /// kSmoothStep, the cells may show one surface. From kTornStep on, they show different objects, and
 /// interpolating between their flow vectors gives wrong positions.
-inline constexpr float kSmoothStep = 1.0F;
-inline constexpr float kTornStep = 4.0F;
+inline constexpr float kSmoothStep = 2.0F;
+inline constexpr float kTornStep = 8.0F;
 /// Weights below this have no visible effect.
 inline constexpr float kSmallestWeight = 0.004F;
 /// A patch is textured if the variance of its pixels is at least this factor times (noise variance

@@ -127,7 +127,7 @@ TEST_F(Weigh, DiscontinuousFlowHasNoWeight) {
         }
         return weigh(flow, alike, half, 0.3).field;
     };
-    const twin::Cells even = weightsWithJump(0), torn = weightsWithJump(5);
+    const twin::Cells even = weightsWithJump(0), torn = weightsWithJump(params::kTornStep + 1);
     for (const int x : {5, 6})
         EXPECT_EQ(torn.at(x, 5)[2], 0);
     for (const int x : {4, 7})
