@@ -1,5 +1,5 @@
 // Raises small weights, and lowers the weights of cells in which the still does not show the video's
-// finest detail; see kFineRoom and kRaisedWeight.
+// finest detail; see kFineRoom.
 // In: image of superres_fine.comp, images of superres_weigh.comp. Out: the images of
 // superres_weigh.comp with the new weights.
 // Range: newCells -2e4..2e4, -2e4..2e4, 0..2.31, 0..1
@@ -20,25 +20,28 @@ layout(rgba16f, binding = 2) uniform writeonly highp image2D newLookUps;
 
 #include "flow_bend.glsl"
 
-vec3 fineAround(ivec2 cell) {
-    vec3 sum = vec3(0.0);
+vec4 meansAround(ivec2 cell) {
+    vec4 sum = vec4(0.0);
     for (int y = -1; y <= 1; ++y)
         for (int x = -1; x <= 1; ++x) {
             ivec2 c = clamp(cell + ivec2(x, y), ivec2(0), lastCell());
-            sum += float((2 - abs(x)) * (2 - abs(y))) * texelFetch(fineField, c, 0).xyz;
+            sum += float((2 - abs(x)) * (2 - abs(y))) * texelFetch(fineField, c, 0);
         }
     return sum / 16.0;
 }
 
 float keptShare(ivec2 cell) {
-    vec3 sum = fineAround(cell);
+    vec4 sum = meansAround(cell);
     float both = max(sum.y, 0.0);
     float unexplained = sum.x - both * both / (sum.z + kFineLeast);
     float allowed = kFineRoom * params.noise + kFineShareRoom * params.share * sum.x;
-    float even = min(allowed / max(unexplained, kFineLeast), 1.0);
+    float limited = min(allowed / max(unexplained, kFineLeast), 1.0);
+    float rough = smoothstep(kFineTexture, kRoughTexture, sum.x / (sum.w + kFineLeast));
     float wrong = max(unexplained - kFineNoise * params.noise, 0.0);
     float explained = 1.0 - wrong / (sum.x + kFineLeast);
-    float kept = mix(even, explained * explained, bentAt(cell));
+    explained *= explained;
+    float kinked = bentAt(cell) * smoothstep(kFlatStep, kKinkedStep, tearAt(cell));
+    float kept = mix(mix(limited, 1.0, rough), explained * explained, kinked);
     return kept < 1.0 ? kept : 1.0;
 }
 
@@ -46,7 +49,8 @@ void main() {
     ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThan(cell, lastCell()))) return;
     vec4 weighed = texelFetch(displacement, cell, 0);
-    float weight = weighed.z * max(kRaisedWeight - weighed.z, 1.0) * keptShare(cell);
+    float lack = (1.0 - weighed.z) * (1.0 - weighed.z);
+    float weight = keptShare(cell) * (weighed.z < 1.0 ? 1.0 - lack * lack : weighed.z);
     imageStore(newCells, cell, vec4(weighed.xy, weight, weighed.w));
     imageStore(newLookUps, cell, vec4(texelFetch(lookupField, cell, 0).xy, weight, weighed.w));
     imageStore(newWeights, cell, vec4(0.5 * weight, texelFetch(weightField, cell, 0).yzw));

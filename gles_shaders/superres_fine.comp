@@ -1,11 +1,13 @@
 // Compares the finest detail of video and still in each cell; see kFineRoom. The finest detail
 // consists of the differences between neighbouring pixels.
-// In: states of the tiles, look-ups, luma of the still with amplified finest detail, video.
+// In: states of the tiles, look-ups, luma of the still with amplified finest detail, video,
+// statistics of superres_assess.comp.
 // Out: the means of three products of such differences [grey levels^2]: video * video, video *
 // still and still * still. Each mean is over the middle two rows of the cell, and is halved. All
-// are zero in tiles that are not matched and in cells that are only partly inside the frame.
+// are zero in tiles that are not matched and in cells that are only partly inside the frame. The
+// fourth value is the variance of the video's patch [grey levels^2].
 // One workgroup per tile, one invocation per cell.
-// Range: fineField 0..32513, -32513..32513, 0..32513, 0
+// Range: fineField 0..32513, -32513..32513, 0..32513, 0..6.6e4
 #include "luma.glsl"
 #include "still_linear.glsl"
 #include "pipeline/engine/params/weigh.h"
@@ -21,6 +23,7 @@ layout(std430, binding = 0) readonly buffer Tiles {
 layout(binding = 0) uniform sampler2D picture;
 layout(binding = 1) uniform sampler2D lookupField;
 layout(binding = 2) uniform sampler2D still;
+layout(binding = 3) uniform sampler2D statistics;
 layout(rgba32f, binding = 0) uniform writeonly highp image2D fineField;
 
 float stillAt(ivec2 pixel) {
@@ -61,5 +64,6 @@ void main() {
             lower = nextLower;
         }
     }
-    imageStore(fineField, cell, vec4(sums / 24.0, 0.0));
+    float variance = texelFetch(statistics, cell, 0).y / kPatchPixels;
+    imageStore(fineField, cell, vec4(sums / 24.0, variance));
 }

@@ -31,15 +31,6 @@ layout(rgba16f, binding = 2) uniform writeonly highp image2D lookupField;
 
 #include "flow_bend.glsl"
 
-// Returns the magnitude of the second difference of the flow at the cell [px]. Rotations and zooms
-// have a second difference of zero.
-float tearAt(ivec2 c) {
-    vec2 here = 2.0 * flowAt(c);
-    vec2 dx = flowAt(c + ivec2(1, 0)) + flowAt(c - ivec2(1, 0)) - here;
-    vec2 dy = flowAt(c + ivec2(0, 1)) + flowAt(c - ivec2(0, 1)) - here;
-    return sqrt(dot(dx, dx) + dot(dy, dy));
-}
-
 vec4 statisticsAt(ivec2 c) {
     return texelFetch(statistics, clamp(c, ivec2(0), lastCell()), 0);
 }

@@ -143,7 +143,7 @@ public:
                                    const TileWork& work) = 0;
     /// Raises all weights below 1. Then lowers the weights of cells in which the still shows the
     /// video's finest detail less well than usual; `match` describes the usual case. See
-    /// params::kFineRoom and kRaisedWeight. Must be called after run() for the same frame.
+    /// params::kFineRoom. Must be called after run() for the same frame.
     virtual const CellWeights& confirm(const VideoFrame& frame, const StillPictures& still,
                                        const TileWork& work, const FineMatch& match) = 0;
 };

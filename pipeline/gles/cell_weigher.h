@@ -35,6 +35,10 @@ public:
     [[nodiscard]] const gpu::Texture& weighed() const { return weighed_; }
     [[nodiscard]] const gpu::Texture& lookUps() const { return lookUps_; }
     [[nodiscard]] const gpu::Texture& trust() const { return trust_; }
+    /// Texture with one texel per cell (Rgba32F): covariance of the patches of video and still,
+    /// variance of the video's patch, variance of the still's patch, confidence. The first three
+    /// are sums over params::kPatchPixels pixels.
+    [[nodiscard]] const gpu::Texture& statistics() const { return statistics_; }
 
 private:
     void assess(const WeighInput& in, const TileBuffer& tiles);

@@ -12,7 +12,8 @@ FineCheck::FineCheck(const StereoRig& stillRig)
       confirm_("superres_confirm.comp") {}
 
 void FineCheck::run(const gpu::Texture& video, const gpu::Texture& still, const Weights& weights,
-                    const TileBuffer& tiles, const FineMatch& match) {
+                    const gpu::Texture& statistics, const TileBuffer& tiles,
+                    const FineMatch& match) {
     const Size tileCount = tiles.work().tiles;
     sum_.run({.columns = cells_.width,
               .rows = cells_.height,
@@ -23,7 +24,8 @@ void FineCheck::run(const gpu::Texture& video, const gpu::Texture& still, const 
               .texelX = 1.0F / static_cast<float>(rig_.still.size.width),
               .texelY = 1.0F / static_cast<float>(rig_.still.size.height)},
              {gpu::storage(0, tiles.buffer()), gpu::sampler(0, video),
-              gpu::sampler(1, weights.lookUps), gpu::sampler(2, still), gpu::imageWrite(0, sums_)},
+              gpu::sampler(1, weights.lookUps), gpu::sampler(2, still), gpu::sampler(3, statistics),
+              gpu::imageWrite(0, sums_)},
              {static_cast<GLuint>(tileCount.width), static_cast<GLuint>(tileCount.height), 1});
     confirm_.run({.columns = cells_.width,
                   .rows = cells_.height,

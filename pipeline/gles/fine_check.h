@@ -9,7 +9,7 @@
 namespace mfar {
 
 /// Raises small weights, and lowers the weights of cells in which the still does not show the
-/// video's finest detail as well as usual, see params::kFineRoom and kRaisedWeight.
+/// video's finest detail as well as usual, see params::kFineRoom.
 class FineCheck {
 public:
     /// The still camera of `stillRig` must have the resolution of run()'s `still`.
@@ -18,10 +18,10 @@ public:
     struct Weights {
         const gpu::Texture &weighed, &lookUps, &trust;
     };
-    /// Computes weights() from `weights`, which are the results of CellWeigher for this frame.
-    /// `still` is StillReference::raised().
+    /// Computes weights() from `weights` and `statistics`, which are the results of CellWeigher for
+    /// this frame. `still` is StillReference::raised().
     void run(const gpu::Texture& video, const gpu::Texture& still, const Weights& weights,
-             const TileBuffer& tiles, const FineMatch& match);
+             const gpu::Texture& statistics, const TileBuffer& tiles, const FineMatch& match);
 
     [[nodiscard]] Weights weights() const { return {weighed_, lookUps_, trust_}; }
 

@@ -247,7 +247,7 @@ public:
         if (work.changed > 0)
             fine_.run(frame_.video(frame), raisedOf(still),
                       {weigher_.weighed(), weigher_.lookUps(), weigher_.trust()},
-                      frame_.tiles(work), match);
+                      weigher_.statistics(), frame_.tiles(work), match);
         return written(fineCopies_);
     }
 

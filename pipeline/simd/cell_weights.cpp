@@ -79,7 +79,7 @@ HWY_INLINE void HalfAround(const WeighRow::Half& rows, int chunk, LowRow& out) {
 }
 
 struct Weight {
-    V weight, signal, unexplained, bent;
+    V weight, signal, unexplained, kinked, variance;
 };
 
 HWY_INLINE Weight WeightOf(const WeighRow& row, int x, V low, V lowStill, V confidence,
@@ -115,7 +115,9 @@ HWY_INLINE Weight WeightOf(const WeighRow& row, int x, V low, V lowStill, V conf
         hn::Ge(video, Const(params::kTexturedContrast * (ofPatch + params::kPatchPixels)));
     const auto unlike = hn::Le(hn::Mul(ncc2, confidence), Const(params::kUnexplainedMatch));
     return {hn::IfThenElseZero(counts, weight), hn::Max(hn::Min(signal, Const(1)), zero),
-            hn::IfThenElseZero(hn::And(textured, unlike), Const(1)), bent};
+            hn::IfThenElseZero(hn::And(textured, unlike), Const(1)),
+            hn::Mul(bent, SmoothStep(params::kFlatStep, params::kKinkedStep, tear)),
+            hn::Mul(video, Const(1 / params::kPatchPixels))};
 }
 
 void WeighCells(const WeighRow& row, float noise) {
@@ -136,7 +138,8 @@ void WeighCells(const WeighRow& row, float noise) {
                                   w.weight, confidence, d, &row.lookUps[x].x);
             hn::StoreInterleaved4(hn::Min(hn::Mul(w.weight, Const(0.5F)), Const(1)), confidence,
                                   w.signal, w.unexplained, d, &row.trust[x].halfWeight);
-            hn::StoreU(w.bent, d, row.bent + x);
+            hn::StoreU(w.kinked, d, row.kinked + x);
+            hn::StoreU(w.variance, d, row.variance + x);
         }
     }
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/rows.h"
 #include "pipeline/engine/cells.h"
 
 #include <array>
@@ -29,7 +30,14 @@ struct WeighRow {
     WeighedCell* weighed;
     LookUpCell* lookUps;
     TrustCell* trust;
-    float* bent;  ///< see WeighStep::bent()
+    float *kinked, *variance;  ///< see SurfaceCells
+};
+
+/// Properties of each cell on which the comparison of the finest detail depends; see
+/// params::kFineRoom.
+struct SurfaceCells {
+    Rows<const float> kinked;    ///< 0 on smooth surfaces, 1 at their edges
+    Rows<const float> variance;  ///< variance of the video's luma around the cell [grey levels^2]
 };
 
 /// Computes the weight of the still's detail at each cell, as superres_weigh.comp does. `noise`:

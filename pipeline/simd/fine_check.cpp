@@ -32,7 +32,7 @@ FineCheck::FineCheck(const StereoRig& stillRig, std::shared_ptr<Workers> workers
       scratch_(workers_->count(), [this] { return Scratch(*this); }) {}
 
 Rows<const float> FineCheck::run(const RgbPlanes& video, const StillPairs& still,
-                                 Rows<const LookUpCell> lookUps, Rows<const float> bent,
+                                 Rows<const LookUpCell> lookUps, const SurfaceCells& surface,
                                  const TileWork& work, const FineMatch& match) {
     const Frame frame{video, still, lookUps, work};
     // The lambda captures only a pointer and a reference, so that std::function stores it without
@@ -46,7 +46,8 @@ Rows<const float> FineCheck::run(const RgbPlanes& video, const StillPairs& still
     const auto shares = [&](int first, int last) {
         for (int row = first; row < last; ++row)
             fineShareRow({ofVideo_.around(row), ofBoth_.around(row), ofStill_.around(row)},
-                         bent[row], match, cells_.width, shares_[row]);
+                         surface.kinked[row], surface.variance[row], match, cells_.width,
+                         shares_[row]);
     };
     workers_->forRange(cells_.height, kCellsPerTile, std::ref(shares));
     return {shares_[0], shares_.pitch(), cells_};

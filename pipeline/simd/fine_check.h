@@ -26,9 +26,9 @@ public:
 
     /// Returns for each cell the factor of its weight, [0, 1]. The result is valid until the next
     /// call. Cells of unmatched tiles and incomplete cells at the border are not measured. Their
-    /// factor depends only on the neighbouring cells. `bent`: see WeighStep::bent().
+    /// factor depends only on the neighbouring cells. `surface`: see WeighStep::surface().
     Rows<const float> run(const RgbPlanes& video, const StillPairs& still,
-                          Rows<const LookUpCell> lookUps, Rows<const float> bent,
+                          Rows<const LookUpCell> lookUps, const SurfaceCells& surface,
                           const TileWork& work, const FineMatch& match);
 
 private:

@@ -108,8 +108,18 @@ HWY_INLINE hn::Vec<F> Smoothed(const RowsAround& rows, int x) {
                    hn::Set(d, 1.0F / 16));
 }
 
-void FineShareRow(const FineSumsAround& sums, const float* bent, const FineMatch& match, int count,
-                  float* to) {
+/// Returns for each cell 0 for low roughness, 1 for high roughness; see params::kRoughTexture.
+HWY_INLINE hn::Vec<F> Rough(hn::Vec<F> fine, hn::Vec<F> variance) {
+    const F d;
+    const auto ratio = hn::Div(fine, hn::Add(variance, hn::Set(d, params::kFineLeast)));
+    constexpr float kScale = 1 / (params::kRoughTexture - params::kFineTexture);
+    const auto unit = hn::Mul(hn::Sub(ratio, hn::Set(d, params::kFineTexture)), hn::Set(d, kScale));
+    const auto t = hn::Min(hn::Max(unit, hn::Zero(d)), hn::Set(d, 1.0F));
+    return hn::Mul(hn::Mul(t, t), hn::NegMulAdd(hn::Set(d, 2.0F), t, hn::Set(d, 3.0F)));
+}
+
+void FineShareRow(const FineSumsAround& sums, const float* kinked, const float* variance,
+                  const FineMatch& match, int count, float* to) {
     const F d;
     const int lanes = static_cast<int>(hn::Lanes(d));
     const auto zero = hn::Zero(d), one = hn::Set(d, 1.0F), least = hn::Set(d, params::kFineLeast);
@@ -122,11 +132,14 @@ void FineShareRow(const FineSumsAround& sums, const float* bent, const FineMatch
         const auto still = hn::Add(Smoothed(sums.still, x), least);
         const auto unexplained = hn::Sub(video, hn::Div(hn::Mul(both, both), still));
         const auto allowed = hn::MulAdd(share, video, room);
-        const auto even = hn::Min(hn::Div(allowed, hn::Max(unexplained, least)), one);
+        const auto limited = hn::Min(hn::Div(allowed, hn::Max(unexplained, least)), one);
+        const auto rough = Rough(video, hn::LoadU(d, variance + x));
+        const auto smooth = hn::MulAdd(rough, hn::Sub(one, limited), limited);
         const auto wrong = hn::Max(hn::Sub(unexplained, noise), zero);
         const auto explained = hn::NegMulAdd(wrong, hn::Div(one, hn::Add(video, least)), one);
-        const auto kept =
-            hn::MulAdd(hn::LoadU(d, bent + x), hn::Sub(hn::Mul(explained, explained), even), even);
+        const auto explained2 = hn::Mul(explained, explained);
+        const auto kept = hn::MulAdd(hn::LoadU(d, kinked + x),
+                                     hn::Sub(hn::Mul(explained2, explained2), smooth), smooth);
         // If `kept` is NaN, the comparison is false, and the cell keeps its whole weight.
         hn::StoreU(hn::IfThenElse(hn::Lt(kept, one), kept, one), d, to + x);
     }
@@ -147,9 +160,9 @@ void fineSumsRow(const std::array<std::int16_t*, 2>& video,
     HWY_DYNAMIC_DISPATCH(FineSumsRow)(video, still, begin, end, pixels, to);
 }
 
-void fineShareRow(const FineSumsAround& sums, const float* bent, const FineMatch& match, int count,
-                  float* to) {
-    HWY_DYNAMIC_DISPATCH(FineShareRow)(sums, bent, match, count, to);
+void fineShareRow(const FineSumsAround& sums, const float* kinked, const float* variance,
+                  const FineMatch& match, int count, float* to) {
+    HWY_DYNAMIC_DISPATCH(FineShareRow)(sums, kinked, variance, match, count, to);
 }
 
 }  // namespace mfar::simd

@@ -31,8 +31,8 @@ struct FineSumsAround {
 };
 
 /// Computes for each cell the factor of its weight, [0, 1]; see params::kFineRoom. FineSums are
-/// averaged over 3x3 cells. `bent`: 0 where the flow is even, 1 where it is bent.
-void fineShareRow(const FineSumsAround& sums, const float* bent, const FineMatch& match, int count,
-                  float* to);
+/// averaged over 3x3 cells. `kinked` and `variance`: rows of SurfaceCells.
+void fineShareRow(const FineSumsAround& sums, const float* kinked, const float* variance,
+                  const FineMatch& match, int count, float* to);
 
 }  // namespace mfar::simd

@@ -238,8 +238,8 @@ public:
     const CellWeights& confirm(const VideoFrame& frame, const StillPictures& still,
                                const TileWork& work, const FineMatch& match) override {
         if (work.changed == 0) return weights_;
-        weigh_.confirm(fine_.run(frame.planes, stills_->of(still), weigh_.lookUps(), weigh_.bent(),
-                                 work, match));
+        weigh_.confirm(fine_.run(frame.planes, stills_->of(still), weigh_.lookUps(),
+                                 weigh_.surface(), work, match));
         return written();
     }
 

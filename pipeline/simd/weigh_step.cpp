@@ -26,7 +26,8 @@ WeighStep::WeighStep(const StereoRig& stillRig, std::shared_ptr<Workers> workers
       varianceStill_(cells_), confidence_(cells_), lookX_(cells_), lookY_(cells_),
       halfFlowX_(halfCells_), halfFlowY_(halfCells_), halfCovariance_(halfCells_),
       halfVarianceStill_(halfCells_), weighed_(wholeVectors(cells_)),
-      lookUps_(wholeVectors(cells_)), trust_(wholeVectors(cells_)), bent_(wholeVectors(cells_)) {}
+      lookUps_(wholeVectors(cells_)), trust_(wholeVectors(cells_)), kinked_(wholeVectors(cells_)),
+      variance_(wholeVectors(cells_)) {}
 
 void WeighStep::run(const WeighInput& in) {
     assert(in.forward.size == cells_);
@@ -117,7 +118,8 @@ void WeighStep::confirm(Rows<const float> shares) {
         const float* share = shares[row];
         for (int x = 0; x < cells_.width; ++x) {
             float& weight = weighed_[row][x].weight;
-            weight *= share[x] * std::max(params::kRaisedWeight - weight, 1.0F);
+            const float lack = (1 - weight) * (1 - weight);
+            weight = share[x] * (weight < 1 ? 1 - lack * lack : weight);
             lookUps_[row][x].weight = weight;
             trust_[row][x].halfWeight = std::min(0.5F * weight, 1.0F);
         }
@@ -141,7 +143,8 @@ void WeighStep::weigh(int row, float noise) {
                 .weighed = weighed_[row],
                 .lookUps = lookUps_[row],
                 .trust = trust_[row],
-                .bent = bent_[row]},
+                .kinked = kinked_[row],
+                .variance = variance_[row]},
                noise);
 }
 

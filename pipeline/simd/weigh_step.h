@@ -7,6 +7,7 @@
 #include "pipeline/flow/luma_layout.h"
 #include "pipeline/plan/tile_work.h"
 #include "pipeline/simd/cell_plane.h"
+#include "pipeline/simd/cell_weights.h"
 #include "pipeline/simd/patch_sums.h"
 #include "pipeline/simd/still_look_up.h"
 
@@ -49,12 +50,11 @@ public:
     /// have one entry per cell and are valid until the next run().
     void run(const WeighInput& in);
 
-    /// Raises small weights (see params::kRaisedWeight), then multiplies the weight of each cell by
-    /// the cell's entry in `shares`.
+    /// Raises each weight w below 1 to 1 - (1 - w)^4, then multiplies the weight of each cell by
+    /// the cell's entry in `shares`. See params::kFineRoom.
     void confirm(Rows<const float> shares);
 
-    /// For each cell, 0 where the flow is even, 1 where it is bent; see params::kEvenFlow.
-    [[nodiscard]] Rows<const float> bent() const { return shown(bent_); }
+    [[nodiscard]] SurfaceCells surface() const { return {shown(kinked_), shown(variance_)}; }
 
     [[nodiscard]] Rows<const WeighedCell> weighed() const { return shown(weighed_); }
     [[nodiscard]] Rows<const LookUpCell> lookUps() const { return shown(lookUps_); }
@@ -82,7 +82,7 @@ private:
     AlignedRows<WeighedCell> weighed_;
     AlignedRows<LookUpCell> lookUps_;
     AlignedRows<TrustCell> trust_;
-    AlignedRows<float> bent_;
+    AlignedRows<float> kinked_, variance_;
 };
 
 }  // namespace mfar::simd

@@ -7,6 +7,7 @@
 #include "tests/oracle/superres.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace mfar {
@@ -22,32 +23,49 @@ float weightAt(std::size_t cell) {
     return 0.25F + 0.25F * static_cast<float>(cell % 7);
 }
 double raised(double weight) {
-    return weight < 1 ? weight * (params::kRaisedWeight - weight) : weight;
+    return weight < 1 ? 1 - std::pow(1 - weight, 4) : weight;
 }
 
 struct FineInput {
     explicit FineInput(Size video, Size stillSize)
         : frame(video, stillSize), still(frame.rig, stillSize, std::make_shared<Workers>(2)),
-          bent(frame.cells) {
+          kinked(frame.cells), variance(frame.cells) {
         still.set(frame.stillView());
         flow.size = frame.cells;
-        // The flow is even on the left and bent on the right.
-        const double most = 0.2 / frame.cells.width;
+        statistics.size = frame.cells;
         for (int y = 0; y < frame.cells.height; ++y)
-            for (int x = 0; x < frame.cells.width; ++x)
-                for (const double value : {most * x * x, 2.0, 0.0, 0.0})
+            for (int x = 0; x < frame.cells.width; ++x) {
+                for (const double value : {flowAt(x), 2.0, 0.0, 0.0})
                     flow.values.push_back(static_cast<float>(value));
+                const double patch = params::kPatchPixels * std::pow(10.0, 1 + y % 7 / 3.0);
+                for (const double value : {0.0, patch, 0.0, 0.5})
+                    statistics.values.push_back(static_cast<float>(value));
+            }
         for (int y = 0; y < frame.cells.height; ++y)
-            for (int x = 0; x < frame.cells.width; ++x)
-                bent[y][x] = static_cast<float>(bentAt(x, y));
+            for (int x = 0; x < frame.cells.width; ++x) {
+                kinked[y][x] = static_cast<float>(twin::kinkedAt(flow, x, y));
+                variance[y][x] = static_cast<float>(varianceAt(x, y));
+            }
         for (std::size_t i = 0; i < frame.work.flags.size(); ++i)
             frame.work.flags[i].matched = i % 4 != 1;
     }
     [[nodiscard]] Rows<const LookUpCell> lookUps() const {
         return {frame.lookUps.data(), frame.cells.width, frame.cells};
     }
-    [[nodiscard]] double bentAt(int x, int y) const {
-        return twin::smoothstep(params::kEvenFlow, params::kBentFlow, twin::bendAt(flow, x, y));
+    /// The flow is even in the left third, bent but linear in the middle third, and curved in the
+    /// right third.
+    [[nodiscard]] double flowAt(int x) const {
+        const double third = frame.cells.width / 3.0;
+        const double bent = std::max(x - third, 0.0), curved = std::max(x - 2 * third, 0.0);
+        return 0.3 * bent + 0.02 * std::pow(curved, 3);
+    }
+    [[nodiscard]] double varianceAt(int x, int y) const {
+        double sum = 0;
+        for (int j = -1; j <= 1; ++j)
+            for (int i = -1; i <= 1; ++i)
+                sum +=
+                    (2 - std::abs(i)) * (2 - std::abs(j)) / 16.0 * statistics.at(x + i, y + j)[1];
+        return sum / params::kPatchPixels;
     }
     [[nodiscard]] std::vector<double> wanted() const {
         const Size video = frame.rig.video.size, size = frame.rig.still.size;
@@ -76,23 +94,25 @@ struct FineInput {
                 return luma.bilinear(std::clamp(px, 0.0, size.width - 1.0),
                                      std::clamp(py, 0.0, size.height - 1.0));
             },
-            [&](int x, int y) { return frame.work.at(x / 4, y / 4).matched != 0; }};
-        return twin::fineShares(
-            in, frame.cells, [this](int x, int y) { return bentAt(x, y); }, kMatch);
+            [&](int x, int y) { return frame.work.at(x / 4, y / 4).matched != 0; },
+            [&](int x, int y) { return twin::kinkedAt(flow, x, y); },
+            [&](int x, int y) { return varianceAt(x, y); }};
+        return twin::fineShares(in, frame.cells, kMatch);
     }
 
     DetailCase frame;
     simd::StillPreparation still;
-    twin::Cells flow;
-    AlignedRows<float> bent;
+    twin::Cells flow, statistics;
+    AlignedRows<float> kinked, variance;
 };
 
 Shares onHost(const FineInput& in) {
     simd::FineCheck check(in.still.rig(), std::make_shared<Workers>(2));
     Shares out;
     for (int run = 0; run < 2; ++run) {
-        const Rows<const float> rows = check.run(in.frame.video, in.still.pairs(), in.lookUps(),
-                                                 in.bent.rows(), in.frame.work, kMatch);
+        const Rows<const float> rows =
+            check.run(in.frame.video, in.still.pairs(), in.lookUps(),
+                      {in.kinked.rows(), in.variance.rows()}, in.frame.work, kMatch);
         out.clear();
         for (int y = 0; y < rows.size.height; ++y)
             out.insert(out.end(), rows[y], rows[y] + rows.size.width);
@@ -122,8 +142,10 @@ Shares onGpu(const FineInput& in) {
     std::vector<WeighedCell> cellsIn(in.frame.weighed.size());
     std::vector<LookUpCell> lookUps = in.frame.lookUps;
     std::vector<TrustCell> trust(cellsIn.size(), {1, 0.5F, 0.25F, 1});
+    std::vector<std::array<float, 4>> statistics(cellsIn.size());
     for (std::size_t i = 0; i < cellsIn.size(); ++i) {
         cellsIn[i] = {in.flow.values[4 * i], in.flow.values[4 * i + 1], weightAt(i), 0.5F};
+        std::copy_n(&in.statistics.values[4 * i], 4, statistics[i].begin());
         lookUps[i].weight = weightAt(i);
         lookUps[i].confidence = 0.5F;
     }
@@ -132,11 +154,12 @@ Shares onGpu(const FineInput& in) {
     const gpu::Texture still = uploadedLuma(in.still.pairs()),
                        weighed = uploaded(cellsIn, cells, gpu::TexelFormat::Rgba32F),
                        looked = uploaded(lookUps, cells, gpu::TexelFormat::Rgba16F),
-                       trusted = uploaded(trust, cells, gpu::TexelFormat::Rgba8, true);
+                       trusted = uploaded(trust, cells, gpu::TexelFormat::Rgba8, true),
+                       measured = uploaded(statistics, cells, gpu::TexelFormat::Rgba32F);
     TileBuffer tiles(video);
     tiles.set(in.frame.work);
     FineCheck check(in.still.rig());
-    check.run(picture, still, {weighed, looked, trusted}, tiles, kMatch);
+    check.run(picture, still, {weighed, looked, trusted}, measured, tiles, kMatch);
     const std::vector<float> got = check.weights().weighed.readRgba32F(),
                              gotLooked = check.weights().lookUps.readRgba32F();
     const std::vector<std::uint8_t> gotTrust = check.weights().trust.readRgba8();

@@ -2,6 +2,7 @@
 
 #include "pipeline/engine/params/weigh.h"
 #include "pipeline/enlarge/filter_bank.h"
+#include "tests/oracle/superres.h"
 #include "tests/oracle/upscale.h"
 
 #include <Eigen/Dense>
@@ -19,6 +20,10 @@ struct FineCase {
     /// Value of the still at the position to which the flow leads from video pixel (x, y).
     std::function<double(double x, double y)> still;
     std::function<bool(int x, int y)> isMatched;  ///< true if cell (x, y) is matched
+    /// 0 for cells on smooth surfaces, 1 for cells at their edges.
+    std::function<double(int x, int y)> kinked;
+    /// Variance of the video around a cell [grey levels^2].
+    std::function<double(int x, int y)> variance;
 };
 
 /// Returns variance of the video, covariance of video and still, and variance of the still. They
@@ -48,10 +53,7 @@ inline Eigen::Vector3d fineSums(const FineCase& in, int cellX, int cellY) {
 }
 
 /// Returns for each cell, row by row, the share of its weight that remains after the comparison.
-/// `bent`: 0 for each cell with even flow, 1 for each with bent flow.
-inline std::vector<double> fineShares(const FineCase& in, Size cells,
-                                      const std::function<double(int x, int y)>& bent,
-                                      const FineMatch& match) {
+inline std::vector<double> fineShares(const FineCase& in, Size cells, const FineMatch& match) {
     std::vector<Eigen::Vector3d> sums;
     for (int y = 0; y < cells.height; ++y)
         for (int x = 0; x < cells.width; ++x)
@@ -70,9 +72,13 @@ inline std::vector<double> fineShares(const FineCase& in, Size cells,
             const double unexplained = mean[0] - both * both / (mean[2] + least);
             const double allowed =
                 params::kFineRoom * noise + params::kFineShareRoom * double(match.share) * mean[0];
-            const double even = std::min(allowed / std::max(unexplained, least), 1.0);
+            const double rough = smoothstep(params::kFineTexture, params::kRoughTexture,
+                                            mean[0] / (in.variance(x, y) + least));
+            const double smooth =
+                std::lerp(std::min(allowed / std::max(unexplained, least), 1.0), 1.0, rough);
             const double wrong = std::max(unexplained - params::kFineNoise * noise, 0.0);
-            out.push_back(std::lerp(even, std::pow(1 - wrong / (mean[0] + least), 2), bent(x, y)));
+            out.push_back(
+                std::lerp(smooth, std::pow(1 - wrong / (mean[0] + least), 4), in.kinked(x, y)));
         }
     return out;
 }

@@ -35,6 +35,7 @@ inline double confidence(const Eigen::Vector2d& forward, const Eigen::Vector2d& 
 
 struct Weight {
     double weight, confidence, signal, unexplained;
+    double variance;  ///< of the video around the cell [grey levels^2]
 };
 
 /// Change of the flow around a cell [px per px].
@@ -55,6 +56,12 @@ inline double tearAt(const Cells& flow, int x, int y) {
 inline double smoothstep(double low, double high, double v) {
     const double t = std::clamp((v - low) / (high - low), 0.0, 1.0);
     return t * t * (3 - 2 * t);
+}
+
+/// Returns 0 on smooth surfaces, 1 at their edges.
+inline double kinkedAt(const Cells& flow, int x, int y) {
+    return smoothstep(params::kEvenFlow, params::kBentFlow, bendAt(flow, x, y)) *
+           smoothstep(params::kFlatStep, params::kKinkedStep, tearAt(flow, x, y));
 }
 
 /// Weight of a cell. Channels of `statistics`: covariance of video and still, variance of the
@@ -86,7 +93,8 @@ inline Weight weigh(const Cells& flow, const Cells& statistics, const Cells& hal
     const bool textured = s[1] >= params::kTexturedContrast * (noise + params::kPatchPixels);
     return {w > params::kSmallestWeight ? w : 0, conf,
             std::clamp((s[1] - 2 * noise) / (s[1] + noise), 0.0, 1.0),
-            textured && ncc2 * conf <= params::kUnexplainedMatch ? 1.0 : 0.0};
+            textured && ncc2 * conf <= params::kUnexplainedMatch ? 1.0 : 0.0,
+            s[1] / params::kPatchPixels};
 }
 
 /// Class of a tile, decided by its cells and the ring of cells around them. 1: enlarged only; 2:

@@ -52,31 +52,45 @@ inline constexpr float kUnexplainedMatch = 0.25F;
 /// of a cell is the part of the variance of the video's finest detail that the still does not
 /// predict.
 ///
-/// Where the flow is even (see kEvenFlow), look-ups are rarely wrong, but noise and aliasing leave
-/// some variance unexplained. The limit there is kFineRoom * FineMatch::noise + kFineShareRoom *
+/// On smooth surfaces, look-ups are rarely wrong, but noise and aliasing leave some variance
+/// unexplained. The limit there is kFineRoom * FineMatch::noise + kFineShareRoom *
 /// FineMatch::share * (variance of the video's finest detail). If the unexplained variance is above
 /// the limit, the weight of the still is multiplied by limit / (unexplained variance). kFineRoom =
 /// 4 allows twice the usual deviation. kFineShareRoom is smaller, because edges that only the still
 /// shows must not be accepted.
 inline constexpr float kFineRoom = 4.0F;
 inline constexpr float kFineShareRoom = 3.0F;
-/// Where the flow is bent (see kBentFlow), look-ups are probably wrong or show another surface.
-/// There, the weight is multiplied by the square of the explained share of the variance of the
-/// video's finest detail. Reason: look-up errors with a normal distribution multiply the
-/// correlation at a spatial frequency f by exp(-c * f^2). The still's detail lies an octave above
-/// the video's finest detail, so its correlation is the fourth power of the correlation there. The
-/// explained share is the square of that correlation.
+/// A rough texture, such as grass, aliases in the video: much of its finest detail cannot be
+/// predicted, although the look-ups are right. Roughness is the variance of the video's finest
+/// detail, divided by the variance of all pixels around the cell. It is 1 for white noise and about
+/// 0.2 for an edge between two uniform areas. The limit applies fully up to a roughness of
+/// kFineTexture. From kRoughTexture on, there is no limit.
+inline constexpr float kFineTexture = 0.2F;
+inline constexpr float kRoughTexture = 0.4F;
+/// Where a surface has an edge, look-ups are probably wrong or show another surface. A cell is at
+/// an edge if its flow is bent (see kBentFlow) and has a large second difference between
+/// neighbouring cells [video px]. Up to kFlatStep, the surface is smooth; from kKinkedStep on, it
+/// certainly has an edge. The second difference is needed because a flat surface that is seen at a
+/// grazing angle has bent flow, too.
+///
+/// At an edge, the weight is multiplied by the fourth power of the explained share of the variance
+/// of the video's finest detail. Reason: look-up errors with a normal distribution multiply the
+/// correlation at a spatial frequency f by exp(-c * f^2), and the explained share is the square of
+/// the correlation at the video's finest detail. The middle of the still's detail lies one and a
+/// half octaves above that: f^2 is eight times as large, so the correlation there is the fourth
+/// power of the explained share.
 ///
 /// kFineNoise * FineMatch::noise is first subtracted from the unexplained variance as noise.
 /// FineMatch::noise is a low quantile, so most cells have more noise than this; kFineNoise makes up
 /// for that.
+inline constexpr float kFlatStep = 0.1F;
+inline constexpr float kKinkedStep = 0.4F;
 inline constexpr float kFineNoise = 2.0F;
 /// A variance of the finest detail below this is too small to count [grey levels^2].
 inline constexpr float kFineLeast = 0.1F;
 /// Weights that are computed without the finest detail are cautious where the flow is bent or
-/// patches are unlike. Once the finest detail is compared, a weight w below 1 can be raised to w *
-/// (kRaisedWeight - w). The result of the comparison may then lower it.
-inline constexpr float kRaisedWeight = 2.0F;
+/// patches are unlike. Once the finest detail is compared, a weight w below 1 is therefore raised
+/// to 1 - (1 - w)^4. The result of the comparison may then lower it.
 
 struct alignas(16) AssessCells {
     Rig rig;

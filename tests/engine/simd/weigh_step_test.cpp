@@ -178,6 +178,7 @@ void expectOracle(const WeighCase& c, bool givenErrors) {
             EXPECT_EQ(trust.confidence, w.confidence);
             EXPECT_NEAR(trust.signal, t.signal, 1e-3);
             EXPECT_EQ(trust.unexplained, t.unexplained);
+            EXPECT_NEAR(c.step.surface().variance[y][x], t.variance, 2e-3 * t.variance + 0.01);
         }
 }
 
@@ -244,7 +245,7 @@ TEST(WeighStep, ResultsDoNotDependOnTheNumberOfThreads) {
     }
 }
 
-TEST(WeighStep, BentFlowIsMarked) {
+TEST(WeighStep, EdgesOfSurfacesAreMarked) {
     WeighCase c = plainCase();
     c.run();
     twin::Cells flow{.size = c.cells, .values = {}};
@@ -252,16 +253,15 @@ TEST(WeighStep, BentFlowIsMarked) {
         for (int x = 0; x < c.cells.width; ++x)
             for (const float value : {c.forward[y][x].x, c.forward[y][x].y, 0.0F, 0.0F})
                 flow.values.push_back(value);
-    int bent = 0;
+    int kinked = 0;
     for (int y = 0; y < c.cells.height; ++y)
         for (int x = 0; x < c.cells.width; ++x) {
-            const double wanted =
-                twin::smoothstep(params::kEvenFlow, params::kBentFlow, twin::bendAt(flow, x, y));
-            ASSERT_NEAR(c.step.bent()[y][x], wanted, 1e-4) << x << ", " << y;
-            bent += wanted > 0.5 ? 1 : 0;
+            const double wanted = twin::kinkedAt(flow, x, y);
+            ASSERT_NEAR(c.step.surface().kinked[y][x], wanted, 1e-4) << x << ", " << y;
+            kinked += wanted > 0.5 ? 1 : 0;
         }
-    EXPECT_GT(bent, 20);
-    EXPECT_LT(bent, c.cells.width * c.cells.height - 20);
+    EXPECT_GT(kinked, 20);
+    EXPECT_LT(kinked, c.cells.width * c.cells.height - 20);
 }
 
 TEST(WeighStep, ConfirmedWeightsBelowOneAreRaised) {
@@ -277,8 +277,8 @@ TEST(WeighStep, ConfirmedWeightsBelowOneAreRaised) {
     for (std::size_t i = 0; i < before.size(); ++i) {
         const int x = static_cast<int>(i) % c.cells.width, y = static_cast<int>(i) / c.cells.width;
         const float w = before[i].weight, weight = c.step.weighed()[y][x].weight;
-        const float raised = w < 1 ? w * (params::kRaisedWeight - w) : w;
-        EXPECT_FLOAT_EQ(weight, raised * shares[y][x]);
+        const double raised = w < 1 ? 1 - std::pow(1.0 - w, 4) : w;
+        EXPECT_NEAR(weight, raised * shares[y][x], 1e-6);
         EXPECT_EQ(c.step.lookUps()[y][x].weight, weight);
         EXPECT_EQ(c.step.trust()[y][x].halfWeight, std::min(0.5F * weight, 1.0F));
         small += w > 0 && w < 1 ? 1 : 0;
