@@ -6,13 +6,15 @@
 #define HWY_TARGET_INCLUDE "pipeline/simd/cell_weights.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
+// The next header is compiled once per instruction set, so it must come after foreach_target.h.
+#include "pipeline/simd/cell_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace mfar::simd::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 constexpr int kChunk = 16;
-using D = hn::CappedTag<float, kChunk>;
+using D = Cells;
 using V = hn::Vec<D>;
 using LowRow = std::array<float, kChunk>;
 
@@ -22,23 +24,6 @@ HWY_INLINE V Const(float value) {
 
 HWY_INLINE V Mix(V a, V b, V share) {
     return hn::MulAdd(hn::Sub(b, a), share, a);
-}
-
-HWY_INLINE V SmoothStep(float low, float high, V value) {
-    const V unit = hn::Mul(hn::Sub(value, Const(low)), Const(1 / (high - low)));
-    const V t = hn::Max(hn::Min(unit, Const(1)), Const(0));
-    return hn::Mul(hn::Mul(t, t), hn::NegMulAdd(Const(2), t, Const(3)));
-}
-
-HWY_INLINE V Vertical(const RowsAround& rows, int x) {
-    const D d;
-    const V sides = hn::Add(hn::LoadU(d, rows.above + x), hn::LoadU(d, rows.below + x));
-    return hn::MulAdd(Const(2), hn::LoadU(d, rows.here + x), sides);
-}
-
-HWY_INLINE V Smoothed(const RowsAround& rows, int x) {
-    const V sides = hn::Add(Vertical(rows, x - 1), Vertical(rows, x + 1));
-    return hn::Mul(hn::MulAdd(Const(2), Vertical(rows, x), sides), Const(1.0F / 16));
 }
 
 /// Returns how strongly one component of the flow changes around a cell [px^2]: the squared
@@ -85,8 +70,8 @@ struct Weight {
 HWY_INLINE Weight WeightOf(const WeighRow& row, int x, V low, V lowStill, V confidence,
                            float sigma) {
     const V zero = Const(0);
-    const V video = Smoothed(row.varianceVideo, x), still = Smoothed(row.varianceStill, x);
-    const V covariance = hn::Max(Smoothed(row.covariance, x), zero);
+    const V video = smoothed(row.varianceVideo, x), still = smoothed(row.varianceStill, x);
+    const V covariance = hn::Max(smoothed(row.covariance, x), zero);
     const float ofPatch = params::kPatchPixels * (sigma * sigma + params::kByteVariance);
     const float ofLow = params::kPatchPixels * (0.25F * sigma * sigma + params::kByteVariance);
     const V noise = Const(ofPatch), lowNoise = Const(ofLow);
@@ -101,12 +86,12 @@ HWY_INLINE Weight WeightOf(const WeighRow& row, int x, V low, V lowStill, V conf
     const V ncc2 = hn::Mul(hn::Mul(covariance, perVideo), fine);
     const V bend =
         hn::Mul(hn::Sqrt(hn::Add(Bend(row.flowX, x), Bend(row.flowY, x))), Const(1.0F / 8));
-    const V even = hn::Mul(SmoothStep(params::kUnlikePatches, params::kAlikePatches, ncc2),
+    const V even = hn::Mul(smoothStep(params::kUnlikePatches, params::kAlikePatches, ncc2),
                            Const(params::kLookUpLoss));
-    const V bent = SmoothStep(params::kEvenFlow, params::kBentFlow, bend);
+    const V bent = smoothStep(params::kEvenFlow, params::kBentFlow, bend);
     const V trust = Mix(even, hn::Mul(ncc2, ncc2), bent);
     const V tear = hn::Sqrt(hn::Add(Tear(row.flowX, x), Tear(row.flowY, x)));
-    const V whole = hn::Sub(Const(1), SmoothStep(params::kSmoothStep, params::kTornStep, tear));
+    const V whole = hn::Sub(Const(1), smoothStep(params::kSmoothStep, params::kTornStep, tear));
     const V weight = hn::Mul(hn::Mul(gain, trust), hn::Mul(confidence, whole));
     // A cell whose flow is NaN gets weight 0: `bend` is NaN, so bend == bend is false.
     const auto counts = hn::And(hn::Gt(weight, Const(params::kSmallestWeight)), hn::Eq(bend, bend));
@@ -116,7 +101,7 @@ HWY_INLINE Weight WeightOf(const WeighRow& row, int x, V low, V lowStill, V conf
     const auto unlike = hn::Le(hn::Mul(ncc2, confidence), Const(params::kUnexplainedMatch));
     return {hn::IfThenElseZero(counts, weight), hn::Max(hn::Min(signal, Const(1)), zero),
             hn::IfThenElseZero(hn::And(textured, unlike), Const(1)),
-            hn::Mul(bent, SmoothStep(params::kFlatStep, params::kKinkedStep, tear)),
+            hn::Mul(bent, smoothStep(params::kFlatStep, params::kKinkedStep, tear)),
             hn::Mul(video, Const(1 / params::kPatchPixels))};
 }
 

@@ -8,12 +8,14 @@
 #define HWY_TARGET_INCLUDE "pipeline/simd/fine_rows.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
+// The next header is compiled once per instruction set, so it must come after foreach_target.h.
+#include "pipeline/simd/cell_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace mfar::simd::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using F = hn::CappedTag<float, 16>;
+using F = Cells;
 using I16 = hn::Rebind<std::int16_t, F>;
 
 HWY_INLINE hn::Vec<F> Wide(hn::Vec<I16> values) {
@@ -97,27 +99,6 @@ void FineSumsRow(const std::array<std::int16_t*, 2>& video,
     }
 }
 
-HWY_INLINE hn::Vec<F> Smoothed(const RowsAround& rows, int x) {
-    const F d;
-    const auto two = hn::Set(d, 2.0F);
-    const auto column = [&](int at) HWY_ATTR {
-        return hn::MulAdd(two, hn::LoadU(d, rows.here + at),
-                          hn::Add(hn::LoadU(d, rows.above + at), hn::LoadU(d, rows.below + at)));
-    };
-    return hn::Mul(hn::MulAdd(two, column(x), hn::Add(column(x - 1), column(x + 1))),
-                   hn::Set(d, 1.0F / 16));
-}
-
-/// Returns for each cell 0 for low roughness, 1 for high roughness; see params::kRoughTexture.
-HWY_INLINE hn::Vec<F> Rough(hn::Vec<F> fine, hn::Vec<F> variance) {
-    const F d;
-    const auto ratio = hn::Div(fine, hn::Add(variance, hn::Set(d, params::kFineLeast)));
-    constexpr float kScale = 1 / (params::kRoughTexture - params::kFineTexture);
-    const auto unit = hn::Mul(hn::Sub(ratio, hn::Set(d, params::kFineTexture)), hn::Set(d, kScale));
-    const auto t = hn::Min(hn::Max(unit, hn::Zero(d)), hn::Set(d, 1.0F));
-    return hn::Mul(hn::Mul(t, t), hn::NegMulAdd(hn::Set(d, 2.0F), t, hn::Set(d, 3.0F)));
-}
-
 void FineShareRow(const FineSumsAround& sums, const float* kinked, const float* variance,
                   const FineMatch& match, int count, float* to) {
     const F d;
@@ -127,13 +108,14 @@ void FineShareRow(const FineSumsAround& sums, const float* kinked, const float* 
                share = hn::Set(d, params::kFineShareRoom * match.share),
                noise = hn::Set(d, params::kFineNoise * match.noise);
     for (int x = 0; x < count; x += lanes) {
-        const auto video = Smoothed(sums.video, x);
-        const auto both = hn::Max(Smoothed(sums.both, x), zero);
-        const auto still = hn::Add(Smoothed(sums.still, x), least);
+        const auto video = smoothed(sums.video, x);
+        const auto both = hn::Max(smoothed(sums.both, x), zero);
+        const auto still = hn::Add(smoothed(sums.still, x), least);
         const auto unexplained = hn::Sub(video, hn::Div(hn::Mul(both, both), still));
         const auto allowed = hn::MulAdd(share, video, room);
         const auto limited = hn::Min(hn::Div(allowed, hn::Max(unexplained, least)), one);
-        const auto rough = Rough(video, hn::LoadU(d, variance + x));
+        const auto roughness = hn::Div(video, hn::Add(hn::LoadU(d, variance + x), least));
+        const auto rough = smoothStep(params::kFineTexture, params::kRoughTexture, roughness);
         const auto smooth = hn::MulAdd(rough, hn::Sub(one, limited), limited);
         const auto wrong = hn::Max(hn::Sub(unexplained, noise), zero);
         const auto explained = hn::NegMulAdd(wrong, hn::Div(one, hn::Add(video, least)), one);

@@ -52,6 +52,10 @@ inline constexpr float kUnexplainedMatch = 0.25F;
 /// of a cell is the part of the variance of the video's finest detail that the still does not
 /// predict.
 ///
+/// Weights that are computed without the finest detail are cautious where the flow is bent or
+/// patches are unlike. Before the finest detail is compared, a weight w below 1 is therefore raised
+/// to 1 - (1 - w)^4. The result of the comparison may then lower it.
+///
 /// On smooth surfaces, look-ups are rarely wrong, but noise and aliasing leave some variance
 /// unexplained. The limit there is kFineRoom * FineMatch::noise + kFineShareRoom *
 /// FineMatch::share * (variance of the video's finest detail). If the unexplained variance is above
@@ -88,9 +92,6 @@ inline constexpr float kKinkedStep = 0.4F;
 inline constexpr float kFineNoise = 2.0F;
 /// A variance of the finest detail below this is too small to count [grey levels^2].
 inline constexpr float kFineLeast = 0.1F;
-/// Weights that are computed without the finest detail are cautious where the flow is bent or
-/// patches are unlike. Once the finest detail is compared, a weight w below 1 is therefore raised
-/// to 1 - (1 - w)^4. The result of the comparison may then lower it.
 
 struct alignas(16) AssessCells {
     Rig rig;
