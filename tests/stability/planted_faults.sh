@@ -116,8 +116,8 @@ kernelFaults() {
     inHost $simd/still_look_up.cpp 'hn::Lt(error, Const(params::kTwoWayAlpha))' \
         'hn::Lt(error, Const(1e9F))' \
         'missing guard: confidence below zero' engines,pipeline
-    inHost $simd/cell_weights.cpp 'SmoothStep(params::kUnlikePatches, params::kAlikePatches, ncc2)' \
-        'SmoothStep(0.1F, params::kAlikePatches, ncc2)' 'wrong threshold' engines
+    inHost $simd/cell_weights.cpp 'smoothStep(params::kUnlikePatches, params::kAlikePatches, ncc2)' \
+        'smoothStep(0.1F, params::kAlikePatches, ncc2)' 'wrong threshold' engines
     inHost $simd/patch_sums.cpp 'hn::MulFixedPoint15(hn::Sub(b, a), f)' 'hn::MulFixedPoint15(hn::Sub(a, b), f)' \
         'wrong sign between pixels' engines
     inHost $simd/detail_kernels.cpp 'hn::Sub(hn::LoadU(d16, warped.luma + x), shown)' \
@@ -167,5 +167,5 @@ rowFaults() {
 if [[ $which == all || $which == shaders ]]; then inShaders; fi
 if [[ $which == all || $which == host || $which == texts ]]; then hostFaults; fi
 if [[ $which == all || $which == kernels || $which == texts ]]; then kernelFaults; fi
-printf '%d planted faults were found, %d were missed\n' "$found" "$missed"
+printf 'planted faults: %d found, %d missed\n' "$found" "$missed"
 [[ $missed == 0 && $found != 0 ]]
