@@ -237,29 +237,51 @@ void hostileFilters(Context& c) {
     c.checks.through("median3x3", pixelsOf(size));
 }
 
+// First labels of windows: `far` stands for windows that share no label with any other window,
+// except with windows of the same first label.
+std::vector<std::int16_t> firstLabels(Hostile& hostile, Size size, const std::array<int, 2>& far) {
+    std::vector<std::int16_t> base(pixelsOf(size));
+    for (auto& b : base) {
+        const int usual = hostile.integer(-40, 40), which = hostile.integer(0, 1);
+        b = static_cast<std::int16_t>(hostile.chance(0.05) ? far[which] : usual);
+    }
+    return base;
+}
+
 void hostileAggregation(Context& c) {
     const Size size = c.size(1, 100);
     const int vectors = c.hostile.integer(1, 3);
-    SemiGlobal matcher(static_cast<std::size_t>(vectors) * pixelsOf(size));
-    std::vector<std::int16_t> base(pixelsOf(size));
-    for (auto& b : base)
-        b = static_cast<std::int16_t>(c.hostile.chance(0.05) ? c.hostile.pick({-32768, 32000, 0})
-                                                             : c.hostile.integer(-40, 40));
-    std::vector<Valley> out(base.size());
+    const LumaImage guide = c.hostile.luma(size);
     const Smoothness smoothness{c.hostile.integer(1, 30), c.hostile.integer(1, 60),
                                 c.hostile.real(0, 300)};
     const std::uint64_t seed = c.hostile.generator()();
-    matcher.run(
-        c.hostile.luma(size), base, vectors, smoothness,
-        [&](int y, std::uint8_t* costs) {
-            Hostile row(seed + y);
-            for (long i = 0; i < 16L * vectors * size.width; ++i)
-                costs[i] = static_cast<std::uint8_t>(row.integer(0, 24));
-        },
-        *workers(), out);
-    for (std::size_t i = 0; i < out.size(); ++i)
-        c.checks.within(vertexOf(out[i]) - base[i], -0.5, 16 * vectors - 0.5,
-                        "index of a label in its search window");
+    // Returns the index of the best label in the window of every pixel.
+    const auto indices = [&](const std::array<int, 2>& far) {
+        Hostile labels(seed);
+        const std::vector<std::int16_t> base = firstLabels(labels, size, far);
+        std::vector<Valley> found(base.size());
+        SemiGlobal(vectors * base.size())
+            .run(
+                guide, base, vectors, smoothness,
+                [&](int y, std::uint8_t* costs) {
+                    Hostile row(seed + 1 + y);
+                    for (long i = 0; i < 16L * vectors * size.width; ++i)
+                        costs[i] = static_cast<std::uint8_t>(row.integer(0, 24));
+                },
+                *workers(), found);
+        std::vector<float> out(base.size());
+        std::ranges::transform(found, base, out.begin(), [](const Valley& valley, int first) {
+            return vertexOf(valley) - static_cast<float>(first);
+        });
+        return out;
+    };
+    // How far a window is from the others has no influence if they have no label in common.
+    const std::vector<float> near = indices({-200, 300}), far = indices({-32768, 32000});
+    for (std::size_t i = 0; i < far.size(); ++i) {
+        c.checks.within(far[i], -0.5, 16 * vectors - 0.5, "index of a label in its search window");
+        c.checks.within(far[i] - near[i], -0.01, 0.01,
+                        "change of a label with the distance of windows");
+    }
     c.checks.through("SemiGlobal", pixelsOf(size));
 }
 
