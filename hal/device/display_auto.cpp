@@ -57,7 +57,7 @@ void ScreenDisplay::show(const Picture& picture, Timestamp) {
     try {
         active_->show(picture);
         shown_ = std::min(shown_ + 1, kProven);
-        failed_ = nullptr;
+        if (active_ == failed_) failed_ = nullptr;
         if (shown_ == kProven) fault_.clear();
     } catch (const gpu::GlError&) {
         throw;

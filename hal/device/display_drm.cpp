@@ -233,25 +233,31 @@ std::optional<DrmOutput> DrmCard::route(const drmModeConnector& connector,
     for (int i = 0; i < std::min(all->count_crtcs, 32); ++i) {
         const std::uint32_t crtc = all->crtcs[i];
         if ((possible >> i & 1U) == 0 || (found && rank(crtc) <= rank(found->crtc))) continue;
-        const std::uint32_t plane = primaryPlane(static_cast<unsigned>(i));
+        const std::uint32_t plane = primaryPlane(static_cast<unsigned>(i), crtc);
         if (plane != 0)
             found = DrmOutput{nameOf(connector), *mode, connector.connector_id, crtc, plane};
     }
     return found;
 }
 
-std::uint32_t DrmCard::primaryPlane(unsigned crtcIndex) const {
+// On some chips, every primary plane fits every CRTC. The CRTC's current plane is preferred, then a
+// free one: the driver refuses to take a plane from another CRTC.
+std::uint32_t DrmCard::primaryPlane(unsigned crtcIndex, std::uint32_t crtc) const {
     const Planes all(drmModeGetPlaneResources(fd()));
+    std::uint32_t free = 0, used = 0;
     for (std::uint32_t i = 0; all && i < all->count_planes; ++i) {
         const Plane plane(drmModeGetPlane(fd(), all->planes[i]));
         if (!plane || (plane->possible_crtcs >> crtcIndex & 1U) == 0) continue;
         const std::span formats(plane->formats, plane->count_formats);
         if (std::ranges::find(formats, DRM_FORMAT_XRGB8888) == formats.end()) continue;
         if (propertyValue(fd(), plane->plane_id, DRM_MODE_OBJECT_PLANE, "type") ==
-            DRM_PLANE_TYPE_PRIMARY)
-            return plane->plane_id;
+            DRM_PLANE_TYPE_PRIMARY) {
+            if (plane->crtc_id == crtc) return plane->plane_id;
+            std::uint32_t& other = plane->crtc_id == 0 ? free : used;
+            if (other == 0) other = plane->plane_id;
+        }
     }
-    return 0;
+    return free != 0 ? free : used;
 }
 
 std::string DrmCard::connectors() const {

@@ -70,7 +70,7 @@ public:
 private:
     [[nodiscard]] std::optional<DrmOutput> route(const drmModeConnector& connector,
                                                  const ScreenSpec& spec) const;
-    [[nodiscard]] std::uint32_t primaryPlane(unsigned crtcIndex) const;
+    [[nodiscard]] std::uint32_t primaryPlane(unsigned crtcIndex, std::uint32_t crtc) const;
 
     std::string path_;
     OwnedFd fd_;

@@ -215,6 +215,17 @@ TEST_F(AutoDisplay, TriesTheNextDeviceWhenTheFirstPictureIsRefused) {
     EXPECT_FALSE(kms_.held);
 }
 
+TEST_F(AutoDisplay, ARefusingDeviceDoesNotInterruptTheNextOne) {
+    kms_.presence = fbdev_.presence = Presence::Ready;
+    kms_.refuses = true;
+    (void)run(kSecond);
+    const int shown = fbdev_.shown;
+    const int frames = run(12 * kSecond);
+    EXPECT_GT(frames, 0);
+    EXPECT_EQ(fbdev_.shown - shown, frames);
+    EXPECT_EQ(display_->fault(), std::nullopt);
+}
+
 TEST_F(AutoDisplay, TriesTheNextDeviceWhenTheSecondFlipNeverCompletes) {
     kms_.presence = fbdev_.presence = Presence::Ready;
     kms_.refusesAfter = 2;

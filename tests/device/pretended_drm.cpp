@@ -162,7 +162,9 @@ drmModePlaneResPtr drmModeGetPlaneResources(int /*fd*/) {
 drmModePlanePtr drmModeGetPlane(int /*fd*/, std::uint32_t id) {
     auto* out = made<drmModePlane>();
     out->plane_id = id;
-    out->possible_crtcs = 1U << (id - kPlane);
+    // Each plane fits every CRTC, as on Snapdragon chips.
+    out->possible_crtcs = driver.seen.secondScreen ? 3 : 1;
+    out->crtc_id = kCrtc + (id - kPlane);
     out->count_formats = 1;
     out->formats = listOf(std::uint32_t{DRM_FORMAT_XRGB8888});
     return out;
