@@ -64,6 +64,9 @@ public:
         {
             const std::lock_guard lock(mutex_);
             waiting_.push_back(std::move(loan));
+            // The job of a skipped picture is still in the writer's queue and writes this one.
+            if (jobs_ == waiting_.size()) return;
+            ++jobs_;
         }
         writer_.post([this] { writeOldest(); });
     }
@@ -169,6 +172,7 @@ private:
         std::shared_ptr<Frame> picture;
         {
             const std::lock_guard lock(mutex_);
+            --jobs_;
             if (waiting_.empty()) return;  // the picture was skipped
             picture = std::move(waiting_.front());
             waiting_.pop_front();
@@ -187,6 +191,7 @@ private:
     std::atomic<std::uint64_t> leftOut_{0};
     mutable std::mutex mutex_;
     std::deque<std::shared_ptr<Frame>> waiting_;
+    std::size_t jobs_ = 0;  // number of jobs that the writer has not begun
     std::multiset<Timestamp> writing_;
     std::stop_callback<std::function<void()>> onCancel_;
     BackgroundWriter writer_;  // must be the last member, because its threads use the members above
@@ -201,7 +206,8 @@ public:
         std::error_code error;
         fs::create_directories(folder_, error);
         if (error)
-            throw std::runtime_error(fmt::format("{}: {}", folder_.string(), error.message()));
+            throw std::runtime_error(fmt::format("{}: the folder cannot be created: {}",
+                                                 folder_.string(), error.message()));
         if (access(folder_.c_str(), W_OK | X_OK) != 0)
             throw std::runtime_error(folder_.string() + ": the folder is not writable");
     }

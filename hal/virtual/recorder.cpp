@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include <system_error>
+
 #include <cmath>
 #include <memory>
 #include <stdexcept>
@@ -24,7 +26,11 @@ constexpr const char* kPoseHeader = "#timestamp,p_RS_R_x [m],p_RS_R_y [m],p_RS_R
 
 fs::path emptyFolder(const fs::path& root, double videoRateHz) {
     if (!(videoRateHz > 0)) throw std::runtime_error("a recording needs a video rate above 0 Hz");
-    fs::create_directories(root);
+    std::error_code error;
+    fs::create_directories(root, error);
+    if (error)
+        throw std::runtime_error(
+            root.string() + ": the folder of the recording cannot be created: " + error.message());
     if (!fs::is_empty(root))
         throw std::runtime_error(root.string() +
                                  ": the folder is not empty; a recording needs a new one");

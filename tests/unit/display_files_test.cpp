@@ -358,7 +358,7 @@ TEST(OpenFileDisplay, ErrorsAreReported) {
     EXPECT_EQ(refusal("png:"), "png: no folder is given; expected png:FOLDER");
     EXPECT_EQ(refusal("y4m:"), "y4m: needs a file name, or - for standard output");
     const std::string under = (folder / "file/under").string();
-    EXPECT_EQ(refusal("png:" + under), under + ": Not a directory");
+    EXPECT_EQ(refusal("png:" + under), under + ": the folder cannot be created: Not a directory");
     EXPECT_EQ(refusal("y4m:" + under), under + ": Not a directory");
     EXPECT_EQ(refusal("y4m:" + (folder / "a").string(), 0),
               "y4m: the frame rate must be from 0.001 to 1000000 Hz, not 0 Hz");
