@@ -116,14 +116,17 @@ void DetailPainter::enlargeColumns(const TileParams& params, const gpu::Texture&
     if (sharpens) sharpen(params, video, *matched, tiles.work());
     sharpenedIsOld_ = !sharpens;
     if (filters != nullptr) {
+        columnsAreOld_ = true;
         enlargeLearned(params, video, matched, tiles, *filters);
         return;
     }
     if (learned_) learned_->skip();
     if (!options.cubic && !linear_) linear_.emplace();
     TilePass& columns = options.cubic ? columnsPass_ : linear_->columns;
-    columns.run(tiles.work().drawsWhole(), params, {gpu::sampler(0, sharpens ? sharpened_ : video)},
-                columnsTarget_, list(List::All));
+    // Drawing a tile also reads the columns of neighbouring tiles.
+    columns.run(tiles.work().drawsWhole() || columnsAreOld_, params,
+                {gpu::sampler(0, sharpens ? sharpened_ : video)}, columnsTarget_, list(List::All));
+    columnsAreOld_ = false;
 }
 
 DetailPainter::Composites DetailPainter::compositesFor(const DetailOptions& options) {

@@ -96,7 +96,8 @@ private:
     std::array<gpu::Buffer, 2> draws_;
     int current_ = 0, restingFrames_ = 0;
     std::uint32_t classified_ = 0;
-    bool sharpenedIsOld_ = true;
+    // True if the texture (sharpened_, columns_) was not computed for the last drawn frame.
+    bool sharpenedIsOld_ = true, columnsAreOld_ = true;
     gpu::ComputePass<params::ClassifyTiles> classify_;
     TilePass sharpen_, columnsPass_;
     DetailPasses detailPasses_;

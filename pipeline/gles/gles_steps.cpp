@@ -239,16 +239,19 @@ public:
                           cells.first(), flow.forward, flow.backward, flow.backwardLevel,
                           flow.errorsGiven},
                          frame_.tiles(work));
+            fineIsOld_ = true;
         }
         return written(copies_);
     }
     const CellWeights& confirm(const VideoFrame& frame, const StillPictures& still,
                                const TileWork& work, const FineMatch& match) override {
-        if (work.changed > 0)
+        if (work.changed > 0) {
             fine_.run(frame_.video(frame), raisedOf(still),
                       {weigher_.weighed(), weigher_.lookUps(), weigher_.trust()},
                       weigher_.statistics(), frame_.tiles(work), match);
-        return written(fineCopies_);
+            fineIsOld_ = false;
+        }
+        return written(fineIsOld_ ? copies_ : fineCopies_);
     }
 
 private:
@@ -271,6 +274,7 @@ private:
     Copies copies_;
     FineCheck fine_;
     Copies fineCopies_;
+    bool fineIsOld_ = true;  // true if fineCopies_ does not belong to the last changed frame
     CellWeights weights_;
 };
 

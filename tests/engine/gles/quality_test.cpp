@@ -85,6 +85,34 @@ TEST_F(QualityTest, NeighboursAffectedByAChangeAreRedrawn) {
     EXPECT_TRUE(p.readImage() == whole.readImage());
 }
 
+// Learned filters do not use the texture of columns from which other frames are enlarged. Drawing a
+// tile also reads the columns of its neighbours, so after learned filters all are computed.
+TEST_F(QualityTest, ATileDrawnAfterLearnedFiltersReadsNoOldColumns) {
+    const PipelineCase c;
+    for (const bool cubic : {true, false}) {
+        Pipeline p(c.rig, {}), whole(c.rig, {});
+        p.run(c.video({2, 0}).view(), {});
+        TestPicture frame = c.video({2, 0});
+        constexpr PixelRect kTile{32, 32, 48, 48};
+        for (int x = kTile.x0 + 4; x < kTile.x1 - 4; ++x)
+            std::fill_n(frame.at(x, 40), 3, static_cast<std::uint8_t>(5 * x));
+        for (Pipeline* each : {&p, &whole}) {
+            each->setQuality({.mode = SuperResMode::Off, .cubic = cubic});
+            each->run(frame.view(), {});
+        }
+        ASSERT_LT(p.readStats().redrawn, 0.2);
+        const Image a = p.readImage(), b = whole.readImage();
+        const Size output = p.outputSize();
+        const double scale = static_cast<double>(output.width) / c.rig.video.size.width;
+        for (int y = std::lround(kTile.y0 * scale); y < std::lround(kTile.y1 * scale); ++y) {
+            const std::size_t row = 4UL * y * output.width;
+            const auto first = static_cast<std::ptrdiff_t>(row + 4 * std::lround(kTile.x0 * scale)),
+                       last = static_cast<std::ptrdiff_t>(row + 4 * std::lround(kTile.x1 * scale));
+            ASSERT_TRUE(std::equal(a.begin() + first, a.begin() + last, b.begin() + first)) << y;
+        }
+    }
+}
+
 /// Without poses, both pictures must be equal. With poses, the search along epipolar lines starts
 /// from the last frame's flow. Another start may change the flow of doubtful cells a little.
 void expectAlike(const Image& a, const Image& b, bool withPoses) {
