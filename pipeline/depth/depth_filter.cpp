@@ -23,8 +23,9 @@ constexpr double kMostMoving = 0.2;
 // Points are moved only when the picture has moved by at least this distance [px], because each
 // move rounds their positions to pixels.
 constexpr float kLeastMotion = 0.25F;
-// Smallest fused variance, as a fraction of the variance of one measurement. Averaging cannot make
-// the variance smaller, because measurements with the same still share errors.
+// Smallest variance that fusing can reach, as a fraction of the variance of one measurement.
+// Averaging cannot make the variance smaller, because measurements with the same still share
+// errors.
 constexpr float kLeastShare = 0.09F;
 // Two inverse depths agree if their squared difference is at most this multiple of the sum of their
 // variances.
@@ -197,7 +198,8 @@ void DepthFilter::fusePixel(std::size_t i, float inverseDepth, float variance) {
     if (known && agrees(i, inverseDepth, variance)) {
         const float gain = field_.variance[i] / sum;
         field_.inverseDepth[i] += gain * apart;
-        field_.variance[i] = std::max((1 - gain) * field_.variance[i], kLeastShare * variance);
+        const float least = std::min(kLeastShare * variance, field_.variance[i]);
+        field_.variance[i] = std::max((1 - gain) * field_.variance[i], least);
         field_.filled[i] = 0;
         points_.x[i] *= 1 - gain;
         points_.y[i] *= 1 - gain;

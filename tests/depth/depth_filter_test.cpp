@@ -49,6 +49,15 @@ TEST(DepthFilter, MeasurementNoiseIsAveragedOverTheFrames) {
     EXPECT_LT(filter.field().variance[middle()], 0.05F * 0.05F);
 }
 
+TEST(DepthFilter, AnInaccurateMeasurementDoesNotMakeKnownDepthLessCertain) {
+    DepthFilter filter = filterOf();
+    filter.fuse(evenField(1, 0.01F), kWhole);
+    const float before = filter.field().variance[middle()];
+    filter.fuse(evenField(1.01F, 0.1F), kWhole);
+    EXPECT_LE(filter.field().variance[middle()], before);
+    EXPECT_NEAR(filter.field().inverseDepth[middle()], 1, 0.001F);
+}
+
 TEST(DepthFilter, OneOutlierIsIgnoredAndALastingChangeIsFollowed) {
     DepthFilter filter = filterOf();
     filter.predict({}, 0);
