@@ -36,6 +36,8 @@ constexpr double kLeastNew = 0.1;
 // one.
 constexpr double kWorthwhile = 0.998;
 
+// After this number of refused stills in a row, the tone curve is dropped.
+constexpr int kMostRefused = 3;
 constexpr int kBlock = 4;  // block size [px]
 
 std::size_t tileOfBlock(int x, int y, Size tiles) {
@@ -68,8 +70,9 @@ EnlargerLearner::Outcome EnlargerLearner::add(const MatchedPictures& pictures,
     if (stop.stop_requested()) return Outcome::Stopped;
     if (!(pairs.trustedShare() >= kLeastTrusted && pairs.sharpness() >= kLeastSharpness)) {
         ++counts_.refused;
-        return Outcome::Refused;
+        return refusedWith(pictures.tone);
     }
+    refusedInARow_ = 0;
     const StillSums still = sumsOf(pictures, pairs, stop);
     if (stop.stop_requested()) return Outcome::Stopped;
     if (isOutlier(still)) {
@@ -89,6 +92,15 @@ EnlargerLearner::Outcome EnlargerLearner::add(const MatchedPictures& pictures,
     held_.add(still.check);
     measure();
     return replaced ? Outcome::Replaced : Outcome::Kept;
+}
+
+// A wrong tone curve can prevent all matches. Then no still is ever learned from that could correct
+// the curve, so it is dropped after several refused stills.
+EnlargerLearner::Outcome EnlargerLearner::refusedWith(const StillTone& tone) {
+    if (tone.isIdentity() || ++refusedInARow_ < kMostRefused) return Outcome::Refused;
+    refusedInARow_ = 0;
+    tone_ = {};
+    return putMatchInPlace() ? Outcome::Replaced : Outcome::Refused;
 }
 
 EnlargerLearner::Outcome EnlargerLearner::addOlder(const MatchedPictures& truth,

@@ -86,6 +86,8 @@ private:
     /// filters. If the next still contradicts the filters as well, the lens or the sensor has
     /// changed.
     [[nodiscard]] bool isOutlier(const StillSums& still);
+    /// Returns the outcome for a refused still to which the tone curve `tone` was applied.
+    Outcome refusedWith(const StillTone& tone);
     bool choose(const enlarge::SumsOfClasses& check);
     [[nodiscard]] enlarge::ClassWeights solved(int unique) const;
     void learnTone(const enlarge::TrustedPairs& pairs, const StillTone& applied);
@@ -101,6 +103,7 @@ private:
     enlarge::GuidanceLearner guidance_;
     enlarge::FineMatchLearner fineMatch_;
     enlarge::ToneLearner tone_;
+    int refusedInARow_ = 0;  // number of stills with a tone curve that were refused in a row
     std::shared_ptr<const FilterBank> inPlace_;
     // Means over 4x4 video pixels. `shown_`: for each tile, the means when filters were last
     // learned from it. `means_`: the means of the picture that was last given to findNew().

@@ -97,6 +97,27 @@ TEST(EnlargerLearner, StillsOfAnotherSceneAreRefused) {
     EXPECT_TRUE(sameFilters(*learner.filters(), FilterBank::prior()));
 }
 
+TEST(EnlargerLearner, AToneCurveWithWhichStillsAreRefusedIsDropped) {
+    const SensorPair darker{.gain = 0.3};
+    EnlargerLearner learner = learned(darker, 2);
+    const StillTone curve = learner.filters()->tone();
+    ASSERT_FALSE(curve.isIdentity());
+    // The still has the video's exposure now. The curve makes most of it white.
+    const auto overexposed = [&](int seed) {
+        MatchedPictures out = matchedPictures(sharpDiscs(seed), seeded({}, seed));
+        for (int y = 0; y < out.still.size().height; ++y)
+            for (int x = 0; x < out.still.size().width; ++x)
+                out.still[y][x] = 255;
+        out.tone = curve;
+        return out;
+    };
+    EXPECT_EQ(learner.add(overexposed(11)), Outcome::Refused);
+    EXPECT_EQ(learner.add(overexposed(12)), Outcome::Refused);
+    EXPECT_EQ(learner.filters()->tone(), curve);
+    EXPECT_EQ(learner.add(overexposed(13)), Outcome::Replaced);
+    EXPECT_TRUE(learner.filters()->tone().isIdentity());
+}
+
 TEST(EnlargerLearner, StillsOutOfFocusAreRefused) {
     EnlargerLearner learner;
     EXPECT_EQ(learner.add(matchedPictures(sharpDiscs(1), {.stillBlur = 12})), Outcome::Refused);
