@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
 
@@ -59,6 +60,27 @@ int writePart(const std::filesystem::path& file, std::span<const std::uint8_t> b
     return error;
 }
 
+/// True if `file` exists and is neither a file nor a folder, for example /dev/stdout or a pipe.
+bool isDevice(const std::filesystem::path& file) {
+    struct stat there{};
+    return stat(file.c_str(), &there) == 0 && !S_ISREG(there.st_mode) && !S_ISDIR(there.st_mode);
+}
+
+int writeInto(const std::filesystem::path& device, std::span<const std::uint8_t> bytes) {
+    const int fd = open(device.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY);
+    if (fd < 0) return errno;
+    const int error = writeAll(fd, bytes);
+    return close(fd) != 0 && error == 0 ? errno : error;
+}
+
+/// Returns the file that is replaced when `file` is written: the file itself or, if it is a
+/// symbolic link, the file to which it leads.
+std::filesystem::path replacedBy(const std::filesystem::path& file) {
+    std::error_code error;
+    std::filesystem::path target = std::filesystem::canonical(file, error);
+    return error ? file : target;
+}
+
 int renamePart(const std::filesystem::path& file) {
     return std::rename(partOf(file).c_str(), file.c_str()) == 0 ? 0 : errno;
 }
@@ -67,11 +89,13 @@ int renamePart(const std::filesystem::path& file) {
 
 void writeWholeFile(const std::filesystem::path& file, std::span<const std::uint8_t> bytes,
                     Durability durability) {
-    int error = writePart(file, bytes, durability == Durability::OnReturn);
-    if (error == 0) error = renamePart(file);
-    if (error != 0) unlink(partOf(file).c_str());
+    if (isDevice(file)) return check(file, writeInto(file, bytes));
+    const std::filesystem::path target = replacedBy(file);
+    int error = writePart(target, bytes, durability == Durability::OnReturn);
+    if (error == 0) error = renamePart(target);
+    if (error != 0) unlink(partOf(target).c_str());
     check(file, error);
-    if (durability == Durability::OnReturn) syncFolder(file.parent_path());
+    if (durability == Durability::OnReturn) syncFolder(target.parent_path());
 }
 
 void writeWholeFiles(std::span<const NewFile> files) {

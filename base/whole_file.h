@@ -14,8 +14,9 @@ enum class Durability {
 };
 
 /// Writes a file completely or not at all: the bytes go to a temporary file in the same folder,
-/// which is renamed at the end. An existing file is replaced. Thread-safe. Throws
-/// std::runtime_error "file: reason", also if the disk is full.
+/// which is renamed at the end. An existing file is replaced. If `file` is a symbolic link, the
+/// file to which it leads is replaced. A device or pipe is not replaced; the bytes are written into
+/// it. Thread-safe. Throws std::runtime_error "file: reason", also if the disk is full.
 void writeWholeFile(const std::filesystem::path& file, std::span<const std::uint8_t> bytes,
                     Durability durability = Durability::OnReturn);
 
