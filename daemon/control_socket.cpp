@@ -86,14 +86,15 @@ ControlSocket::~ControlSocket() {
     unlink(path_.c_str());
 }
 
-// Waits until `fd` is ready. Returns false after the timeout, or when this object is destroyed.
+// Waits until `fd` is ready. Returns false after the timeout, or if `fd` is not ready when this
+// object is destroyed. So an answer still reaches a client that reads it.
 bool ControlSocket::isReady(int fd, short events, int timeoutMs) const {
     std::array<pollfd, 2> waiting{{{fd, events, 0}, {stop_.get(), POLLIN, 0}}};
     const Timestamp end = Timestamp::now() + std::chrono::milliseconds(timeoutMs);
     for (int left = timeoutMs;; left = millisecondsTo(end)) {
         const int count = poll(waiting.data(), waiting.size(), left);
         if (count < 0 && errno == EINTR) continue;
-        return count > 0 && waiting[1].revents == 0;
+        return count > 0 && waiting[0].revents != 0;
     }
 }
 

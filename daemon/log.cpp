@@ -53,6 +53,7 @@ void Log::status(std::string_view text) {
     // The line is cut to the terminal's width, because a line that wraps cannot be redrawn in
     // place.
     status_ = text.substr(0, static_cast<std::size_t>(columns(fd_) - 1));
+    std::ranges::replace(status_, '\n', ' ');
     put("\r\x1b[K" + status_);
 }
 

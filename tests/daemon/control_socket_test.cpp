@@ -150,6 +150,24 @@ TEST_F(ControlSocketTest, ClientsThatDoNotReadDelayNobody) {
     close(greedy);
 }
 
+TEST_F(ControlSocketTest, AnAnswerThatIsReadyWhenTheSocketClosesIsSent) {
+    std::promise<void> asked;
+    std::promise<void> closes;
+    auto socket = std::make_unique<ControlSocket>(
+        path, [&](std::string_view request, ControlRole role) -> ControlAnswer {
+            asked.set_value();
+            closes.get_future().wait();
+            // The destructor is now waiting for this answer.
+            std::this_thread::sleep_for(std::chrono::milliseconds(200));
+            return echo(request, role);
+        });
+    auto reply = std::async(std::launch::async, [&] { return ask(path, {{"command", "x"}}); });
+    asked.get_future().wait();
+    closes.set_value();
+    socket.reset();
+    EXPECT_NO_THROW((void)reply.get());
+}
+
 TEST_F(ControlSocketTest, TheUserOfThisProcessIsAnOperator) {
     std::optional<ControlRole> seen;
     const ControlSocket socket(path, [&](std::string_view request, ControlRole role) {

@@ -71,6 +71,12 @@ TEST(Log, StatusLineNeverWraps) {
     EXPECT_EQ(out, "\r\x1b[K" + std::string(79, 'x'));
 }
 
+TEST(Log, StatusOfSeveralLinesIsShownInOne) {
+    const std::string out =
+        written(Log::Style::Terminal, [](Log& log) { log.status("video: gone\nstill: gone"); });
+    EXPECT_EQ(out, "\r\x1b[Kvideo: gone still: gone");
+}
+
 TEST(Log, RepeatedEventsAreLoggedWithTheirCount) {
     std::array<int, 2> ends{};
     ASSERT_EQ(pipe(ends.data()), 0);
