@@ -29,8 +29,13 @@ void readCamera(TomlReader& file, const std::string& section, CameraConfig& came
     file.number(section + "rate_hz", camera.rateHz, rateFault);
     file.text(section + "format", camera.format,
               [&](std::string_view word) -> std::optional<std::string> {
-                  if (word == "auto" || camera.driver == CameraDriver::V4l2) return std::nullopt;
-                  return "must be \"auto\" with libcamera, which selects the format itself";
+                  if (word == "auto") return std::nullopt;
+                  if (camera.driver == CameraDriver::Libcamera)
+                      return "must be \"auto\" with libcamera, which selects the format itself; "
+                             "to choose it, set driver = \"v4l2\"";
+                  if (word.size() == 4) return std::nullopt;
+                  return "must be \"auto\" or the four characters of a V4L2 format, such as "
+                         "\"YUYV\"";
               });
     file.boolean(section + "allow_crop", camera.allowCrop);
     file.values(section + "controls", camera.controls);

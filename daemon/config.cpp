@@ -16,8 +16,9 @@ namespace mfar {
 namespace {
 
 constexpr std::size_t kMostConfigBytes = 1 << 20;
-constexpr std::array kPlacedKeys{"recording",      "cameras.calibration", "pose.tags",
-                                 "governor.table", "governor.pin",        "limits.memory_mb"};
+constexpr std::array kPlacedKeys{"recording",       "cameras.calibration", "pose.source",
+                                 "pose.tags",       "governor.table",      "governor.pin",
+                                 "limits.memory_mb"};
 
 template <class E>
 using Word = std::pair<std::string_view, E>;

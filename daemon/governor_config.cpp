@@ -28,9 +28,13 @@ void readGovernor(TomlReader& file, GovernorConfig& governor) {
 }
 
 std::vector<QualityLevel> knownLevels(const GovernorConfig& governor) {
+    // The table is read even if no level is used, so that a fault in it is always reported.
+    std::vector<QualityLevel> levels =
+        governor.table.empty()
+            ? builtInQualityLevels()
+            : parseQualityLevels(readConfigText(governor.table), governor.table.string());
     if (!governor.governs() && governor.pin.empty()) return {};
-    if (governor.table.empty()) return builtInQualityLevels();
-    return parseQualityLevels(readConfigText(governor.table), governor.table.string());
+    return levels;
 }
 
 std::vector<QualityLevel> governedLevels(const GovernorConfig& governor) {

@@ -286,8 +286,8 @@ constexpr Option kVirtual[] = {
 constexpr Option kLight[] = {
     text("environment", R"("studio")",
          "Light on virtual objects: \"studio\", \"sky\", \"camera\" (the light that the video "
-         "shows), or a latitude-longitude picture, a .hdr, PNG or JPEG file relative to this file. "
-         "White in PNG and JPEG is a radiance of 1."),
+         "shows), or a latitude-longitude picture, a .hdr, PNG or JPEG file relative to the "
+         "configuration file. White in PNG and JPEG is a radiance of 1."),
     number("exposure", {0.001, 1000, ""}, "1.0", "Factor of the brightness of virtual objects."),
 };
 
@@ -301,8 +301,8 @@ constexpr Option kSun[] = {
 
 constexpr Option kObjects[] = {
     absent(text("model", R"("showpiece")",
-                "\"showpiece\" or a glTF file (.glb, .gltf), relative to this file. Absent: a "
-                "simple shape.")),
+                "\"showpiece\" or a glTF file (.glb, .gltf), relative to the configuration "
+                "file. Absent: a simple shape.")),
     number("scale", {0.0001, 10000, ""}, "1.0", "Factor by which a model is enlarged."),
     absent(whole("tag", {0, 2114, ""}, "0",
                  "Id of the tag that the object stands on. The object's axes are then x right and "

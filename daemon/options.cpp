@@ -75,7 +75,8 @@ void addOthers(CLI::App& app, Options& options, bool& printConfig) {
     app.set_version_flag("--version", "mfard " MFAR_VERSION, "Print the version");
     app.add_option("--config", options.config, "Configuration file (TOML)")->type_name("FILE");
     app.add_flag("--check-config", options.checkConfig,
-                 "Only check the configuration: print ok, or every fault with its line");
+                 "Only check the configuration: print ok, or its faults with their lines. The\n"
+                 "files that it names are checked after the keys are correct");
     app.add_flag("--print-config", printConfig,
                  "Only print a configuration file with every key, its meaning and default");
     app.add_flag("--release-trigger", options.releaseTrigger,
@@ -141,6 +142,8 @@ CommandLine parseCommandLine(int argc, const char* const* argv) {
     const double seconds = line.options.seconds.value_or(1);
     if (!(seconds > 0 && seconds <= 1e7))
         throw Failure(ExitCode::Usage, "--seconds must be more than 0 and at most 1e7");
+    if (line.options.releaseTrigger && !line.options.config)
+        throw Failure(ExitCode::Usage, "--release-trigger needs --config FILE");
     if (!words.mode.empty()) line.options.mode = superResMode(words.mode);
     if (!words.engine.empty()) line.options.engine = engineWish(words.engine);
     if (!words.pace.empty()) line.options.pace = sourcePace(words.pace);
@@ -168,18 +171,18 @@ Config effectiveConfig(const Options& options) {
         config.engine.use = *options.engine;
     }
     if (options.pace) config.pace = *options.pace;
-    if (options.pose) config.pose.source = *options.pose;
+    if (options.pose) {
+        config.pose.source = *options.pose;
+        config.places.erase("pose.source");
+    }
     if (options.seed) config.seed = *options.seed;
     if (options.measure) config.status.measure = true;
     config.validate = options.validate;
     if (config.pose.source == PoseOrigin::Recorded && config.recording.empty())
-        throw Failure(ExitCode::BadConfig, "pose.source = \"recorded\" needs a recording to play "
-                                           "(--recording)");
-    try {
-        (void)configuredTags(config.pose);
-    } catch (const Failure& failure) {
-        throw Failure(failure.code, config.placeOf("pose.tags") + failure.what());
-    }
+        throw Failure(ExitCode::BadConfig,
+                      config.placeOf("pose.source") +
+                          "\"recorded\" needs a recording: set the key recording or the option "
+                          "--recording, or choose \"tags\" or \"none\"");
     return config;
 }
 

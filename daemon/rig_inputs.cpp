@@ -59,6 +59,7 @@ void requireFiles(const Config& config, RecordingCheck check) {
             faults.add("cameras.calibration", [&] { (void)calibrationOf(config.cameras); });
         faults.add("limits.memory_mb", [&] { requireSourceMemory(config); });
     }
+    faults.add("pose.tags", [&] { (void)configuredTags(config.pose); });
     if (faults.add("governor.table", [&] { (void)knownLevels(config.governor); }))
         faults.add("governor.pin", [&] { (void)governedLevels(config.governor); });
     faults.require();

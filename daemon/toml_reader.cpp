@@ -293,8 +293,16 @@ void TomlReader::fault(const toml::source_region& at, std::string message) {
 }
 
 void TomlReader::refuseUnknown(const toml::table& table, const std::string& prefix) {
-    for (const auto& [key, value] : table)
-        refuseUnknown(key, value, prefix + std::string(key.str()));
+    for (const auto& [key, value] : table) {
+        const std::string_view name = key.str();
+        // A name with a dot was in quotes, so it is a single key and does not set what the same
+        // name without quotes sets.
+        if (name.find_first_of(".[]") != name.npos && name.size() <= kLongestKey)
+            fault(key.source(),
+                  fmt::format("unknown key \"{}\"; write names without quotes", name));
+        else
+            refuseUnknown(key, value, prefix + std::string(name));
+    }
 }
 
 bool TomlReader::isPrefix(std::string_view text) const {
@@ -323,11 +331,28 @@ void TomlReader::refuseUnknown(const toml::key& key, const toml::node& value,
     if (name.size() > kLongestKey)
         return fault(key.source(), fmt::format("unknown key of {} characters", name.size()));
     if (faults_.size() == kMostFaults) return;
-    const auto nearest = std::min_element(known_.begin(), known_.end(),
-                                          [&](const std::string& x, const std::string& y) {
-                                              return distance(name, x) < distance(name, y);
-                                          });
-    fault(key.source(), fmt::format("unknown key {}; the nearest known one is {}", name, *nearest));
+    fault(key.source(), fmt::format("unknown {} {}; {}", value.is_table() ? "section" : "key",
+                                    value.is_table() ? "[" + name + "]" : name,
+                                    suggestion(name, value.is_table())));
+}
+
+std::string TomlReader::suggestion(const std::string& name, bool isSection) const {
+    std::string nearest;
+    std::size_t least = lastPart(name).size() / 2 + 1;
+    const auto offer = [&](const std::string& known) {
+        const std::size_t changes = distance(name, known);
+        if (changes >= least) return;
+        least = changes;
+        nearest = known;
+    };
+    for (const std::string& known : known_) {
+        if (!isSection) offer(known);
+        for (std::size_t dot = known.find('.'); isSection && dot != std::string::npos;
+             dot = known.find('.', dot + 1))
+            offer(known.substr(0, dot));
+    }
+    if (nearest.empty()) return "mfard --print-config prints all known ones";
+    return fmt::format("the nearest known one is {}", isSection ? "[" + nearest + "]" : nearest);
 }
 
 }  // namespace mfar

@@ -80,6 +80,9 @@ private:
     void fault(const toml::source_region& at, std::string message);
     void refuseUnknown(const toml::table& table, const std::string& prefix);
     void refuseUnknown(const toml::key& key, const toml::node& value, const std::string& name);
+    /// Returns the last part of a message about an unknown key or section: the most similar known
+    /// name or, if none is similar, where to find all names.
+    [[nodiscard]] std::string suggestion(const std::string& name, bool isSection) const;
     /// Returns true if some key that was looked for starts with `text`.
     [[nodiscard]] bool isPrefix(std::string_view text) const;
 

@@ -26,28 +26,34 @@ struct RawTag {
                                : fmt::format("{}: {}", file, what));
 }
 
+/// A wrong value of a tag.
+struct TagFault {
+    std::string_view key;  ///< the RawTag's key in a TOML file
+    std::string what;
+};
+
 /// Checks the values of a tag. If one is wrong, returns a description of the fault. If all are
 /// right, adds the tag to `seen` and returns nothing.
-inline std::optional<std::string> wrongWith(const RawTag& raw, std::set<TagKey>& seen) {
+inline std::optional<TagFault> wrongWith(const RawTag& raw, std::set<TagKey>& seen) {
     const TagFamilyInfo& family = info(raw.family);
     if (raw.id < 0 || raw.id >= family.count)
-        return fmt::format("id must be from 0 to {} in family {}, not {}", family.count - 1,
-                           family.name, raw.id);
-    if (!(raw.size > 0) || !std::isfinite(raw.size))
-        return fmt::format("size must be a positive length [m], not {}", raw.size);
+        return TagFault{"id", fmt::format("id must be from 0 to {} in family {}, not {}",
+                                          family.count - 1, family.name, raw.id)};
     if (!plausible::kTagSize.holds(raw.size))
-        return fmt::format("size must be from {} to {} m, not {}", plausible::kTagSize.least,
-                           plausible::kTagSize.most, raw.size);
+        return TagFault{"size",
+                        fmt::format("size must be from {} to {} m, not {}",
+                                    plausible::kTagSize.least, plausible::kTagSize.most, raw.size)};
     for (const double coordinate : raw.position)
         if (!plausible::kTagPosition.holds(coordinate))
-            return fmt::format("the position must be from {} to {} m, not {}",
-                               plausible::kTagPosition.least, plausible::kTagPosition.most,
-                               coordinate);
+            return TagFault{"position", fmt::format("the position must be from {} to {} m, not {}",
+                                                    plausible::kTagPosition.least,
+                                                    plausible::kTagPosition.most, coordinate)};
     // tomlOf() writes nine decimals. Rounding to them cannot change the length by 1e-3.
     if (!(std::abs(raw.wxyz.norm() - 1) < 1e-3))
-        return fmt::format("the quaternion must have length 1, not {}", raw.wxyz.norm());
+        return TagFault{"orientation",
+                        fmt::format("the quaternion must have length 1, not {}", raw.wxyz.norm())};
     if (!seen.insert({raw.family, static_cast<int>(raw.id)}).second)
-        return fmt::format("tag {} of family {} occurs twice", raw.id, family.name);
+        return TagFault{"id", fmt::format("tag {} of family {} occurs twice", raw.id, family.name)};
     return std::nullopt;
 }
 

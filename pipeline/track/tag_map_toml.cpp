@@ -32,8 +32,9 @@ public:
         std::vector<MappedTag> tags;
         for (const toml::node& node : *list->as_array()) {
             if (!node.is_table()) fail(node, "a tag must be a section [[tags]]");
-            const RawTag raw = readTag(*node.as_table());
-            if (const auto wrong = wrongWith(raw, seen_)) fail(node, *wrong);
+            const toml::table& tag = *node.as_table();
+            const RawTag raw = readTag(tag);
+            if (const auto wrong = wrongWith(raw, seen_)) fail(get(tag, wrong->key), wrong->what);
             tags.push_back(mapped(raw));
         }
         if (tags.empty()) fail(*list, "the map has no tag");

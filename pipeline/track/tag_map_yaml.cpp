@@ -80,7 +80,7 @@ private:
         for (const YAML::Node& node : list) {
             if (!node.IsMap()) fail(node, "a tag must have the keys id and size");
             const RawTag raw = readTag(node, placed);
-            if (const auto wrong = wrongWith(raw, seen_)) fail(node, *wrong);
+            if (const auto wrong = wrongWith(raw, seen_)) fail(node, wrong->what);
             MappedTag tag = mapped(raw);
             tag.T_world_tag.rotation = (tag.T_world_tag.rotation * kRosTagOfTag).normalized();
             out.push_back(tag);

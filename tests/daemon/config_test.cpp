@@ -102,6 +102,20 @@ TEST(Config, AnUnknownKeyIsRefusedWithTheNearestKnownKey) {
               "trigger.min_interval_s");
 }
 
+TEST(Config, ANameInQuotesThatContainsADotIsRefused) {
+    EXPECT_EQ(configFaults("[\"cameras.trigger\"]\nline = \"GPIO17\"\n"),
+              "test.toml:1:2: unknown key \"cameras.trigger\"; write names without quotes");
+    EXPECT_EQ(configFaults("\"superres.mode\" = \"off\"\n"),
+              "test.toml:1:1: unknown key \"superres.mode\"; write names without quotes");
+    EXPECT_EQ(configFaults("[\"superres\"]\n\"mode\" = \"off\"\n"), "");
+}
+
+TEST(Config, NoKeyIsSuggestedIfNoneIsSimilar) {
+    EXPECT_EQ(configFaults("[light.sun]\nintensity = 3\n"),
+              "test.toml:2:1: unknown key light.sun.intensity; mfard --print-config prints all "
+              "known ones");
+}
+
 TEST(Config, AKeyInTheWrongSectionIsReportedWithTheRightSection) {
     EXPECT_THAT(configFaults("explained_below = 3\n"), HasSubstr("trigger.explained_below"));
     EXPECT_THAT(configFaults("[status]\nskip_unchanged = true\n"),
@@ -109,8 +123,13 @@ TEST(Config, AKeyInTheWrongSectionIsReportedWithTheRightSection) {
 }
 
 TEST(Config, UnknownSectionsAreRefused) {
-    EXPECT_THAT(configFaults("[trigggr]\n"),
-                AllOf(StartsWith("test.toml:1:"), HasSubstr("trigggr")));
+    EXPECT_EQ(configFaults("[trigggr]\n"),
+              "test.toml:1:2: unknown section [trigggr]; the nearest known one is [trigger]");
+    EXPECT_EQ(configFaults("[camera.video]\nwidth = 640\n"),
+              "test.toml:1:2: unknown section [camera]; the nearest known one is [cameras]");
+    EXPECT_EQ(configFaults("[cameras.vidio]\nwidth = 640\n"),
+              "test.toml:1:10: unknown section [cameras.vidio]; the nearest known one is "
+              "[cameras.video]");
     EXPECT_THAT(configFaults("trigger = 3\n"), HasSubstr("must be a section"));
 }
 

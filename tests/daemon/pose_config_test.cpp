@@ -19,8 +19,9 @@ constexpr const char* kTag = "family = \"tag36h11\"\n[[tags]]\nid = 3\nsize = 0.
 Failure fault(const test::TempFolder& folder) {
     Options options;
     options.config = folder.path() / "mfard.toml";
+    options.source = "synthetic:flat";
     try {
-        (void)effectiveConfig(options);
+        (void)usableConfig(options);
     } catch (const Failure& failure) {
         return failure;
     }

@@ -24,7 +24,7 @@ summary_has measured "$frames"
 echo "an invalid tags.toml is refused with its file"
 sed -i 's/^size = .*/size = 0/' run/tags.toml
 run 65 --recording run
-says err 'run/tags.toml:[0-9]+: size must be a positive length'
+says err 'run/tags.toml:[0-9]+: size must be from 0.001 to 100 m'
 
 echo "without a tag map, the largest tag of the recording is the origin of the world"
 rm run/tags.toml

@@ -14,9 +14,11 @@ constexpr std::string_view kIntroduction =
 `mfard --config FILE` reads a TOML file; the service reads `/etc/mfar/mfard.toml`. Every key is optional.
 `mfard --print-config` prints a file with all keys and defaults, `mfard --check-config --config FILE` checks one:
 an unknown key, a wrong type, a value out of range or the name of an unusable file is refused with file, line and
-column. A key without effect is reported. Options of the command line, in brackets behind the key, override the file.
-Names of files that are read are relative to the configuration file, names of files and folders that are written to
-mfard's working directory (`/var/lib/mfar` for the service).
+column. Options of the command line, in brackets behind the key, override the file.
+
+In the configuration file, relative paths of files that mfard reads start at the folder of that file. Relative paths of
+files and folders that it writes start at its working directory (`/var/lib/mfar` for the service). Paths on the command
+line start at the current folder.
 
 Changes take effect after a restart. In sections marked *reload*, they also take effect after `systemctl reload mfard`,
 `mfarctl reload` or SIGHUP. If the new file is invalid, mfard keeps the old configuration.

@@ -1,6 +1,7 @@
 #include "pipeline/track/tag_map.h"
 #include "tests/unit/temp_folder.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <string>
@@ -66,20 +67,20 @@ TEST(TagMap, ReadsToml) {
 TEST(TagMap, BrokenTomlIsRefusedWithFileAndLine) {
     const std::vector<std::tuple<std::string, std::string, std::string>> cases{
         {"id = 3", "id = ", "t.toml:5: "},
-        {"id = 3", "id = 587", "t.toml:4: id must be from 0 to 586 in family tag36h11, not 587"},
-        {"id = 3", "id = -1", "t.toml:4: id must be"},
+        {"id = 3", "id = 587", "t.toml:5: id must be from 0 to 586 in family tag36h11, not 587"},
+        {"id = 3", "id = -1", "t.toml:5: id must be"},
         {"id = 3", "id = 3.5", "t.toml:5: id must be a whole number"},
         {"id = 3", "ident = 3", "t.toml:5: unknown key ident; expected one of id, size"},
-        {"size = 0.08", "size = 0", "t.toml:4: size must be a positive length"},
+        {"size = 0.08", "size = 0", "t.toml:6: size must be from 0.001 to 100 m, not 0"},
         {"size = 0.08", "size = nan", "t.toml:6: size must be a finite number"},
         {"size = 0.08", "size = \"big\"", "t.toml:6: size must be a finite number"},
         {"size = 0.08\n", "", "t.toml:4: a tag has no key size"},
         {"0.1, -0.2, 1", "0.1, -0.2", "t.toml:7: position must be a list of 3"},
         {"0.1, -0.2, 1", "0.1, -0.2, inf", "t.toml:7: position must be a finite number"},
         {"0.5, 0.5, -0.5, 0.5", "0.5, 0.5, -0.5, 0.6",
-         "t.toml:4: the quaternion must have length 1"},
-        {"0.5, 0.5, -0.5, 0.5", "0, 0, 0, 0", "t.toml:4: the quaternion must have length 1"},
-        {"family = \"tag16h5\"\n", "", "t.toml:10: tag 3 of family tag36h11 occurs twice"},
+         "t.toml:8: the quaternion must have length 1"},
+        {"0.5, 0.5, -0.5, 0.5", "0, 0, 0, 0", "t.toml:8: the quaternion must have length 1"},
+        {"family = \"tag16h5\"\n", "", "t.toml:11: tag 3 of family tag36h11 occurs twice"},
         {"family = \"tag16h5\"", "family = \"tag\"", "t.toml:12: family must be one of"},
         {"family = \"tag36h11\"\n", "",
          "t.toml:3: neither this tag nor the file has the key \"family\""},
@@ -122,7 +123,7 @@ TEST(TagMap, BrokenBundlesAreRefusedWithFileAndLine) {
         {"id: 2", "id: 2, id: 3", "t.yaml:7: id occurs twice"},
         {"id: 2,", "", "t.yaml:7: a tag has no key id"},
         {"id: 2", "idd: 2", "t.yaml:7: unknown key idd"},
-        {"size: 0.2", "size: -0.2", "t.yaml:2: size must be a positive length"},
+        {"size: 0.2", "size: -0.2", "t.yaml:2: size must be from 0.001"},
         {"x: 0.1", "x: .nan", "t.yaml:7: x must be a finite number"},
         {"x: 0.1", "qw: 0.1", "t.yaml:7: the quaternion must have length 1"},
         {"layout:", "tags:", "t.yaml:5: unknown key tags"},
@@ -163,7 +164,8 @@ TEST(TagMap, TooLargeIntegersAreReportedWithFileAndLine) {
         const std::size_t at = text.find_first_of("01", text.find(std::string(key) + " = "));
         text.replace(at, 1, "9007199254740993");
         const std::string said = refusal([&] { (void)tagMapFromToml(text, "t.toml"); });
-        EXPECT_TRUE(said.starts_with("t.toml:1: ")) << key << ": " << said;
+        const auto line = 1 + std::count(text.begin(), text.begin() + std::ptrdiff_t(at), '\n');
+        EXPECT_TRUE(said.starts_with(fmt::format("t.toml:{}: ", line))) << key << ": " << said;
     }
 }
 
