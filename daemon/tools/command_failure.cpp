@@ -15,12 +15,17 @@ const CLI::App& innermost(const CLI::App& app) {
     return used.empty() ? app : innermost(*used.front());
 }
 
+std::string withName(const CLI::App& app, const std::string& message) {
+    const std::string prefix = app.get_name() + ": ";
+    return message.starts_with(prefix) ? message : prefix + message;
+}
+
 }  // namespace
 
 std::string commandFailure(const CLI::App* app, const CLI::Error& error) {
     const CLI::App& at = innermost(*app);
     if (error.get_name() != "RequiredError" || at.get_require_subcommand_min() == 0)
-        return CLI::FailureMessage::simple(app, error);
+        return withName(*app, CLI::FailureMessage::simple(app, error));
     std::vector<std::string> names;
     for (const CLI::App* each : at.get_subcommands([](const CLI::App*) { return true; }))
         if (!each->get_name().empty()) names.push_back(each->get_name());

@@ -1,4 +1,6 @@
+#include "base/calibration/calibration_error.h"
 #include "base/calibration/plausible.h"
+#include "base/calibration/rig_files.h"
 #include "daemon/tools/calibrate/arguments.h"
 #include "daemon/tools/calibrate/collect.h"
 #include "daemon/tools/calibrate/output_folder.h"
@@ -7,10 +9,15 @@
 
 #include <fmt/format.h>
 
+#include <system_error>
 #include <unistd.h>
 
+#include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
+#include <filesystem>
+#include <memory>
 #include <stdexcept>
 #include <string>
 
@@ -49,6 +56,30 @@ void requirePlausibleOffset(double seconds) {
         throw std::runtime_error(*fault + ". It includes the time_offset of the recording");
 }
 
+/// Throws if mfard would refuse this calibration. So a calibration in use is only replaced by one
+/// that can be used.
+void requireUsable(const RigCalibration& calibration) {
+    std::string folder =
+        (std::filesystem::temp_directory_path() / "mfar-calibrate.XXXXXX").string();
+    if (mkdtemp(folder.data()) == nullptr)
+        throw std::system_error(errno, std::generic_category(), folder);
+    const std::shared_ptr<void> atEnd(nullptr, [&](void*) {
+        std::error_code ignored;
+        std::filesystem::remove_all(folder, ignored);
+    });
+    saveRig(folder, calibration);
+    try {
+        (void)loadRig(folder);
+    } catch (const CalibrationError& error) {
+        std::string fault = error.what();
+        if (fault.starts_with(folder + "/")) fault.erase(0, folder.size() + 1);
+        throw std::runtime_error(fmt::format(
+            "the result cannot be used and was not written: {}; record the target also at the "
+            "borders and in the corners of the pictures, or try --k3",
+            fault));
+    }
+}
+
 void run(const CalibrateArguments& a) {
     const Target target = targetOf(a);
     const OutputFolder out(a.out);
@@ -59,6 +90,7 @@ void run(const CalibrateArguments& a) {
     calibration.rig.stillTimeOffset += recording.stillTimeOffset;
     requirePlausibleOffset(calibration.rig.stillTimeOffset);
     fmt::print("{}{}", viewsText(calibration), resultText(calibration));
+    requireUsable(calibration.rig);
     saveRig(a.out, calibration.rig);
     saveResidualPicture(a.out / "residuals.png", calibration);
     fmt::print("written: rig.yaml video.yaml still.yaml residuals.png in {}\n", a.out.string());

@@ -109,7 +109,8 @@ std::string calibrateManPage() {
          "--aprilgrid, or both --checkerboard and --square. Name the written folder as "
          "calibration in mfard.toml.",
          {{"0", "success"},
-          {"1", "the recording or target cannot be read, the recording is not sufficient "
+          {"1", "no target is given, the recording or target cannot be read, the recording is not "
+                "sufficient "
                 "for a calibration, or the result cannot be written"},
           {"100 and more", kParser}}});
 }
