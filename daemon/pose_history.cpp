@@ -26,7 +26,10 @@ const Pose& PoseHistory::pose(std::size_t i) const {
 }
 
 void PoseHistory::add(const Pose& added) {
-    if (count_ > 0 && !(pose(count_ - 1).time < added.time)) count_ = 0;
+    const auto follows = [&](const Pose& last) {
+        return last.time < added.time && last.world == added.world;
+    };
+    if (count_ > 0 && !follows(pose(count_ - 1))) count_ = 0;
     if (count_ == kLength) {
         first_ = (first_ + 1) % kLength;
         --count_;
@@ -54,6 +57,7 @@ std::optional<Pose> PoseHistory::at(Timestamp t) const {
     const Vector6 arc = s * (1 - s) / 2 * span * change;
     Pose out;
     out.time = t;
+    out.world = a.world;
     out.T_world_video = a.T_world_video * exponential(s * span * twist);
     // The errors of neighbouring poses are strongly correlated. So the mean of two poses is not
     // more precise than each of them.

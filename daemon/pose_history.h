@@ -13,8 +13,8 @@ namespace mfar {
 /// An interpolated pose is far more precise than a predicted one. Only one thread may use it.
 class PoseHistory {
 public:
-    /// Adds a pose. If its time is not later than that of the last pose, the history is cleared
-    /// first.
+    /// Adds a pose. If its time is not later than that of the last pose, or if it is in another
+    /// world frame, the history is cleared first.
     void add(const Pose& pose);
 
     /// Returns the pose at t. It is interpolated between the poses before and after t, at constant

@@ -177,7 +177,7 @@ const FrameResult& Pipeline::run(const ImageView& video, Timestamp time,
     const TileWork& work = s.planFrame(frame);
     const bool usesStill = s.newest.pictures != nullptr && s.quality.mode != SuperResMode::Off;
     const bool usesPose =
-        usesStill && s.quality.alongLines && pose && s.epipolar && s.epipolar->hasStill();
+        usesStill && s.quality.alongLines && pose && s.epipolar && s.epipolar->matches(*pose);
     std::optional<State::Match> match;
     if (usesStill)
         match.emplace(s.matchStill(frame, work, usesPose ? pose : std::nullopt, decides));
@@ -185,7 +185,7 @@ const FrameResult& Pipeline::run(const ImageView& video, Timestamp time,
     const State::DepthTask task =
         s.prepareDepth(decides, pose.has_value(), usesPose ? &match->flow : nullptr);
     s.drawDetail(frame, work, match ? &*match : nullptr);
-    if (task.measures) s.measureDepth(frame, {time, pose->T_world_video, pose->covariance}, task);
+    if (task.measures) s.measureDepth(frame, time, *pose, task);
     s.showObjects(frame);
     s.publish(work, usesStill, usesPose);
     s.followScene(frame, pose, time);

@@ -136,8 +136,9 @@ Pipeline::State::DepthTask Pipeline::State::prepareDepth(const PixelRect& where,
     return task;
 }
 
-void Pipeline::State::measureDepth(const VideoFrame& frame, const Pose& pose,
+void Pipeline::State::measureDepth(const VideoFrame& frame, Timestamp time, Pose pose,
                                    const DepthTask& task) {
+    pose.time = time;
     const PixelRect& where = task.where;
     if (task.matches) {
         const DepthStage::StillSearch search{epipolar->search(), epipolar->rotation(),

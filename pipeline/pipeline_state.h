@@ -91,7 +91,7 @@ struct Pipeline::State {
     void tellReplaced();
     [[nodiscard]] MatchedPictures::LookedUp lookedUp() const;
     void drawDetail(const VideoFrame& frame, const TileWork& work, const Match* match);
-    void measureDepth(const VideoFrame& frame, const Pose& pose, const DepthTask& task);
+    void measureDepth(const VideoFrame& frame, Timestamp time, Pose pose, const DepthTask& task);
     void showObjects(const VideoFrame& frame);
     void followScene(const VideoFrame& frame, const std::optional<Pose>& pose, Timestamp time);
     void publish(const TileWork& work, bool usedStill, bool usedPose);

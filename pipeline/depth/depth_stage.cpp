@@ -51,6 +51,8 @@ void DepthStage::forget() {
 
 void DepthStage::run(const Rows<const std::uint8_t>& luma, const Pose& pose,
                      const std::optional<StillSearch>& still, const PixelRect& where) {
+    if (world_ != pose.world) forget();
+    world_ = pose.world;
     const double seconds = last_ ? static_cast<double>((pose.time - *last_).count()) * 1e-9 : 0;
     last_ = pose.time;
     filter_.predict(pose.T_world_video, seconds);

@@ -79,6 +79,7 @@ private:
     bool isRenewed_ = false;
     PixelRect measuredWhere_;
     std::optional<Timestamp> last_;
+    int world_ = 0;  ///< world frame of the known depth and of the keyframes, see Pose::world
     std::vector<Need> needs_;
     std::vector<float> predicted_, samples_, shares_;
 };

@@ -26,7 +26,10 @@ public:
     void setStill(const ImageView& still, const Pose& pose);
     void setStill(const Rows<const std::uint8_t>& still, const Pose& pose);
     void dropStill();
-    [[nodiscard]] bool hasStill() const { return stillPose_.has_value(); }
+    /// True if a still is set and the motion between it and a frame with this pose is known.
+    [[nodiscard]] bool matches(const Pose& frame) const {
+        return stillPose_ && stillPose_->world == frame.world;
+    }
 
     /// Refines the relative pose and matches the frame with the still. May be called only while
     /// there is a still. Pixels in `where` [video px] and in a margin around it are matched. All

@@ -113,6 +113,7 @@ void Tracker::adoptWorld(const std::vector<TagDetection>& tags) {
     if (largest == tags.end()) return;
     map_ = TagMap({{largest->tag, options_.tagSize, standOnTag().inverse()}});
     worldFrames_ = 0;
+    ++world_;
 }
 
 void Tracker::proveWorld(const std::optional<Pose>& filtered) {
@@ -124,6 +125,11 @@ void Tracker::proveWorld(const std::optional<Pose>& filtered) {
 
 bool Tracker::isProven() const {
     return !options_.map.empty() || worldFrames_ >= kProven;
+}
+
+std::optional<Pose> Tracker::inThisWorld(std::optional<Pose> pose) const {
+    if (pose) pose->world = world_;
+    return pose;
 }
 
 std::vector<TagObservation> Tracker::placed(const std::vector<TagDetection>& tags) const {
@@ -140,7 +146,7 @@ std::optional<Pose> Tracker::track(const ImageView& picture, Timestamp time) {
     detections_ = searchVideo(picture, time);
     const std::scoped_lock lock(mutex_);
     if (map_.empty()) adoptWorld(detections_);
-    const auto out = estimator_.update(placed(detections_), rig_.video, time);
+    const auto out = inThisWorld(estimator_.update(placed(detections_), rig_.video, time));
     if (!isProven()) proveWorld(out);
     const std::chrono::duration<double, std::milli> span = std::chrono::steady_clock::now() - begin;
     count(span.count());
@@ -152,7 +158,7 @@ std::optional<Pose> Tracker::trackStill(const ImageView& still, Timestamp time) 
     const auto observe = [&](const std::vector<PixelRect>& regions) {
         const auto tags = search(still_, still, regions);
         const std::scoped_lock lock(mutex_);
-        return estimator_.measure(placed(tags), rig_.still, rig_.T_still_video, time);
+        return inThisWorld(estimator_.measure(placed(tags), rig_.still, rig_.T_still_video, time));
     };
     const auto regions = regionsFor(rig_.still, rig_.T_still_video, time);
     if (!regions.empty())

@@ -97,6 +97,7 @@ private:
     void adoptWorld(const std::vector<TagDetection>& tags);
     void proveWorld(const std::optional<Pose>& filtered);
     [[nodiscard]] bool isProven() const;
+    [[nodiscard]] std::optional<Pose> inThisWorld(std::optional<Pose> pose) const;
     void count(double ms);
 
     StereoRig rig_;
@@ -107,6 +108,7 @@ private:
 
     mutable std::mutex mutex_;  ///< guards the members below
     TagMap map_;
+    int world_ = 0;        ///< see Pose::world
     int worldFrames_ = 0;  ///< frames with an accepted pose since a tag became the world
     PoseEstimator estimator_;
     TrackStats stats_;

@@ -110,5 +110,23 @@ TEST(PoseHistory, OldPosesAreRemovedAndAStepBackInTimeRemovesAllPoses) {
     EXPECT_TRUE(history.at(timeOf(10.5)));
 }
 
+TEST(PoseHistory, PosesInDifferentWorldFramesAreNotMixed) {
+    PoseHistory history;
+    for (int i = 0; i < 4; ++i)
+        history.add(steady(i));
+    const auto inOther = [](double frame) {
+        Pose pose = steady(frame);
+        pose.world = 1;
+        return pose;
+    };
+    history.add(inOther(4));
+    EXPECT_FALSE(history.at(timeOf(2.5)));
+    EXPECT_FALSE(history.at(timeOf(3.5)));
+    history.add(inOther(5));
+    history.add(inOther(6));
+    ASSERT_TRUE(history.at(timeOf(4.5)));
+    EXPECT_EQ(history.at(timeOf(4.5))->world, 1);
+}
+
 }  // namespace
 }  // namespace mfar

@@ -54,6 +54,8 @@ public:
         const Eigen::Matrix3f R = Eigen::Matrix3f::Identity();
         stage_.run(video, nextPose(), DepthStage::StillSearch{search, R, 1, 0.01, {}}, where_);
     }
+    /// The poses of the next frames are in another world frame.
+    void changeWorld() { ++world_; }
     void change(const Scene& scene) { scene_ = scene; }
     void goSideways(int frames, double step) {
         for (int i = 0; i < frames; ++i)
@@ -92,7 +94,9 @@ public:
 
 private:
     [[nodiscard]] Pose nextPose() {
-        return {Timestamp::fromSeconds(1 + kFrame * frames_++), pose_};
+        Pose out{Timestamp::fromSeconds(1 + kFrame * frames_++), pose_};
+        out.world = world_;
+        return out;
     }
 
     DepthStage stage_;
@@ -100,8 +104,19 @@ private:
     PixelRect where_;
     RigidTransform pose_;
     double x_ = 0;
-    int frames_ = 0;
+    int frames_ = 0, world_ = 0;
 };
+
+TEST(DepthStage, DepthAndKeyframesInAnotherWorldFrameAreForgotten) {
+    Walk walk;
+    walk.goSideways(20, 0.01);
+    ASSERT_GT(walk.errors().complete, 0.5);
+    walk.changeWorld();
+    walk.goSideways(1, 0.01);
+    EXPECT_EQ(walk.errors().complete, 0);
+    walk.goSideways(20, 0.01);
+    EXPECT_LT(walk.errors().median, 0.02);
+}
 
 void expectGood(const Walk::Errors& errors) {
     EXPECT_LT(errors.median, 0.015);

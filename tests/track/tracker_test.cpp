@@ -137,7 +137,8 @@ TEST(Tracker, WithoutATagMapAFalseDetectionDoesNotRemainTheOriginOfTheWorld) {
     Tracker tracker(kRig, options);
     std::vector<PlacedTag> wrong{world()[0]}, right{world()[0]};
     wrong[0].tag.id = 20;
-    ASSERT_TRUE(tracker.track(picture(0, wrong).view(), frameTime(0)));
+    const auto first = tracker.track(picture(0, wrong).view(), frameTime(0));
+    ASSERT_TRUE(first);
     for (int i = 1; i < 4; ++i)
         (void)tracker.track(picture(i, right).view(), frameTime(i));
     for (int i = 4; i < 9; ++i) {
@@ -145,6 +146,7 @@ TEST(Tracker, WithoutATagMapAFalseDetectionDoesNotRemainTheOriginOfTheWorld) {
         const auto pose = tracker.track(picture(i, right).view(), frameTime(i));
         ASSERT_TRUE(pose) << i;
         EXPECT_EQ(pose->tags, 1) << i;
+        EXPECT_NE(pose->world, first->world) << i;
     }
     ASSERT_EQ(tracker.map().tags().size(), 1U);
     EXPECT_NE(tracker.map().find(right[0].tag), nullptr);

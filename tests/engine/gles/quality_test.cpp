@@ -150,6 +150,16 @@ TEST_F(QualityTest, PosesAreIgnoredIfTheOptionAlongLinesIsOff) {
     EXPECT_FALSE(posed.readStats().usedPose);
 }
 
+TEST_F(QualityTest, PosesInAnotherWorldFrameThanTheStillsAreIgnored) {
+    const PipelineCase c;
+    Pipeline p(c.rig, {});
+    p.setStill(c.still().view(), {}, posed(0));
+    Pose other = posed(0.02);
+    other.world = 1;
+    EXPECT_FALSE(p.run(c.video({2, 0}).view(), {}, other).stats.usedPose);
+    EXPECT_TRUE(p.run(c.video({3, 0}).view(), {}, posed(0.03)).stats.usedPose);
+}
+
 TEST_F(QualityTest, UnchangedTilesKeepTheirPixels) {
     const PipelineCase c;
     Pipeline p(c.rig, {});
