@@ -33,9 +33,6 @@ constexpr Seconds kLeaveTime{0.2};
 constexpr Seconds kFlushTime{0.4};
 constexpr Seconds kCancelTime{0.5};
 constexpr std::chrono::milliseconds kLastResort{2500};
-// After an error, the recording and the pictures that wait for a slow output are still written, but
-// for at most this time.
-constexpr Seconds kWriteTime{30};
 
 const char* signalName(int signal) {
     return signal == SIGINT ? "SIGINT" : "SIGTERM";
@@ -73,8 +70,7 @@ void App::onOver() {
         if (!over_) return;
         ended_ = std::exchange(over_, std::nullopt);
     }
-    if (stopSignal_) return;
-    events_.deadlineIn(ended_->error && writes() ? kWriteTime : Seconds(kLastResort));
+    if (!stopSignal_) events_.deadlineIn(kLastResort);
 }
 
 // Ends the process if the run is ending and the picture thread hangs, e.g. in a driver of the GPU.

@@ -171,16 +171,13 @@ Config effectiveConfig(const Options& options) {
         config.engine.use = *options.engine;
     }
     if (options.pace) config.pace = *options.pace;
-    if (options.pose) {
-        config.pose.source = *options.pose;
-        config.places.erase("pose.source");
-    }
+    if (options.pose) config.pose.source = *options.pose;
     if (options.seed) config.seed = *options.seed;
     if (options.measure) config.status.measure = true;
     config.validate = options.validate;
     if (config.pose.source == PoseOrigin::Recorded && config.recording.empty())
         throw Failure(ExitCode::BadConfig,
-                      config.placeOf("pose.source") +
+                      (options.pose ? "--pose: " : config.placeOf("pose.source")) +
                           "\"recorded\" needs a recording: set the key recording or the option "
                           "--recording, or choose \"tags\" or \"none\"");
     return config;

@@ -70,7 +70,8 @@ TEST(PoseConfig, RecordedPosesNeedARecording) {
     const test::TempFolder folder;
     test::writeFile(folder.path() / "mfard.toml", "[pose]\nsource = \"recorded\"\n");
     EXPECT_EQ(fault(folder).code, ExitCode::BadConfig);
-    EXPECT_THAT(fault(folder).what(), HasSubstr("needs a recording"));
+    EXPECT_THAT(fault(folder).what(),
+                HasSubstr("mfard.toml:2:10: pose.source: \"recorded\" needs a recording"));
 }
 
 TEST(PoseConfig, TheTrackerGetsTheOptionsOfTheConfiguration) {

@@ -38,6 +38,6 @@ run 65 --recording run --pose recorded
 says err 'recording run: has no poses'
 [ "$(wc -l <err)" = 1 ] || fail "mfard did not write exactly one message"
 run 78 --source synthetic:flat --pose recorded
-says err 'needs a recording'
+says err '--pose: "recorded" needs a recording'
 run 64 --recording run --pose gps
 says err 'tags, recorded, none'

@@ -74,7 +74,7 @@ struct DoubleFilter {
     void fuse(double measured, double error, double leastShare) {
         const double gain = variance / (variance + error);
         inverseDepth += gain * (measured - inverseDepth);
-        variance = std::max((1 - gain) * variance, leastShare * error);
+        variance = std::max((1 - gain) * variance, std::min(leastShare * error, variance));
     }
 };
 

@@ -132,7 +132,7 @@ TEST(MfarEvalPose, InvalidRequestsEndWithAMessageAndStatus2) {
     const std::pair<std::string, std::string> cases[] = {
         {"absent", "absent"},
         {"bare", "tags.toml: is missing"},
-        {"broken", "tags.toml:2: size must be from 0.001 to 100 m"},
+        {"broken", "tags.toml:4: size must be from 0.001 to 100 m"},
         {"empty", "neither a recording nor"},
         {"bare --methods wonder", "unknown method 'wonder' (valid: filtered, raw, still)"},
     };
