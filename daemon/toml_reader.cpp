@@ -331,9 +331,9 @@ void TomlReader::refuseUnknown(const toml::key& key, const toml::node& value,
     if (name.size() > kLongestKey)
         return fault(key.source(), fmt::format("unknown key of {} characters", name.size()));
     if (faults_.size() == kMostFaults) return;
-    fault(key.source(), fmt::format("unknown {} {}; {}", value.is_table() ? "section" : "key",
-                                    value.is_table() ? "[" + name + "]" : name,
-                                    suggestion(name, value.is_table())));
+    fault(key.source(), (value.is_table() ? fmt::format("unknown section [{}]", name)
+                                          : fmt::format("unknown key {}", name)) +
+                            suggestion(name, value.is_table()));
 }
 
 std::string TomlReader::suggestion(const std::string& name, bool isSection) const {
@@ -351,8 +351,8 @@ std::string TomlReader::suggestion(const std::string& name, bool isSection) cons
              dot = known.find('.', dot + 1))
             offer(known.substr(0, dot));
     }
-    if (nearest.empty()) return "mfard --print-config prints all known ones";
-    return fmt::format("the nearest known one is {}", isSection ? "[" + nearest + "]" : nearest);
+    if (nearest.empty()) return "; mfard --print-config prints all known ones";
+    return fmt::format("; the nearest known one is {}", isSection ? "[" + nearest + "]" : nearest);
 }
 
 }  // namespace mfar
