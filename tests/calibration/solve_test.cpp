@@ -73,6 +73,16 @@ TEST(Calibrate, ClockOffsetsOfManyFrameIntervalsAreFound) {
     expectRig(found);
 }
 
+TEST(Calibrate, AClockOffsetBeyondTheSearchIsRefused) {
+    // The first fits nearly, the second bends the poses, the third looks like a shorter offset.
+    for (const double offset : {-0.4, -0.6, 0.7}) {
+        Motion motion;
+        motion.offset = offset;
+        const BothViews views = makeViews(kGrid, motion);
+        EXPECT_THROW((void)calibrate(kGrid, views.video, views.still, {}), Unsuitable) << offset;
+    }
+}
+
 TEST(Calibrate, WrongCornersAndWrongViewsAreExcluded) {
     BothViews views = makeViews(kGrid, {});
     for (std::size_t i = 0; i < views.video.views.size(); i += 3)

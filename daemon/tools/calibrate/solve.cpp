@@ -8,7 +8,9 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <optional>
+#include <tuple>
 
 namespace mfar::calibration {
 namespace {
@@ -22,6 +24,9 @@ constexpr double kLeastMotion = 1;
 constexpr int kLeastMoving = 3;
 constexpr double kMaxFocalDeviation = 0.005;
 constexpr double kMaxBaselineDeviation = 0.002;
+// The cameras disagree if the residual of both together exceeds this [px] and this multiple of the
+// residual of one alone.
+constexpr double kMostResidual = 1, kMostGrowth = 4;
 
 struct Member {
     int view = 0;
@@ -67,6 +72,7 @@ public:
         out.pairs = pairs_;
         out.video = result(*bundle, video_, videoFit_, videoMembers_, false);
         out.still = result(*bundle, still_, stillFit_, stillMembers_, true);
+        checkAgreement(out);
         return out;
     }
 
@@ -92,6 +98,26 @@ private:
             out += sum / static_cast<double>(still.corners.size()) >= kLeastMotion ? 1 : 0;
         }
         return out;
+    }
+
+    /// If the clock offset is wrong, the bundle moves the poses until both cameras fit a little.
+    /// Then the residuals are much larger than with each camera alone.
+    void checkAgreement(const Calibration& out) const {
+        if (std::abs(out.rig.stillTimeOffset) > options_.maxOffset)
+            throw Unsuitable(fmt::format("the clock offset {:.3f} s that fits best lies outside "
+                                         "--max-offset ({:g} s): try a larger limit",
+                                         out.rig.stillTimeOffset, options_.maxOffset));
+        for (const auto& [name, found, sigma] :
+             {std::tuple("video", out.video.rms, videoFit_.sigma),
+              std::tuple("still", out.still.rms, stillFit_.sigma)}) {
+            const double alone = std::numbers::sqrt2 * sigma;
+            if (!(found <= std::max(kMostResidual, kMostGrowth * alone)))
+                throw Unsuitable(fmt::format(
+                    "the two sensors disagree: the residual of the {} sensor is {:.2f} px alone "
+                    "and {:.2f} px together with the other sensor. The times of the stills may be "
+                    "wrong by more than --max-offset",
+                    name, alone, found));
+        }
     }
 
     int poseOf(RigBundle& bundle, int videoView) {
