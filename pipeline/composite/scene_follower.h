@@ -15,8 +15,9 @@ namespace mfar {
 /// objects) is measured. At first, the catcher consists of the plane of the tag map and of the
 /// planes of other tags on which objects stand. After `settling` frames, a measured surface
 /// replaces these planes as soon as depth is known at a share of at least `leastKnown` of the
-/// pixels around the objects. The surface is measured again if at least `leastInterval` [s] have
-/// passed and the camera has moved around the objects by the angle `turn` [rad].
+/// pixels around the objects. Outside of the view, the planes stay. The surface is measured again
+/// if at least `leastInterval` [s] have passed and the camera has moved around the objects by the
+/// angle `turn` [rad].
 struct CatcherRule {
     int settling = 12;
     double leastKnown = 0.7;

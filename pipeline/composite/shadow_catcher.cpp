@@ -212,4 +212,25 @@ ShadowCatcher depthCatcher(const InverseDepthField& field, const CameraModel& vi
     return grid.take();
 }
 
+void addUnseen(ShadowCatcher& measured, const ShadowCatcher& planes, const CameraModel& video,
+               const RigidTransform& T_world_video) {
+    const RigidTransform T_video_world = T_world_video.inverse();
+    std::vector<bool> seen;
+    for (const Eigen::Vector3f& position : planes.positions) {
+        const Eigen::Vector3d p = T_video_world * position.cast<double>();
+        const Eigen::Vector2d ray = p.head<2>() / p.z();
+        const Eigen::Vector2d pixel = p.z() > 0 ? video.project(ray) : Eigen::Vector2d(-1, -1);
+        seen.push_back(pixel.x() >= 0 && pixel.y() >= 0 && pixel.x() < video.size.width &&
+                       pixel.y() < video.size.height);
+    }
+    const auto first = static_cast<std::uint32_t>(measured.positions.size());
+    const std::size_t before = measured.triangles.size();
+    for (const auto& t : planes.triangles)
+        if (!seen[t[0]] || !seen[t[1]] || !seen[t[2]])
+            measured.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+    if (measured.triangles.size() > before)
+        measured.positions.insert(measured.positions.end(), planes.positions.begin(),
+                                  planes.positions.end());
+}
+
 }  // namespace mfar

@@ -324,18 +324,21 @@ void Film::remember(std::size_t pixel, const LightPixel& light) {
     if (light.id == 0 || !(light.firstCount > 0 && light.secondCount > 0)) return;
     if (!isSeen(pixel)) return;
     Pixel& p = begun(pixel);
-    if (p.taken > 0 || p.carried.firstCount > 0) return;
-    const Eigen::Vector3f first = light.first.matrix(), second = light.second.matrix();
-    // On the shadow catcher, `first` is the change of the light by objects. If it is zero, the
-    // pixel counts as untouched by objects.
-    const bool untouched = light.id == kCatcherId && first.isZero(0);
-    p.carried = {first,
-                 second,
-                 squared(luminanceOf(first)) + light.firstVariance,
-                 squared(luminanceOf(second)) + light.secondVariance,
-                 untouched ? kEnough : 1,
-                 1};
-    if (untouched) p.carried.firstSquare = 0;
+    if (p.taken > 0) return;
+    KnownLight& carried = p.carried;
+    if (!(carried.firstCount > 0)) {
+        carried.first = light.first.matrix();
+        // On the shadow catcher, `first` is the change of the light by objects. If it is zero, the
+        // pixel counts as untouched by objects.
+        const bool untouched = light.id == kCatcherId && carried.first.isZero(0);
+        carried.firstSquare =
+            untouched ? 0 : squared(luminanceOf(carried.first)) + light.firstVariance;
+        carried.firstCount = untouched ? kEnough : 1;
+    }
+    if (carried.secondCount > 0) return;
+    carried.second = light.second.matrix();
+    carried.secondSquare = squared(luminanceOf(carried.second)) + light.secondVariance;
+    carried.secondCount = 1;
 }
 
 LightPixel Film::light(std::size_t pixel, const Exposure& exposure) const {

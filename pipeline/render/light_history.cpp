@@ -19,12 +19,17 @@ constexpr float kLeastWeight = 0.1F;
 // kLobeTurn * alpha around the point.
 constexpr float kLobeTurn = 0.5F;
 
-void addShare(KnownLight& sum, float share, const KnownLight& light) {
+// Specular light with fewer samples counts as unknown.
+constexpr float kLeastCount = 0.01F;
+
+void addFirst(KnownLight& sum, float share, const KnownLight& light) {
     sum.first += share * light.first;
-    sum.second += share * light.second;
     sum.firstSquare += share * light.firstSquare;
-    sum.secondSquare += share * light.secondSquare;
     sum.firstCount += share * light.firstCount;
+}
+void addSecond(KnownLight& sum, float share, const KnownLight& light) {
+    sum.second += share * light.second;
+    sum.secondSquare += share * light.secondSquare;
     sum.secondCount += share * light.secondCount;
 }
 
@@ -53,7 +58,7 @@ KnownLight LightHistory::between(const Eigen::Vector2d& pixel, int step, const S
     const double lowX = std::floor(at.x()), lowY = std::floor(at.y());
     const auto fx = static_cast<float>(at.x() - lowX), fy = static_cast<float>(at.y() - lowY);
     KnownLight sum;
-    float weights = 0;
+    float weights = 0, secondWeights = 0;
     for (int i = 0; i < 4; ++i) {
         const int right = i & 1, down = i >> 1;
         const int x = step * (static_cast<int>(lowX) + right);
@@ -64,13 +69,17 @@ KnownLight LightHistory::between(const Eigen::Vector2d& pixel, int step, const S
         if (!isSame(place, lens_->at(static_cast<float>(x), static_cast<float>(y)), seen, point))
             continue;
         const KnownLight known = film_.known(place);
-        if (!(known.firstCount > 0 && known.secondCount > 0)) continue;
+        if (!(known.firstCount > 0)) continue;
         weights += weight;
-        addShare(sum, weight, known);
+        addFirst(sum, weight, known);
+        if (!(known.secondCount > 0)) continue;
+        secondWeights += weight;
+        addSecond(sum, weight, known);
     }
     if (weights < kLeastWeight) return {};
     KnownLight out;
-    addShare(out, 1 / weights, sum);
+    addFirst(out, 1 / weights, sum);
+    if (secondWeights >= kLeastWeight) addSecond(out, 1 / secondWeights, sum);
     return out;
 }
 
@@ -121,6 +130,7 @@ KnownLight LightHistory::found(const SeenSurface& seen, const Eigen::Vector3f& p
     const float turn = std::acos(std::clamp(cosine, -1.0F, 1.0F));
     const float lobes = turn / (kLobeTurn * alphaOf(seen.roughness));
     out.secondCount *= std::exp(-lobes * lobes);
+    if (out.secondCount < kLeastCount) out.secondCount = 0;
     return out;
 }
 

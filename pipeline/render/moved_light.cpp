@@ -11,6 +11,9 @@ namespace {
 
 // Smaller motions count as no motion [rad], [m].
 constexpr double kLeastTurn = 1e-5, kLeastWay = 1e-6;
+// The same for the motion of two objects relative to each other, which has rounding errors [rad],
+// [radii].
+constexpr float kLeastRelativeTurn = 1e-3F;
 // Assumed standard deviation of a single sample, relative to the light.
 constexpr float kNoise = 0.5F;
 // The light that a moved object itself receives is assumed to change by this share if the object
@@ -21,6 +24,14 @@ constexpr float kPenumbra = 0.03F;
 constexpr float kLeastLight = 1e-6F;
 
 }  // namespace
+
+float MovedLight::Ball::way() const {
+    return (now - before).norm() / std::max(radius, 1e-6F);
+}
+
+float MovedLight::Ball::fresh() const {
+    return std::min(1.0F, way() + turn);
+}
 
 struct MovedLight::Sight {
     Eigen::Vector3f towards{0, 0, 1};
@@ -58,7 +69,24 @@ MovedLight::MovedLight(std::span<const Object> objects, const SunLight& sun, con
                       static_cast<float>(turn), o.glow};
         moved.T_before_now =
             Eigen::Translation3f(T.translation.cast<float>()) * T.rotation.cast<float>();
+        balls_.push_back(moved.ball);
     }
+    for (Moved& own : moved_)
+        own.others = othersOf(own, moved_);
+}
+
+std::vector<MovedLight::Ball> MovedLight::othersOf(const Moved& own, std::span<const Moved> moved) {
+    std::vector<Ball> out;
+    for (const Moved& other : moved) {
+        if (other.id == own.id) continue;
+        Ball ball = other.ball;
+        ball.before = own.T_before_now.inverse() * ball.before;
+        ball.turn =
+            Eigen::AngleAxisf(own.T_before_now.linear().transpose() * other.T_before_now.linear())
+                .angle();
+        if (ball.turn > kLeastRelativeTurn || ball.way() > kLeastRelativeTurn) out.push_back(ball);
+    }
+    return out;
 }
 
 const MovedLight::Moved* MovedLight::find(std::uint8_t id) const {
@@ -76,30 +104,36 @@ void MovedLight::follow(std::uint8_t id, Eigen::Vector3f& point, Eigen::Vector3f
 }
 
 /// Returns the irradiance that a surface loses because the ball blocks distant light, divided by
-/// pi.
-float MovedLight::blocked(const Sight& sight, const Eigen::Vector3f& normal) const {
+/// pi: that of the sky and that of the sun.
+MovedLight::Blocked MovedLight::blocked(const Sight& sight, const Eigen::Vector3f& normal) const {
     // The result is an upper limit: a ball that is partly below the surface's horizon hides less.
     const float facing = std::clamp(normal.dot(sight.towards) + sight.sine, 0.0F, 1.0F);
     const float sky =
         far_.dark() ? 0 : luminanceOf<float>(far_.mirrored(sight.towards, std::sqrt(sight.sine)));
-    float out = sight.sine * sight.sine * facing * sky;
+    Blocked out{sight.sine * sight.sine * facing * sky, 0};
     const float sunFacing = normal.dot(sun_.towards());
     if (!sun_.dark() && sunFacing > 0 &&
         sight.covers(sun_.towards(), sun_.angularRadius() + kPenumbra))
-        out += luminanceOf<float>(sun_.irradiance()) * sunFacing / std::numbers::pi_v<float>;
+        out.sun = luminanceOf<float>(sun_.irradiance()) * sunFacing / std::numbers::pi_v<float>;
     return out;
 }
 
 float MovedLight::diffuseChange(const Eigen::Vector3f& point, const Eigen::Vector3f& normal) const {
+    return diffuseChange(balls_, point, normal);
+}
+
+float MovedLight::diffuseChange(std::span<const Ball> balls, const Eigen::Vector3f& point,
+                                const Eigen::Vector3f& normal) const {
     float sum = 0;
-    for (const Moved& moved : moved_) {
-        const Ball& ball = moved.ball;
+    for (const Ball& ball : balls) {
         const Sight before(point, ball.before, ball.radius), now(point, ball.now, ball.radius);
-        const float way = (ball.now - ball.before).norm() / std::max(ball.radius, 1e-6F);
-        // Share of the ball's disc that becomes visible or hidden by the motion.
-        const float fresh = std::min(1.0F, way + ball.turn);
+        const float fresh = ball.fresh();
         const float glow = ball.glow * std::max(before.sine * before.sine, now.sine * now.sine);
-        sum += fresh * (std::max(blocked(before, normal), blocked(now, normal)) + glow);
+        const Blocked was = blocked(before, normal), is = blocked(now, normal);
+        sum += fresh * (std::max(was.sky, is.sky) + glow);
+        // The sun is visible or hidden as a whole. `fresh` is the share of the shadow's area where
+        // that changes, so its root is the RMS change.
+        sum += std::sqrt(fresh) * std::max(was.sun, is.sun);
     }
     const float sun = std::max(normal.dot(sun_.towards()), 0.0F) *
                       luminanceOf<float>(sun_.irradiance()) / std::numbers::pi_v<float>;
@@ -108,28 +142,22 @@ float MovedLight::diffuseChange(const Eigen::Vector3f& point, const Eigen::Vecto
 
 MovedLight::Change MovedLight::at(const SeenSurface& seen, const Eigen::Vector3f& point,
                                   const Eigen::Vector3f& eye) const {
-    if (const Moved* own = find(seen.hit.id)) {
-        const float way = (own->ball.now - own->ball.before).norm();
-        const float change =
-            kOwnChange * (own->ball.turn + way / std::max(own->ball.radius, 1e-6F));
-        return {change, change};
-    }
-    Change out{diffuseChange(point, seen.normal), 0};
+    const Moved* own = find(seen.hit.id);
+    const std::span<const Ball> balls = own != nullptr ? own->others : balls_;
+    Change out{diffuseChange(balls, point, seen.normal), 0};
     const Eigen::Vector3f view = (point - eye).normalized();
     const Eigen::Vector3f mirrored = view - 2 * seen.normal.dot(view) * seen.normal;
     const float alpha = std::max(seen.roughness * seen.roughness, 1e-3F);
-    for (const Moved& moved : moved_) {
-        const Ball& ball = moved.ball;
-        const float way = (ball.now - ball.before).norm() / std::max(ball.radius, 1e-6F);
-        const float fresh = std::min(1.0F, way + ball.turn);
+    for (const Ball& ball : balls)
         for (const Eigen::Vector3f& centre : {ball.before, ball.now}) {
             const Sight sight(point, centre, ball.radius);
             if (!sight.covers(mirrored, 2 * alpha)) continue;
             const float square = sight.sine * sight.sine;
-            out.specular += fresh * square / (square + alpha * alpha);
+            out.specular += ball.fresh() * square / (square + alpha * alpha);
         }
-    }
-    return out;
+    if (own == nullptr) return out;
+    const float change = kOwnChange * (own->ball.turn + own->ball.way());
+    return {out.diffuse + change, out.specular + change};
 }
 
 }  // namespace mfar

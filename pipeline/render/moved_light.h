@@ -51,20 +51,32 @@ private:
     struct Ball {
         Eigen::Vector3f before, now;
         float radius, turn, glow;
+        /// Motion [radii].
+        [[nodiscard]] float way() const;
+        /// Share of the ball's disc that becomes visible or hidden by the motion.
+        [[nodiscard]] float fresh() const;
     };
     struct Moved {
         std::uint8_t id;
         Ball ball;
         Eigen::Isometry3f T_before_now;
+        std::vector<Ball> others;  ///< objects that moved relative to this one, and how
     };
     /// A moved ball as seen from a point.
     struct Sight;
     [[nodiscard]] const Moved* find(std::uint8_t id) const;
-    [[nodiscard]] float blocked(const Sight& sight, const Eigen::Vector3f& normal) const;
+    [[nodiscard]] static std::vector<Ball> othersOf(const Moved& own, std::span<const Moved> moved);
+    [[nodiscard]] float diffuseChange(std::span<const Ball> balls, const Eigen::Vector3f& point,
+                                      const Eigen::Vector3f& normal) const;
+    struct Blocked {
+        float sky = 0, sun = 0;
+    };
+    [[nodiscard]] Blocked blocked(const Sight& sight, const Eigen::Vector3f& normal) const;
 
     const SunLight& sun_;
     const FarLight& far_;
     std::vector<Moved> moved_;
+    std::vector<Ball> balls_;  // of moved_
 };
 
 /// Returns the number of new samples that are as accurate as `count` old samples, if the share

@@ -234,20 +234,25 @@ PathIntegrator::Parts PathIntegrator::walk(const Vertex& first, Lobes lobes, Lig
     return walk.out;
 }
 
+float PathIntegrator::unblockedShare(const Arrived& direct, float otherwise) {
+    const float unblocked = luminanceOf(direct.unblocked.radiance);
+    return unblocked > 0 ? std::min(1.0F, luminanceOf(direct.light.radiance) / unblocked)
+                         : otherwise;
+}
+
 // Replaces sampled light by `known`, an approximation without noise of the direct light that would
 // arrive if nothing blocked it. If objects block a share of the light, only the rest is replaced
 // (Heitz et al. 2018). So the result has no noise where nothing blocks light. `known` has an error
 // of a few percent, so its weight falls after 16 samples.
-PathIntegrator::Sent PathIntegrator::sum(const Parts& parts, const Sent& known,
+PathIntegrator::Sent PathIntegrator::sum(const Parts& parts, const Sent& known, float open,
                                          std::uint32_t number) {
     constexpr std::uint32_t kTrusted = 16;
     const Arrived& direct = parts.direct;
     Sent out = parts.rest;
     out += direct.light;
-    const float unblocked = luminanceOf(direct.unblocked.radiance);
-    float trust =
-        number < kTrusted ? 1.0F : static_cast<float>(kTrusted) / static_cast<float>(number);
-    if (unblocked > 0) trust *= std::min(1.0F, luminanceOf(direct.light.radiance) / unblocked);
+    const float trust =
+        open *
+        (number < kTrusted ? 1.0F : static_cast<float>(kTrusted) / static_cast<float>(number));
     out += {trust * (known.radiance - direct.unblocked.radiance),
             trust * (known.white - direct.unblocked.white)};
     return out;
@@ -262,13 +267,17 @@ PathIntegrator::OfObject PathIntegrator::ofObject(const RayHit& hit,
     // sample.
     Lights lights = sampledLights(sampler, kCameraPairs);
     Sent sent, known;
+    float open = 1;
     const auto add = [&](Lobes lobes) {
         const Parts parts = walk(vertex, lobes, lights, sampler, all);
         const Sent sky = knownSky(vertex, lobes);
         Sent whole = sky;
         whole += knownSun(vertex, lobes);
         known += whole;
-        sent += sum(parts, sunIsKnown_ ? whole : sky, sampler.number());
+        // Without light in this walk, the share of unblocked light of the walk before is the best
+        // guess.
+        open = unblockedShare(parts.direct, open);
+        sent += sum(parts, sunIsKnown_ ? whole : sky, open, sampler.number());
     };
     add(Lobes::Broad);
     if (!vertex.point.look.matt) add(Lobes::Mirrored);

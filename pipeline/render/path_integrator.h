@@ -107,9 +107,12 @@ private:
     /// Follows a reflected ray from a walk's vertex, and adds the distant light at its end. Returns
     /// true if it reaches a surface, which is then `walk.reached`.
     [[nodiscard]] bool scatter(const Vertex& vertex, Walk& walk) const;
+    /// Returns the share of the direct light that nothing blocks, or `otherwise` without light.
+    [[nodiscard]] static float unblockedShare(const Arrived& direct, float otherwise);
     /// Returns the light of all parts. `number` is the index of the sample in its pixel. `known` is
-    /// an approximation of parts.direct.unblocked that needs no ray.
-    [[nodiscard]] static Sent sum(const Parts& parts, const Sent& known, std::uint32_t number);
+    /// an approximation of parts.direct.unblocked that needs no ray. `open`: see unblockedShare().
+    [[nodiscard]] static Sent sum(const Parts& parts, const Sent& known, float open,
+                                  std::uint32_t number);
     /// Weight in multiple importance sampling. `taken` is the density of the strategy that
     /// generated the sample; `other` is the density of the other strategy for this sample.
     using Weight = float (*)(float taken, float other);

@@ -82,7 +82,7 @@ TEST(SceneFollower, ANewLightChangesNothingElse) {
     EXPECT_EQ(follower.follow(table(0.03), kFollowing, downAt(0), kPicture, atSecond(1)), nullptr);
 }
 
-TEST(SceneFollower, ShadowCatcherIsRebuiltIfTheViewTurnsButNotTooOften) {
+TEST(SceneFollower, IfTheViewTurnsTheShadowCatcherIsRebuiltAfterTheLeastInterval) {
     SceneFollower follower({.settling = 1, .leastKnown = 0.5, .turn = 0.3, .leastInterval = 4});
     follower.set(cube());
     const auto follow = [&](double angle, int s) {
@@ -94,6 +94,31 @@ TEST(SceneFollower, ShadowCatcherIsRebuiltIfTheViewTurnsButNotTooOften) {
     EXPECT_NE(follow(0.35, 100), nullptr);
     EXPECT_EQ(follow(0, 103), nullptr);
     EXPECT_NE(follow(0, 105), nullptr);
+}
+
+TEST(SceneFollower, OutsideOfTheViewTheShadowCatcherIsStillAPlane) {
+    SceneFollower follower({.settling = 0});
+    const auto reach = [](const ShadowCatcher& c) {
+        Eigen::AlignedBox3f box;
+        for (const auto& triangle : c.triangles)
+            for (const std::uint32_t vertex : triangle)
+                box.extend(c.positions[vertex]);
+        return box;
+    };
+    const auto planes = reach(follower.set(cube())->catcher);
+    // The right border of the picture cuts through the objects.
+    RigidTransform aside = downAt(0);
+    aside.translation.x() -= 0.25;
+    const auto scene = follower.follow(table(0.03), kFollowing, aside, kPicture, atSecond(1));
+    ASSERT_NE(scene, nullptr);
+    const ShadowCatcher& c = scene->catcher;
+    EXPECT_NEAR(reach(c).max().x(), planes.max().x(), 1e-6F);
+    EXPECT_NEAR(reach(c).min().x(), -planes.max().x(), 0.02F);
+    for (const auto& t : c.triangles) {
+        const auto at = [&](int i) { return c.positions[t[static_cast<std::size_t>(i)]]; };
+        const float right = std::max({at(0).x(), at(1).x(), at(2).x()});
+        EXPECT_EQ(at(0).z() < 0.01F, right > 0.018F) << right;
+    }
 }
 
 TEST(SceneFollower, WithoutObjectsInThePictureTheShadowCatcherIsNotRebuilt) {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <vector>
@@ -189,6 +190,27 @@ TEST(MovingObjects, DiffuseLightChangesOnlyInTheShadowOfAMovedObject) {
     const Eigen::Vector3f up{0, 0, 1};
     EXPECT_GT(moved.diffuseChange({-2, 0, 0}, up), 0.1F);
     EXPECT_EQ(moved.diffuseChange({2, 0, 0}, up), 0);
+}
+
+TEST(MovingObjects, ShadowsOfOtherMovedObjectsChangeTheLightOnAMovedObject) {
+    Sun sun;
+    sun.towards = Eigen::Vector3f(0, 0, 1);
+    Scene dark;
+    dark.lighting.sun = sun;
+    const EnvironmentLight none(nullptr);
+    const FarLight far(none, dark.lighting, dark.catcher);
+    const SunLight light(sun);
+    const RigidTransform low{kUnturned, {0, 0, 0.001}}, high{kUnturned, {0, 0, 2}};
+    const auto changeOfLow = [&](const RigidTransform& highNow) {
+        const std::array objects{MovedLight::Object{1, {{0, 0, 0}, 0.5}, {}, low, 0},
+                                 MovedLight::Object{2, {{0, 0, 0}, 0.1}, high, highNow, 0}};
+        SeenSurface top;
+        top.hit.id = 1;
+        top.normal = {0, 0, 1};
+        return MovedLight(objects, light, far).at(top, {0, 0, 0.5F}, {3, 0, 3}).diffuse;
+    };
+    EXPECT_GT(changeOfLow({kUnturned, {0, 0.02, 2}}), 0.1F);
+    EXPECT_LT(changeOfLow({kUnturned, {0, 0, 2.001}}), 0.01F) << "both move alike";
 }
 
 TEST(MovingObjects, FollowMovesPointsOfAnObjectToTheirEarlierPositions) {
