@@ -54,6 +54,6 @@ void main() {
         found = litColour(paint, Light(textureLod(diffuseLight, texel, 0.0), textureLod(specularLight, texel, 0.0)));
     }
     colour = plain ? found : vec4(0.0);
-    depth = plain && found.a > 0.0 ? (id == kCatcher ? (1.0 - kShadowLift) * z : z) : 0.0;
+    depth = plain && isShown(found) ? (id == kCatcher ? (1.0 - kShadowLift) * z : z) : 0.0;
     state = empty ? vec4(0.0) : plain ? vec4(0.0, 0.0, 0.0, float(id) / 255.0) : vec4(0.0, 1.0, 0.0, 0.0);
 }

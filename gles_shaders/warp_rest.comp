@@ -70,7 +70,7 @@ void main() {
     // An edge pixel without a known colour is not rendered individually: the result would be a
     // mixture of the surfaces at the edge. It is filled from its neighbours instead.
     bool edge = (missed ? covered : below) < 1.0;
-    float z = covered > 0.0 ? object.z : shown.a > 0.0 || hole ? (1.0 - kShadowLift) * catcher.z : 0.0;
+    float z = covered > 0.0 ? object.z : isShown(shown) || hole ? (1.0 - kShadowLift) * catcher.z : 0.0;
     float plain = hole ? 0.0 : covered == 1.0 ? float(id) : below == 1.0 ? float(kCatcher) : 0.0;
     float missing = missed ? float(id) : hole ? float(kCatcher) : 0.0;
     float part = missed ? covered * (1.0 - objectKnown) : below * (1.0 - catcherKnown);

@@ -13,3 +13,8 @@ float surfaceDepth(uint surface) {
 uint surfaceId(uint surface) {
     return surface & 0xffu;
 }
+// True unless all bytes of a premultiplied colour are 0. The light of a glowing object on a real
+// surface has a colour, but no alpha.
+bool isShown(vec4 colour) {
+    return any(greaterThan(colour, vec4(0.5 / 255.0)));
+}

@@ -17,7 +17,7 @@ gpu::Texture alphaOf(const SurfaceTexture& texture) {
     alpha.reserve(texture.texels.size());
     for (const auto& texel : texture.texels)
         alpha.push_back(texel[3]);
-    gpu::Texture out(texture.size, gpu::TexelFormat::R8);
+    gpu::Texture out(texture.size, gpu::TexelFormat::R8, gpu::Filter::Linear);
     out.upload({alpha.data(), static_cast<std::size_t>(texture.size.width)});
     out.repeat();
     return out;

@@ -233,7 +233,7 @@ RestPixel RestPixels::at(const Asked& asked) const {
     const bool edge = (missed ? covered : below) < 1;
     if (covered > 0)
         out.depth = object.z;
-    else if (hole || out.colour >> 24 != 0)
+    else if (hole || out.colour != 0)
         out.depth = plain_.shownDepth * catcher.z;
     const std::uint32_t plain = hole ? 0 : covered == 1 ? id : below == 1 ? kCatcherNumber : 0;
     const std::uint32_t missing = missed ? id : hole ? kCatcherNumber : 0;

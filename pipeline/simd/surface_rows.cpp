@@ -85,9 +85,29 @@ void DrawTriangles(const RasterTriangle* triangles, std::size_t count, const Ras
     }
 }
 
-HWY_INLINE int TexelAt(float share, int side) {
-    const float place = (share - std::floor(share)) * static_cast<float>(side);
-    return place > 0 ? std::min(static_cast<int>(place), side - 1) : 0;
+struct TexelPair {
+    int first, second;
+    float share;  // of the second texel
+};
+
+HWY_INLINE TexelPair TexelsAbout(float coordinate, int side) {
+    const float place = (coordinate - std::floor(coordinate)) * static_cast<float>(side) - 0.5F;
+    const float below = std::floor(place);
+    const int first = std::clamp(static_cast<int>(below), -1, side - 1);
+    return {first < 0 ? side - 1 : first, first + 1 >= side ? 0 : first + 1, place - below};
+}
+
+/// Alpha, interpolated between four texels as the path tracer does. The texture repeats.
+HWY_INLINE float AlphaAt(const RasterMask& mask, float u, float v) {
+    const TexelPair x = TexelsAbout(u, mask.size.width), y = TexelsAbout(v, mask.size.height);
+    const auto between = [&](int row) {
+        const std::uint8_t* texels =
+            mask.rgba + 4 * static_cast<std::size_t>(row) * mask.size.width;
+        const auto first = static_cast<float>(texels[4 * x.first + 3]);
+        return first + x.share * (static_cast<float>(texels[4 * x.second + 3]) - first);
+    };
+    const float top = between(y.first);
+    return (top + y.share * (between(y.second) - top)) / 255;
 }
 
 void DrawMasked(const MaskedTriangle* triangles, std::size_t count, const RasterBand& band) {
@@ -103,10 +123,7 @@ void DrawMasked(const MaskedTriangle* triangles, std::size_t count, const Raster
             const Columns columns = ColumnsAt(t, row, band.where);
             for (int x = columns.first; x < columns.last; ++x) {
                 const float perZ = std::min(std::max(at(t.perZ, x, row), t.leastPerZ), t.mostPerZ);
-                const int u = TexelAt(at(m.u, x, row) / perZ, m.mask.size.width);
-                const int v = TexelAt(at(m.v, x, row) / perZ, m.mask.size.height);
-                const std::size_t texel = static_cast<std::size_t>(v) * m.mask.size.width + u;
-                const float alpha = static_cast<float>(m.mask.rgba[4 * texel + 3]) / 255;
+                const float alpha = AlphaAt(m.mask, at(m.u, x, row) / perZ, at(m.v, x, row) / perZ);
                 if (!(alpha >= m.mask.cutoff)) continue;
                 const auto z = std::bit_cast<std::uint32_t>(1 / perZ);
                 const std::uint32_t word = ((z + 0x80) & 0xFFFFFF00U) | t.word;

@@ -279,7 +279,8 @@ HWY_INLINE void ReadReference(const ViewLookUpInput& in, const Asked& a, const P
                 hn::BitCast(du, hn::IfThenElse(lit, hn::BitCast(d, colour), hn::BitCast(d, found)));
         }
         out.colour = hn::BitCast(du, hn::IfThenElseZero(coloured, hn::BitCast(d, found)));
-        const M visible = AsFloats(hn::Gt(hn::ShiftRight<24>(out.colour), hn::Zero(du)));
+        // The light of a glowing object has a colour, but no alpha.
+        const M visible = AsFloats(hn::Ne(out.colour, hn::Zero(du)));
         const V lifted = hn::IfThenElse(a.ofCatcher, hn::Mul(a.z, hn::Set(d, in.shownDepth)), a.z);
         out.depth = hn::IfThenElseZero(visible, lifted);
     }

@@ -5,6 +5,15 @@
 #include <span>
 
 namespace mfar {
+namespace {
+
+bool isObject(const HoleAnswer& answer, std::size_t i) {
+    const float z = answer.depth[i];
+    return answer.id[i] != 0 && answer.id[i] != kCatcherId && z > LensProjection::kNear &&
+           z < kFarthestSurface;
+}
+
+}  // namespace
 
 RerenderedPictures::RerenderedPictures(Size layer, int fadeFrames)
     : layer_(layer), fadeFrames_(fadeFrames),
@@ -27,6 +36,10 @@ void RerenderedPictures::age() {
 void RerenderedPictures::add(const HoleAnswer& answer,
                              const std::function<void(const StoredRows&)>& store) {
     const auto& pixels = answer.pixels;
+    bool isEmpty = true;
+    for (std::size_t i = 0; i < pixels.size() && isEmpty; ++i)
+        isEmpty = !isObject(answer, i);
+    if (isEmpty) return;
     std::rotate(pictures_.begin(), pictures_.end() - 1, pictures_.end());
     Picture& picture = pictures_.front();
     PixelRect bounds;
@@ -35,10 +48,8 @@ void RerenderedPictures::add(const HoleAnswer& answer,
         assert(pixels[i] < surfaces_.size());
         const auto x = static_cast<int>(pixels[i] % static_cast<unsigned>(layer_.width));
         const auto y = static_cast<int>(pixels[i] / static_cast<unsigned>(layer_.width));
-        const float z = answer.depth[i];
-        const bool isObject = answer.id[i] != 0 && answer.id[i] != kCatcherId &&
-                              z > LensProjection::kNear && z < kFarthestSurface;
-        if (isObject) {
+        if (isObject(answer, i)) {
+            const float z = answer.depth[i];
             surfaces_[pixels[i]] = {z, static_cast<float>(answer.id[i]), 0, 1};
             colours_[pixels[i]] = filled(answer.colour[i]);
             if (!answer.light.empty()) lights_[pixels[i]] = answer.light[i];

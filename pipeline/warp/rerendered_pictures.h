@@ -28,8 +28,8 @@ public:
         std::span<const LightWords> lights;  ///< light on objects; empty if only colours are known
         std::span<const WarpSurface> surfaces;
     };
-    /// Adds an answer as the newest picture. The answer must have at least one pixel, and all
-    /// pixels must be in the layer. Passes all changed rows to `store`. Storage that was never
+    /// Adds an answer as the newest picture, unless no pixel shows an object. All pixels must be in
+    /// the layer. Passes all changed rows to `store`. Storage that was never
     /// written counts as empty.
     void add(const HoleAnswer& answer, const std::function<void(const StoredRows&)>& store);
     void clear();

@@ -3,6 +3,7 @@
 #include "base/se3.h"
 
 #include <algorithm>
+#include <iterator>
 #include <span>
 #include <stdexcept>
 #include <utility>
@@ -143,9 +144,24 @@ std::optional<HoleRequest> Warp::request(std::vector<std::uint32_t> pixels, bool
     HoleRequest out{{lens_.camera, T_world_camera}, std::move(pixels), samples, scene_, edges};
     if (!edges) {
         out.poses = listPoses_;
-        lastRequest_ = out;
+        remember(out);
     }
     return out;
+}
+
+/// True if the pixels of the last request belong to the frame whose missing pixels are listed.
+bool Warp::isOfLastRequest() const {
+    return listPoses_.empty() && isUnmoved(lastRequest_.view.T_world_camera, listPose_);
+}
+
+void Warp::remember(const HoleRequest& request) {
+    if (!isOfLastRequest()) {
+        lastRequest_ = request;
+        return;
+    }
+    std::vector<std::uint32_t> both;
+    std::ranges::set_union(lastRequest_.pixels, request.pixels, std::back_inserter(both));
+    lastRequest_.pixels = std::move(both);
 }
 
 /// True if no point of the traced picture moves by leastMotion [px] or more.
@@ -159,10 +175,10 @@ bool Warp::isUnmoved(const RigidTransform& from, const RigidTransform& to) const
            std::max(options_.leastMotion, kSamePose);
 }
 
-// Removes the pixels of the last request if the view has not changed since then. These pixels were
-// rendered but are missing again, so rendering them once more would not help.
+// Removes the pixels that were requested since the view changed last. These pixels were rendered
+// but are missing again, so rendering them once more would not help.
 void Warp::dropRefused(std::vector<std::uint32_t>& pixels) const {
-    if (!listPoses_.empty() || !isUnmoved(lastRequest_.view.T_world_camera, listPose_)) return;
+    if (!isOfLastRequest()) return;
     std::erase_if(pixels, [&](std::uint32_t p) {
         return std::ranges::binary_search(lastRequest_.pixels, p);
     });

@@ -82,6 +82,25 @@ TEST_F(WarpHolesGl, AnsweredPixelsAreReusedAfterTheCameraMoved) {
         << "only pixels that the further rotation uncovers are requested";
 }
 
+TEST_F(WarpHolesGl, WhileTheCameraRestsNoPixelIsRequestedTwice) {
+    Turned s({.mostRequested = 200});
+    std::vector<int> requests(static_cast<std::size_t>(kHoleLayer.width) * kHoleLayer.height);
+    std::optional<HoleRequest> request;
+    for (int i = 0; i < 60; ++i) {
+        request = s.requestAt(kTurn);
+        if (!request) continue;
+        HoleAnswer answer = test::answered(s.scene, *request);
+        // The tracer sees no object there, as through a hole of an alpha mask.
+        std::ranges::fill(answer.id, 0);
+        s.warp.answer(answer);
+        if (request->edges) continue;
+        for (const std::uint32_t pixel : request->pixels)
+            ASSERT_EQ(++requests[pixel], 1) << pixel;
+    }
+    EXPECT_FALSE(request);
+    EXPECT_GT(s.warp.counters().requested, 2 * 200U);
+}
+
 TEST_F(WarpHolesGl, AnswersFadeInOverSeveralFrames) {
     Turned s({.fadeFrames = 4});
     const auto request = s.requestAt(kTurn);

@@ -1,5 +1,6 @@
 #include "base/workers.h"
 #include "pipeline/render/rendered_picture.h"
+#include "pipeline/render/texture_lookup.h"
 #include "pipeline/simd/surface_raster.h"
 
 #include <gtest/gtest.h>
@@ -128,7 +129,9 @@ TEST(SurfaceRaster, TrianglesBehindTheCameraAreClipped) {
         }
 }
 
-TEST(SurfaceRaster, TransparentTexelsOfAMaskAreNotDrawn) {
+/// A square with a mask of 2x2 texels, of which those in `shown` are opaque. Pixel (x, y) shows
+/// the texture's coordinates ((x - 39.51) / 40, (y - 19.51) / 40).
+Scene maskedSquare(std::initializer_list<std::size_t> shown) {
     auto model = std::make_shared<Model>();
     model->meshes.push_back(shards(5, 3));
     Material masked;
@@ -138,11 +141,16 @@ TEST(SurfaceRaster, TransparentTexelsOfAMaskAreNotDrawn) {
     SurfaceTexture board;
     board.size = {2, 2};
     board.texels.resize(4);
-    board.texels[0][3] = board.texels[3][3] = 255;
+    for (const std::size_t texel : shown)
+        board.texels[texel][3] = 255;
     model->textures.push_back(board);
     Scene scene;
     scene.objects.push_back({model, {Eigen::Quaterniond::Identity(), {0.0001, 0.0001, 1}}, 1});
-    const auto words = drawn(scene);
+    return scene;
+}
+
+TEST(SurfaceRaster, TransparentTexelsOfAMaskAreNotDrawn) {
+    const auto words = drawn(maskedSquare({0, 3}));
     for (const auto& [x, y, shown] : {std::tuple{45, 25, true},
                                       {75, 25, false},
                                       {45, 55, false},
@@ -150,6 +158,24 @@ TEST(SurfaceRaster, TransparentTexelsOfAMaskAreNotDrawn) {
                                       {58, 38, true},
                                       {62, 38, false}})
         EXPECT_EQ(words[static_cast<std::size_t>(y) * 120 + x] != 0, shown) << x << " " << y;
+}
+
+TEST(SurfaceRaster, BetweenItsTexelsAMaskIsInterpolatedAsByThePathTracer) {
+    const Scene scene = maskedSquare({0});
+    const SurfaceTexture& texture = scene.objects[0].model->textures[0];
+    const auto words = drawn(scene);
+    int sure = 0;
+    for (int y = 20; y < 59; ++y)
+        for (int x = 40; x < 79; ++x) {
+            const Eigen::Vector2f uv((static_cast<float>(x) - 39.51F) / 40,
+                                     (static_cast<float>(y) - 19.51F) / 40);
+            const float alpha = lookUp(texture, uv).w();
+            if (std::abs(alpha - 0.5F) < 0.05F) continue;
+            ++sure;
+            ASSERT_EQ(words[static_cast<std::size_t>(y) * 120 + x] != 0, alpha > 0.5F)
+                << x << " " << y;
+        }
+    EXPECT_GT(sure, 1300);
 }
 
 TEST(SurfaceRaster, ObjectsCoverANearerShadowCatcherWithAnyNumberOfThreads) {

@@ -118,7 +118,33 @@ TEST_F(WarpGl, DepthOfTheLayerBelongsToTheCurrentPose) {
     EXPECT_GT(checked, 5000);
 }
 
-TEST_F(WarpGl, HugeMotionAndOddPosesAreHarmless) {
+TEST_F(WarpGl, LightOnRealSurfacesWithoutAlphaIsShownAtItsDepth) {
+    Shown s;
+    constexpr std::array<std::uint8_t, 4> kGlow{12, 9, 6, 0};
+    const auto lit = [&](double degrees) {
+        RenderedPicture picture = s.scene.cast(s.view(degrees));
+        for (std::size_t i = 0; i < picture.id.size(); ++i)
+            if (picture.id[i] == kCatcherId) picture.colour[i] = kGlow;
+        return picture;
+    };
+    s.warp.setTracedPicture(tracedPicture(lit(0)));
+    const RenderedPicture truth = lit(3);
+    const LayerPicture& layer = s.warp.run(test::orbit(3));
+    const auto z = test::valuesOf(layer.depth);
+    const auto rgba = test::bytesOf(layer.colour);
+    int shown = 0, all = 0;
+    for (std::size_t i = 0; i < z.size(); ++i) {
+        if (truth.id[i] != kCatcherId) continue;
+        ++all;
+        if (std::abs(rgba[4 * i] - kGlow[0]) > 1 || rgba[4 * i + 3] != 0) continue;
+        ASSERT_NEAR(z[i], (1 - kShadowLift) * truth.depth[i], 0.01);
+        ++shown;
+    }
+    EXPECT_GT(shown, 0.9 * all);
+    EXPECT_GT(all, 1000);
+}
+
+TEST_F(WarpGl, ExtremePosesGiveFiniteDepthsAndInvalidPosesAnEmptyLayer) {
     Shown s;
     constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
     RigidTransform broken = test::orbit(0);
