@@ -77,6 +77,7 @@ struct RigidTransform {
     [[nodiscard]] RigidTransform operator*(const RigidTransform& b) const {
         return {(rotation * b.rotation).normalized(), rotation * b.translation + translation};
     }
+    bool operator==(const RigidTransform&) const = default;
 };
 
 /// The lens models of both cameras and the transform between them.

@@ -28,4 +28,8 @@ struct EngineTrial {
 /// context.
 [[nodiscard]] bool fitsGpu(const StereoRig& rig, Size output);
 
+/// Returns the size of the path-traced layer, reduced if its textures exceed the GPU's limit. Needs
+/// a current GL context.
+[[nodiscard]] Size layerOnGpu(Size wanted);
+
 }  // namespace mfar

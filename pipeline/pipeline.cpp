@@ -26,7 +26,6 @@ void requireFit(const ImageView& view, Size size, const char* what) {
 
 void publishPose(const EpipolarFlow& flow, FrameStats& stats) {
     const PoseRefinement& refinement = flow.search().refinement();
-    stats.usedPose = true;
     stats.predicted = flow.predicted();
     stats.refinedPose = refinement.accepted;
     stats.posePatches = refinement.patches;
@@ -187,7 +186,7 @@ const FrameResult& Pipeline::run(const ImageView& video, Timestamp time,
     s.drawDetail(frame, work, match ? &*match : nullptr);
     if (task.measures) s.measureDepth(frame, time, *pose, task);
     s.showObjects(frame);
-    s.publish(work, usesStill, usesPose);
+    s.publish(work, usesStill);
     s.followScene(frame, pose, time);
     if (pose && s.quality.mode != SuperResMode::Off && s.quality.alongLines) s.beginEpipolar();
     return s.result;
@@ -229,7 +228,8 @@ Pipeline::State::Match Pipeline::State::matchStill(const VideoFrame& frame, cons
     if (pose) {
         const PixelRect where = around(pixelsOf(work.detailTiles), forDepth);
         const int tiles = forDepth.empty() ? work.matched : work.changed;
-        if (tiles > 0 && !where.empty()) epipolar->run(frame.view, *pose, where);
+        result.stats.usedPose = tiles > 0 && !where.empty();
+        if (result.stats.usedPose) epipolar->run(frame.view, *pose, where);
         lap("epipolar");
         found = &newest.flow->refine({frame, *newest.pictures, light()}, pyramids, work,
                                      {epipolar->forward(), epipolar->occlusion()});
@@ -301,10 +301,10 @@ void Pipeline::State::tellReplaced() {
 
 void Pipeline::State::drawDetail(const VideoFrame& frame, const TileWork& work,
                                  const Match* match) {
-    // In mode Blend, a tile that is only enlarged would differ visibly from a tile whose weight is
-    // small, because blended tiles are enlarged in another way.
-    const bool skipsUpscaled = options.skips.upscaledTiles && quality.mode != SuperResMode::Blend;
-    const DetailOptions how{quality.mode, quality.cubic, skipsUpscaled, options.skips.plainTiles,
+    // Mode Blend enlarges in another way and weighs by confidence, which changes between cells.
+    const bool blends = quality.mode == SuperResMode::Blend;
+    const DetailOptions how{quality.mode, quality.cubic, options.skips.upscaledTiles && !blends,
+                            options.skips.plainTiles && !blends,
                             quality.learned ? filterBank() : nullptr};
     if (match != nullptr) {
         DetailStep::Matched matched{*newest.pictures, match->weights};
@@ -335,14 +335,14 @@ void Pipeline::State::keepDrawn(const TileWork& work) {
             }
 }
 
-void Pipeline::State::publish(const TileWork& work, bool usedStill, bool usedPose) {
+void Pipeline::State::publish(const TileWork& work, bool usedStill) {
     FrameStats& stats = result.stats;
     publishTiles(detail->finishedSummary(), stats);
     stats.changed = plan.changedShare();
     stats.redrawn = plan.redrawnShare();
     stats.usedStill = usedStill;
     stats.searched2d = newest.flow->finishedSearchedCount();
-    if (usedPose) publishPose(*epipolar, stats);
+    if (stats.usedPose) publishPose(*epipolar, stats);
     stats.transfers = {transfers.uploadedBytes - transfersBefore.uploadedBytes,
                        transfers.downloadedBytes - transfersBefore.downloadedBytes};
     transfersBefore = transfers;

@@ -1,5 +1,6 @@
 // Member functions of Pipeline that handle real depth and virtual objects.
 
+#include "pipeline/engine_trial.h"
 #include "pipeline/flow/cell_field.h"
 #include "pipeline/pipeline_state.h"
 
@@ -47,12 +48,14 @@ void Pipeline::setScene(Scene scene, const TracedLayerOptions& options,
         // next ones.
         s.redraw = s.redraw || s.objects.has_value();
         s.objects.reset();
+        s.plan.drawnOver({}, WorkPlan::Redraw::WithThem);
         return;
     }
     s.needDepth();
     TracedLayerOptions wanted = options;
     if (wanted.size.width <= 0 || wanted.size.height <= 0)
         wanted.size = {(s.output.width + 1) / 2, (s.output.height + 1) / 2};
+    if (s.options.engines.occlusion == EngineKind::Gles) wanted.size = layerOnGpu(wanted.size);
     if (!s.objects || s.objects->traced() == nullptr || !(s.traced == wanted)) {
         s.objects.emplace(s.rig.video, s.engineOf(s.options.engines.occlusion), wanted);
         s.objects->setSkips(s.options.skips);
@@ -179,7 +182,7 @@ bool Pipeline::State::leavesLines(const PixelRect& tile, const EpipolarFlow::Cel
             if (epipolar->offLine(x, y, u[0], u[1]) > kOffLine) ++off;
         }
     }
-    return 4 * off >= all;
+    return all > 0 && 4 * off >= all;
 }
 
 void Pipeline::State::showObjects(const VideoFrame& frame) {

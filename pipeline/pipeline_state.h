@@ -94,7 +94,7 @@ struct Pipeline::State {
     void measureDepth(const VideoFrame& frame, Timestamp time, Pose pose, const DepthTask& task);
     void showObjects(const VideoFrame& frame);
     void followScene(const VideoFrame& frame, const std::optional<Pose>& pose, Timestamp time);
-    void publish(const TileWork& work, bool usedStill, bool usedPose);
+    void publish(const TileWork& work, bool usedStill);
     void publishTiles(const TileSummary& tiles, FrameStats& stats) const;
 
     [[nodiscard]] PixelRect pixelsOf(const PixelRect& tiles) const;

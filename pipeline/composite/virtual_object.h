@@ -28,6 +28,8 @@ struct VirtualObject {
     std::array<Eigen::Vector3f, 2> colours{Eigen::Vector3f{0.9F, 0.9F, 0.9F},
                                            Eigen::Vector3f{0.8F, 0.2F, 0.1F}};
     int squares = 4;
+
+    bool operator==(const VirtualObject&) const = default;
 };
 
 struct ShapeMesh {

@@ -28,6 +28,8 @@ struct MotionTrack {
     [[nodiscard]] MotionTrack scaled(double scale) const;
     /// True if the value is the same at all times.
     [[nodiscard]] bool isConstant() const;
+
+    bool operator==(const MotionTrack&) const = default;
 };
 
 /// The pose of a rigid part over time; the motion repeats. The part hangs on a chain of moving
@@ -37,6 +39,8 @@ struct RigidPath {
         RigidTransform T_parent_joint;  ///< constant offset from the joint before
         RigidTransform rest;            ///< replaces a track without keyframes
         MotionTrack translation, rotation;
+
+        bool operator==(const Joint&) const = default;
     };
     std::vector<Joint> joints;
     double length = 0;  ///< time after which the motion repeats [s]; 0: always the pose at time 0
@@ -47,6 +51,8 @@ struct RigidPath {
     /// Returns the path T_world_part of a part of a model that is first scaled, then placed in the
     /// world.
     [[nodiscard]] RigidPath placed(const RigidTransform& T_world_model, double scale) const;
+
+    bool operator==(const RigidPath&) const = default;
 };
 
 }  // namespace mfar

@@ -20,6 +20,8 @@ struct SurfaceTexture {
     Size size;
     bool srgb = true;
     std::vector<std::array<std::uint8_t, 4>> texels;
+
+    bool operator==(const SurfaceTexture&) const = default;
 };
 
 /// Metallic-roughness material of glTF 2.0. Factors are linear; `emission` is a radiance. A texture
@@ -39,6 +41,7 @@ struct Material {
     int normalTexture = -1, emissionTexture = -1;
 
     [[nodiscard]] bool emits() const { return emission.maxCoeff() > 0; }
+    bool operator==(const Material&) const = default;
 };
 
 /// Triangles with the same material. All vertex arrays have the same length, or are empty if the
@@ -53,6 +56,8 @@ struct Mesh {
     /// 0: the mesh does not move in the model. Otherwise it moves along Model::paths[part - 1], and
     /// its coordinates are relative to the path's last joint.
     int part = 0;
+
+    bool operator==(const Mesh&) const = default;
 };
 
 /// An object in its own coordinates (z up, metres), with at least one material. It is valid: all
@@ -64,6 +69,8 @@ struct Model {
     std::vector<SurfaceTexture> textures;
     /// Sentences about parts of the model's file that are not shown: "file: place: fact".
     std::vector<std::string> notes;
+
+    bool operator==(const Model&) const = default;
 };
 
 /// Distant light from all directions, as a latitude-longitude picture of linear RGB radiance, row
@@ -72,6 +79,8 @@ struct Model {
 struct Environment {
     Size size;
     std::vector<Eigen::Vector3f> radiance;
+
+    bool operator==(const Environment&) const = default;
 };
 
 /// A distant light source that looks like a disc. `towards` is a unit vector in the world.
@@ -80,6 +89,8 @@ struct Sun {
     Eigen::Vector3f towards{0.40562F, -0.30421F, 0.86194F};
     Eigen::Vector3f irradiance{1, 1, 1};
     float angularRadius = 0.02F;
+
+    bool operator==(const Sun&) const = default;
 };
 
 struct Lighting {
@@ -100,8 +111,7 @@ struct SceneObject {
 
     friend bool operator==(const SceneObject& a, const SceneObject& b) {
         return a.model == b.model && a.part == b.part && a.path == b.path && a.scale == b.scale &&
-               a.T_world_object.rotation == b.T_world_object.rotation &&
-               a.T_world_object.translation == b.T_world_object.translation;
+               a.T_world_object == b.T_world_object;
     }
 };
 

@@ -12,6 +12,12 @@
 
 namespace mfar {
 
+template <class T>
+[[nodiscard]] bool sameContent(const std::shared_ptr<const T>& a,
+                               const std::shared_ptr<const T>& b) {
+    return a == b || (a != nullptr && b != nullptr && *a == *b);
+}
+
 /// An object from the configuration file. It shows `model`, or `shape` if `model` is null. The
 /// member T_world_object of `shape` is not used.
 struct PlacedObject {
@@ -24,6 +30,12 @@ struct PlacedObject {
     /// right and y up in the tag's print, and z out of the print. If not set, T_anchor_object
     /// refers to the world of the tag map.
     std::optional<TagKey> tag;
+
+    /// Compares the contents of the models.
+    friend bool operator==(const PlacedObject& a, const PlacedObject& b) {
+        return sameContent(a.model, b.model) && a.shape == b.shape && a.scale == b.scale &&
+               a.T_anchor_object == b.T_anchor_object && a.tag == b.tag;
+    }
 };
 
 enum class LightSource : unsigned char {
@@ -41,6 +53,12 @@ struct LightOptions {
     /// sun.
     std::optional<Sun> sun;
     float exposure = 1;  ///< a radiance of 1 / exposure is displayed as white; above 0
+
+    /// Compares the contents of the environments.
+    friend bool operator==(const LightOptions& a, const LightOptions& b) {
+        return a.source == b.source && sameContent(a.environment, b.environment) &&
+               a.sun == b.sun && a.exposure == b.exposure;
+    }
 };
 
 enum class VirtualRendering : unsigned char { PathTraced, Preview };

@@ -113,6 +113,27 @@ model = "thing.glb"
     EXPECT_TRUE(placedShapes(config.objects, {}).empty());
 }
 
+TEST(ObjectsConfig, ObjectsThatWereReadAgainAreEqualUnlessTheirFilesChanged) {
+    const test::TempFolder folder;
+    const auto read = [&](const std::string& place) {
+        return parseConfig("[[objects]]\nmodel = \"a.glb\"\nposition = [" + place + "]\n",
+                           (folder / "test.toml").string())
+            .objects;
+    };
+    test::GltfMaker maker = test::oneTriangle();
+    const auto save = [&] {
+        const std::vector<std::uint8_t> glb = maker.glb();
+        test::writeFile(folder / "a.glb", {reinterpret_cast<const char*>(glb.data()), glb.size()});
+    };
+    save();
+    const auto first = read("0, 0, 1");
+    EXPECT_TRUE(first == read("0, 0, 1"));
+    EXPECT_FALSE(first == read("0, 0, 2"));
+    maker.root["nodes"][0]["translation"] = {0, 0, 0.5};
+    save();
+    EXPECT_FALSE(first == read("0, 0, 1"));
+}
+
 TEST(ObjectsConfig, AFileWithSeveralNamesIsReadOnce) {
     const test::TempFolder folder;
     const std::vector<std::uint8_t> glb = test::oneTriangle().glb();

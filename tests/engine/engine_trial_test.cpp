@@ -21,6 +21,15 @@ TEST_F(EngineTrials, EveryAssignmentOfStepsToEnginesIsMeasuredOnceAndTheFastestC
     EXPECT_GT(trials.front().frameMs, 0);
 }
 
+TEST_F(EngineTrials, ThePathTracedLayerIsReducedToTheGpusLargestTexture) {
+    GLint most = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
+    EXPECT_EQ(layerOnGpu({640, 480}), (Size{640, 480}));
+    EXPECT_EQ(layerOnGpu({most / 2, most / 4}), (Size{most / 2, most / 4}));
+    EXPECT_EQ(layerOnGpu({most, most / 4}), (Size{most / 2, most / 8}));
+    EXPECT_EQ(layerOnGpu({most / 4, most / 2}), (Size{most / 8, most / 4}));
+}
+
 TEST_F(EngineTrials, PicturesBeyondTheGpusLargestTextureDoNotFit) {
     GLint most = 0;
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
