@@ -1,10 +1,12 @@
 #include "pipeline/track/tracker.h"
 
 #include "pipeline/track/search_regions.h"
+#include "pipeline/track/tag_pose.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -106,12 +108,16 @@ std::vector<TagDetection> Tracker::searchVideo(const ImageView& picture, Timesta
     return found;
 }
 
-void Tracker::adoptWorld(const std::vector<TagDetection>& tags) {
-    const auto largest = std::max_element(
-        tags.begin(), tags.end(),
-        [](const TagDetection& a, const TagDetection& b) { return areaOf(a) < areaOf(b); });
-    if (largest == tags.end()) return;
-    map_ = TagMap({{largest->tag, options_.tagSize, standOnTag().inverse()}});
+// The largest tag whose pose can be computed becomes the world.
+void Tracker::adoptWorld(std::vector<TagDetection> tags) {
+    std::ranges::sort(tags, std::greater(), [](const TagDetection& tag) { return areaOf(tag); });
+    const RigidTransform T_world_tag = standOnTag().inverse();
+    const auto usable = std::ranges::find_if(tags, [&](const TagDetection& tag) {
+        const TagObservation seen{options_.tagSize, T_world_tag, tag.corners};
+        return solveTagPose({&seen, 1}, rig_.video, options_.pose.tagPose).has_value();
+    });
+    if (usable == tags.end()) return;
+    map_ = TagMap({{usable->tag, options_.tagSize, T_world_tag}});
     worldFrames_ = 0;
     ++world_;
 }

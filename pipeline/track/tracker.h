@@ -94,7 +94,7 @@ private:
                                                     const RigidTransform& T_camera_video,
                                                     Timestamp time) const;
     [[nodiscard]] std::vector<TagObservation> placed(const std::vector<TagDetection>& tags) const;
-    void adoptWorld(const std::vector<TagDetection>& tags);
+    void adoptWorld(std::vector<TagDetection> tags);
     void proveWorld(const std::optional<Pose>& filtered);
     [[nodiscard]] bool isProven() const;
     [[nodiscard]] std::optional<Pose> inThisWorld(std::optional<Pose> pose) const;

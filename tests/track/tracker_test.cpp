@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -157,6 +158,29 @@ TEST(Tracker, WithoutATagMapAFalseDetectionDoesNotRemainTheOriginOfTheWorld) {
     EXPECT_FALSE(tracker.track(picture(13, wrong).view(), frameTime(13)));
     EXPECT_TRUE(tracker.track(picture(14, right).view(), frameTime(14)));
     EXPECT_NE(tracker.map().find(right[0].tag), nullptr);
+}
+
+TEST(Tracker, WithoutATagMapALargeTagWithoutAPoseDoesNotHideASmallerOne) {
+    TrackerOptions options;
+    options.tagSize = 0.05;
+    Tracker tracker(kRig, options);
+    // The large tag is stretched, as on a wrongly scaled print. No pose explains its corners.
+    CameraModel wide = kRig.video;
+    wide.fx *= 1.7;
+    const RigidTransform from = cameraAt(0.35, 0.5, 0.3, 0);
+    const std::vector<PlacedTag> large{{{TagFamily::Tag36h11, 1}, 0.12, {}}};
+    const std::vector<PlacedTag> small{
+        {{TagFamily::Tag36h11, 2}, 0.05, {Eigen::Quaterniond::Identity(), {0.15, 0, 0}}}};
+    const GrayPicture stretched = renderTags(wide, from, large, {.noise = 1});
+    GrayPicture both = renderTags(kRig.video, from, small, {.noise = 1});
+    for (int y = 0; y < both.size.height; ++y)
+        std::copy_n(&stretched.pixels[640UL * y], 450, &both.pixels[640UL * y]);
+    for (int i = 0; i < 6; ++i) {
+        const auto pose = tracker.track(both.view(), frameTime(i));
+        ASSERT_EQ(tracker.detections().size(), 2U);
+        ASSERT_TRUE(pose) << i;
+        EXPECT_NE(tracker.map().find(small[0].tag), nullptr);
+    }
 }
 
 TEST(Tracker, PoseOfAStillComesFromTheStillItself) {
