@@ -257,10 +257,8 @@ void App::onTick() {
     log_.sayKept();
     leaveIfHanging();
     logChanges(counted);
-    const Timestamp time = Timestamp::now();
-    if (time.seconds() - statusShown_.seconds() < 0.9 * config_.status.intervalS) return;
-    statusShown_ = time;
-    showStatus(counted, now);
+    if (statusDue_.isDue(Timestamp::now().seconds(), config_.status.intervalS))
+        showStatus(counted, now);
 }
 
 Health App::health(const Counted& counted) {

@@ -4,6 +4,7 @@
 #include "daemon/config.h"
 #include "daemon/control.h"
 #include "daemon/control_socket.h"
+#include "daemon/due_times.h"
 #include "daemon/events.h"
 #include "daemon/exit_code.h"
 #include "daemon/health.h"
@@ -145,7 +146,7 @@ private:
     bool isProven_ = false;
     bool patienceEnded_ = false;  ///< true: systemd's watchdog has its normal timeout again
     HealthRecord health_;
-    Timestamp statusShown_;
+    DueTimes statusDue_;
     /// A reload that is requested while `reload_` runs becomes `nextReload_`. It starts after
     /// `reload_`, because the file may have changed since `reload_` read it.
     std::optional<Reload> reload_, nextReload_;

@@ -8,8 +8,8 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <fstream>
+#include <string>
 
 namespace mfar {
 namespace {
@@ -29,14 +29,14 @@ std::uint64_t physicalMemory() {
     return pages > 0 && bytes > 0 ? static_cast<std::uint64_t>(pages) * bytes : 0;
 }
 
-/// Returns the smallest memory limit of this process's control group and its parents [bytes]; 0:
-/// there is no limit.
-std::uint64_t controlGroupMemory() {
-    std::ifstream groups("/proc/self/cgroup");
+}  // namespace
+
+std::uint64_t controlGroupMemory(const std::filesystem::path& list,
+                                 const std::filesystem::path& top) {
+    std::ifstream groups(list);
     std::uint64_t least = 0;
     for (std::string line; std::getline(groups, line);) {
         if (!line.starts_with("0::/")) continue;
-        const std::filesystem::path top = "/sys/fs/cgroup";
         std::filesystem::path group = line.substr(4);
         // The empty path is the topmost group that this process sees. In a container, it is the
         // container's own group, which may have a limit.
@@ -50,17 +50,20 @@ std::uint64_t controlGroupMemory() {
     return least;
 }
 
-}  // namespace
-
 std::uint64_t machineMemory() {
-    const std::uint64_t physical = physicalMemory(), group = controlGroupMemory();
+    const std::uint64_t physical = physicalMemory(),
+                        group = controlGroupMemory("/proc/self/cgroup", "/sys/fs/cgroup");
     return group == 0 ? physical : std::min(physical, group);
 }
 
+std::uint64_t defaultMemory(std::uint64_t machine) {
+    return static_cast<std::uint64_t>(
+        std::min(kShareOfMachine * static_cast<double>(machine), kMostByMachine));
+}
+
 std::uint64_t LimitsConfig::memoryBytes() const {
-    const double byMachine =
-        std::min(kShareOfMachine * static_cast<double>(machineMemory()), kMostByMachine);
-    return static_cast<std::uint64_t>(memoryMb > 0 ? memoryMb * kMegabyte : byMachine);
+    return memoryMb > 0 ? static_cast<std::uint64_t>(memoryMb * kMegabyte)
+                        : defaultMemory(machineMemory());
 }
 
 std::uint64_t LimitsConfig::pictureBytes() const {

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <string_view>
 
 namespace mfar {
@@ -12,7 +13,7 @@ class TomlReader;
 
 /// Section [limits] of the configuration: the memory that the daemon may use for its input.
 struct LimitsConfig {
-    double memoryMb = 0;  ///< memory budget [MiB]; 0: 3/4 of machineMemory(), at most 4096
+    double memoryMb = 0;  ///< memory budget [MiB]; 0: defaultMemory(machineMemory())
 
     bool operator==(const LimitsConfig&) const = default;
     [[nodiscard]] std::uint64_t memoryBytes() const;
@@ -26,6 +27,13 @@ void readLimits(TomlReader& file, LimitsConfig& limits);
 /// Returns the machine's memory, or the limit of this process's control group if that is less
 /// [bytes].
 [[nodiscard]] std::uint64_t machineMemory();
+/// Returns the default memory budget: 3/4 of the machine's memory, at most 4096 MiB [bytes].
+[[nodiscard]] std::uint64_t defaultMemory(std::uint64_t machine);
+/// Returns the smallest memory limit of a process's control group and its parents [bytes]; 0: there
+/// is no limit. `list`: the process's groups, as in /proc/self/cgroup. `top`: folder of the topmost
+/// group.
+[[nodiscard]] std::uint64_t controlGroupMemory(const std::filesystem::path& list,
+                                               const std::filesystem::path& top);
 
 /// Throws Failure(BadData) if pictures of these sizes need more memory than pictureBytes(). Must be
 /// called before the memory is allocated. `lists`: memory of a recording's lists [bytes]. `place`

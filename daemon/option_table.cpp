@@ -43,7 +43,7 @@ constexpr Option argument(std::string_view name, Option option) {
     return option;
 }
 
-constexpr OptionRange kSide{16, 8192, "px"}, kCameraRate{0, 1000, "Hz"}, kThreads{1, 64, ""};
+constexpr OptionRange kSide{16, 8192, "px"}, kThreads{1, 64, ""};
 constexpr OptionRange kShare{0, 1, ""}, kMegabytes{0, 1e9, "MB"};
 
 constexpr Option kTop[] = {
@@ -94,14 +94,13 @@ constexpr Option kVideo[] = {
          "Driver of the camera: \"libcamera\", or \"v4l2\" for USB cameras and boards without "
          "libcamera."),
     text("camera", R"("")",
-         "Name of the camera. For driver \"libcamera\": id (as \"cam --list\" prints), model, or "
-         "\"front\", \"back\", \"external\". For \"v4l2\": path, card or bus. Empty: any but the "
-         "still camera; if there are several, the one with the smallest pictures. mfard waits for "
-         "a camera that is missing."),
+         "Name of the camera. For driver \"libcamera\": id (as \"cam --list\" prints it), model, "
+         "or \"front\", \"back\", \"external\". For \"v4l2\": path, card or bus. Empty: any "
+         "but the still camera; if there are several, the one with the smallest pictures. mfard "
+         "waits for a camera that is missing."),
     whole("width", kSide, "640", "Width of the camera's pictures."),
     whole("height", kSide, "480", "Height of the camera's pictures."),
-    number("rate_hz", kCameraRate, "30.0",
-           "Frame rate, at least 0.01; 0: the camera sends a picture for each trigger pulse."),
+    number("rate_hz", {0.01, 1000, "Hz"}, "30.0", "Frame rate."),
     text("format", R"("auto")",
          "Pixel format: \"auto\", or for \"v4l2\" the four characters of a format, like \"YUYV\"."),
     flag("allow_crop", "false",
@@ -118,7 +117,7 @@ constexpr Option kStill[] = {
          "are several, the one with the largest pictures."),
     whole("width", kSide, "2304", ""),
     whole("height", kSide, "1728", ""),
-    number("rate_hz", kCameraRate, "0.0", ""),
+    number("rate_hz", {0, 1000, "Hz"}, "0.0", "Frame rate; 0: a picture for each trigger pulse."),
     text("format", R"("auto")", ""),
     flag("allow_crop", "false", ""),
     {"controls", OptionType::Values, "{}", ""},
@@ -252,7 +251,8 @@ constexpr Option kLimits[] = {
 };
 
 constexpr Option kStatus[] = {
-    number("interval_s", {0.1, 3600, "s"}, "1.0", "Time between status lines, also in systemd."),
+    number("interval_s", {0.1, 3600, "s"}, "1.0",
+           "Time between status lines on the terminal and in systemctl status."),
     argument("--measure", flag("measure", "false",
                                "Wait for the GPU after each stage, so that stage times are exact. "
                                "This costs some speed.")),
@@ -271,7 +271,7 @@ constexpr Option kVirtual[] = {
           "Samples per pixel of a path-traced picture. More samples: less noise, more time."),
     number("resolution", {0.05, 1, ""}, "0.28",
            "Width and height of the path-traced picture as a share of the still's. The path-traced "
-           "picture is never larger than the output."),
+           "picture is never larger than the output and the textures of the GPU."),
     word("holes", "push-pull re-render both none", R"("both")",
          "Method that fills holes (pixels that come into view between two path-traced pictures): "
          "\"push-pull\": colours around the hole; \"re-render\": few samples of the path tracer, "

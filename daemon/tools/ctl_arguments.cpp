@@ -21,6 +21,7 @@ CtlParser::CtlParser() {
                                            "New folder in mfard's working directory, which is\n"
                                            "/var/lib/mfar for the service");
     record->add_flag("--stop", a.stop, "End the recording")->excludes(name);
+    record->require_option(1);
     app.add_subcommand("learn", "Manage the filters that mfard has learned for the two sensors")
         ->require_subcommand(1)
         ->add_subcommand("reset", "Delete the learned filters and start learning again");

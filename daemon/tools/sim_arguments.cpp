@@ -64,6 +64,9 @@ SimParser::SimParser() {
     app.add_flag("--list", a.list, "print the names of all scenes and paths, then exit");
     app.callback([&a] {
         if (!a.list && a.sim.out.empty()) throw CLI::RequiredError("--out");
+        if (a.sim.stillsHz > a.rateHz)
+            throw CLI::ValidationError(
+                "--stills", "must not exceed --rate: a still is taken with a video frame");
     });
 }
 

@@ -42,9 +42,13 @@ TEST(MfarSim, InvalidArgumentsEndWithAMessageAndWriteNothing) {
     const fs::path recording = folder / "recording";
     const std::string out = " --out " + recording.string();
     const std::pair<std::string, const char*> cases[] = {
-        {"--seconds nan" + out, "--seconds"}, {"--rate nan" + out, "--rate"},
-        {"--stills nan" + out, "--stills"},   {"--noise nan" + out, "--noise"},
-        {"--seed -1" + out, "--seed"},        {"--seconds 0.1", "--out is required"},
+        {"--seconds nan" + out, "--seconds"},
+        {"--rate nan" + out, "--rate"},
+        {"--stills nan" + out, "--stills"},
+        {"--noise nan" + out, "--noise"},
+        {"--seed -1" + out, "--seed"},
+        {"--seconds 0.1", "--out is required"},
+        {"--rate 2 --stills 3" + out, "must not exceed --rate"},
     };
     for (const auto& [arguments, message] : cases) {
         const Outcome ran = execute(folder, fmt::format("{} {}", MFAR_SIM, arguments));

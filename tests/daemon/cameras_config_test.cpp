@@ -74,6 +74,14 @@ TEST(CamerasConfig, FaultsAreReportedWithLineAndColumn) {
               HasSubstr(":8:8: cameras.trigger.line must be a text in quotes")));
 }
 
+TEST(CamerasConfig, OnlyTheStillCameraMayBeTriggered) {
+    EXPECT_THAT(configFaults("[cameras.video]\nrate_hz = 0\n"),
+                HasSubstr("test.toml:2:11: cameras.video.rate_hz must be from 0.01 to 1000"));
+    EXPECT_EQ(configFaults("[cameras.still]\nrate_hz = 0\n"), "");
+    EXPECT_THAT(configFaults("[cameras.still]\nrate_hz = 0.001\n"),
+                HasSubstr("must be 0 or at least 0.01 Hz"));
+}
+
 TEST(CamerasConfig, AFormatForALibcameraCameraIsRefused) {
     EXPECT_EQ(configFaults("[cameras.still]\nformat = \"auto\"\n"), "");
     EXPECT_THAT(configFaults("[cameras.still]\nformat = \"NV12\"\n"), HasSubstr("libcamera"));

@@ -184,11 +184,15 @@ TEST_F(FilterLearningTest, AResetForgetsTheFiltersAndDeletesTheStateFile) {
 TEST_F(FilterLearningTest, StillsThatArriveTooSoonAreSkipped) {
     options.waits = false;
     FilterLearning learning(options);
-    for (int i = 1; i <= 3; ++i) {
-        const twin::Grey sharp = sharpDiscs(i);
-        showTo(learning, sharp, sharp, {});
-    }
-    EXPECT_GE(learning.counts().leftOut, 1U);
+    const twin::Grey first = sharpDiscs(1), second = sharpDiscs(2);
+    showTo(learning, first, first, {});
+    for (int i = 0; i < 60'000 && learning.counts().learner.stills == 0; ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    ASSERT_EQ(learning.counts().learner.stills, 1U);
+    // The thread is idle again. It rests nine times as long as it has learned.
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    showTo(learning, second, second, {});
+    EXPECT_EQ(learning.counts().leftOut, 1U);
 }
 
 TEST_F(FilterLearningTest, LearningThatTakesTooLongIsReportedAsLate) {

@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
 #include <gmock/gmock.h>
 
 namespace mfar {
@@ -48,6 +50,31 @@ TEST(Limits, TheMemoryLimitComesFromTheMachineOrTheConfiguration) {
     EXPECT_EQ(parseConfig("[limits]\nmemory_mb = 512\n", "a").limits.memoryMb, 512);
     EXPECT_THAT(configFaults("[limits]\nmemory_mb = 3\n"),
                 StartsWith("test.toml:2:13: limits.memory_mb = 3: must be 0 or at least 64"));
+}
+
+TEST(Limits, TheDefaultIsThreeQuartersOfTheMemoryButAtMostFourGigabytes) {
+    constexpr std::uint64_t kGigabyte = 1U << 30U;
+    EXPECT_EQ(defaultMemory(kGigabyte), kGigabyte / 4 * 3);
+    EXPECT_EQ(defaultMemory(16 * kGigabyte), 4 * kGigabyte);
+}
+
+TEST(Limits, TheSmallestLimitOfTheControlGroupsCounts) {
+    const test::TempFolder folder;
+    std::filesystem::create_directories(folder / "system.slice/mfard.service");
+    const auto write = [&](const char* file, const char* text) {
+        std::ofstream(folder / file) << text;
+    };
+    const auto memory = [&] { return controlGroupMemory(folder / "list", folder.path()); };
+    EXPECT_EQ(memory(), 0U);
+    write("list", "1:name=old:/\n0::/system.slice/mfard.service\n");
+    EXPECT_EQ(memory(), 0U);
+    write("system.slice/mfard.service/memory.max", "max\n");
+    EXPECT_EQ(memory(), 0U);
+    write("memory.max", "8000000\n");
+    EXPECT_EQ(memory(), 8000000U);
+    write("system.slice/memory.max", "5000000\n");
+    write("system.slice/mfard.service/memory.max", "6000000\n");
+    EXPECT_EQ(memory(), 5000000U);
 }
 
 TEST(Limits, ARecordingOfLargePicturesIsRefusedBeforeMemoryIsAllocated) {

@@ -17,6 +17,7 @@ asks() { refused 0 "$@"; }
 refused 69 status
 says err.ctl 'no mfard listens'
 refused 64 explode
+refused 64 record
 refused 64
 
 printf '[trigger]\nmode = "off"\n[superres]\nmode = "off"\n' >mfard.toml

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <algorithm>
+
+namespace mfar {
+
+/// Decides at which ticks of a timer something regular is done. If the interval is not a multiple
+/// of the ticks' period, it is kept in the mean.
+class DueTimes {
+public:
+    /// Must be called at each tick. Returns true at the first call, and then once per interval.
+    /// `now` and `interval` [s].
+    [[nodiscard]] bool isDue(double now, double interval) {
+        // The timer of the ticks and the clock can differ a little.
+        constexpr double kSlack = 0.02;
+        due_ = std::min(due_, now + interval);
+        if (now + kSlack < due_) return false;
+        due_ += interval;
+        if (due_ <= now) due_ = now + interval;
+        return true;
+    }
+
+private:
+    double due_ = 0;
+};
+
+}  // namespace mfar
