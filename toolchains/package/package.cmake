@@ -1,12 +1,19 @@
 # The Debian package. `cpack` in the build folder or `./run package` builds it. Each distribution
 # and architecture needs its own package, because the sonames of libcamera and OpenCV differ.
-set(architectures x86_64 amd64 aarch64 arm64 armhf armhf armv7l armhf)
-list(FIND architectures ${CMAKE_SYSTEM_PROCESSOR} known)
-if(known EQUAL -1)
-    return()
+if(CMAKE_CROSSCOMPILING)
+    set(architectures aarch64 arm64 armhf armhf)
+    list(FIND architectures ${CMAKE_SYSTEM_PROCESSOR} known)
+    math(EXPR known "${known} + 1")
+    list(GET architectures ${known} CPACK_DEBIAN_PACKAGE_ARCHITECTURE)
+else()
+    # The processor does not suffice: a 64-bit kernel can run a 32-bit system.
+    execute_process(COMMAND dpkg --print-architecture OUTPUT_VARIABLE architecture
+                    OUTPUT_STRIP_TRAILING_WHITESPACE RESULT_VARIABLE failed)
+    if(failed)
+        return()
+    endif()
+    set(CPACK_DEBIAN_PACKAGE_ARCHITECTURE ${architecture})
 endif()
-math(EXPR known "${known} + 1")
-list(GET architectures ${known} CPACK_DEBIAN_PACKAGE_ARCHITECTURE)
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME mfar)
