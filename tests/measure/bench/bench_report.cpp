@@ -76,9 +76,9 @@ nlohmann::json json(const RenderFigures& render) {
 std::string toTable(const RenderFigures& render) {
     std::string out;
     for (const RayRates& r : render.rates)
-        out += fmt::format("one thread, {:>6} triangles [million/s]: rays of plain Embree {:.2f}, "
-                           "camera rays of mfar {:.2f} ({:.0f} % of Embree's), paths of mfar "
-                           "{:.2f}\n",
+        out += fmt::format("one thread, {:>6} triangles [million/s]: single rays of plain Embree "
+                           "{:.2f}, camera rays of mfar in packets {:.2f} ({:.0f} %), paths of "
+                           "mfar {:.2f}\n",
                            r.triangles, r.bare, r.ours, 100 * r.ours / r.bare, r.samples);
     for (const SamplingError& e : render.errors)
         out += fmt::format("RMSE of radiance at 16 samples per pixel, {:<36} mfar {:.5f}, "
@@ -171,10 +171,11 @@ std::string toTable(const BenchResult& result) {
                line("depth, whole picture", result.depth.whole) + '\n';
     out += toTable(result.warp, result.objects);
     const TriangulationTimes& t = result.triangulation;
-    out += fmt::format("triangulation [ns per point]: mfar's flow method {:.1f}, mfar's midpoint "
-                       "method {:.1f}, cv::triangulatePoints {:.0f} ({:.0f} times as long as the "
-                       "flow method)\n",
-                       t.flow, t.midpoint, t.opencv, t.opencv / t.flow);
+    out +=
+        fmt::format("triangulation for depth by other flow methods [ns per point]: from the flow "
+                    "{:.1f}, midpoint {:.1f}, cv::triangulatePoints {:.0f} ({:.0f} times as "
+                    "long as from the flow)\n",
+                    t.flow, t.midpoint, t.opencv, t.opencv / t.flow);
     return out + toTable(result.render);
 }
 

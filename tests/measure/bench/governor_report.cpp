@@ -60,7 +60,7 @@ std::string settledText(const GovernedRun& run) {
 std::string governorTable(std::span<const GovernedRun> runs) {
     std::string out;
     for (const GovernedRun& run : runs) {
-        out += fmt::format("deadline {:.0f} ms: p95 of all frame times is {:.1f} ms{}\n",
+        out += fmt::format("deadline {:g} ms: p95 of all frame times is {:.1f} ms{}\n",
                            run.deadlineMs, p95(run, 0), settledText(run));
         out += fmt::format("  {:<10}{:>9}{:>9}{:>7}{:>9}  quality levels (frames)\n", "scene",
                            "med. ms", "p95 ms", "late", "settled");

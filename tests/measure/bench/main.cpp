@@ -1,4 +1,5 @@
 #include "daemon/output_checks.h"
+#include "daemon/tools/command_failure.h"
 #include "hal/gl_context.h"
 #include "tests/measure/bench/bench.h"
 #include "tests/measure/bench/bench_report.h"
@@ -20,6 +21,7 @@
 #include <exception>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace {
 
@@ -135,19 +137,23 @@ void write(const BenchResult& result, const Options& o) {
     if (!o.svg.empty()) eval::writeText(o.svg, benchSvg(result));
 }
 
-/// Throws EvalError if a command is given after options that only the measurement without a command
-/// uses.
-void requireNoneBefore(const CLI::App& app) {
-    if (app.get_subcommands().empty()) return;
+/// Throws EvalError if an option is given that has no effect on the command, or on --curves.
+void requireEffect(const CLI::App& app, const Options& o) {
+    const bool isCommand = !app.get_subcommands().empty();
+    if (!isCommand && o.curves.empty()) return;
+    std::vector<std::string> used{"--engine"};
+    if (!isCommand) used.insert(used.end(), {"--curves", "--data", "--frames", "--quick"});
     for (const CLI::Option* option : app.get_options())
-        if (option->count() > 0 && option->get_name() != "--engine")
-            throw eval::EvalError(fmt::format("{} has no effect on the command {}",
-                                              option->get_name(),
-                                              app.get_subcommands().front()->get_name()));
+        if (option->count() > 0 && !std::ranges::count(used, option->get_name()))
+            throw eval::EvalError(
+                fmt::format("{} has no effect on {}", option->get_name(),
+                            isCommand ? "the command " + app.get_subcommands().front()->get_name()
+                                      : "--curves"));
 }
 
 int run(int argc, char** argv) {
     CLI::App app(kHelp);
+    app.failure_message(commandFailure);
     Options o;
     addOptions(app, o);
     ParetoCommand pareto(app);
@@ -158,7 +164,7 @@ int run(int argc, char** argv) {
     } catch (const CLI::ParseError& e) {
         return app.exit(e) == 0 ? 0 : eval::kWrongInput;
     }
-    requireNoneBefore(app);
+    requireEffect(app, o);
     eval::useEngine(o.engine);
     Progress progress;
     const ProgressPart all(progress);

@@ -16,8 +16,8 @@
 namespace mfar::eval {
 namespace {
 
-/// Depth from flow, triangulated pixel by pixel. The still is resampled to the video's lens and
-/// orientation, so both views have the lens of the video camera.
+/// Depth from flow, triangulated pixel by pixel. The time is that of the flow alone. The still is
+/// resampled to the video's lens and orientation, so both views have the lens of the video camera.
 class TriangulatedFlow final : public DepthMethod {
 public:
     TriangulatedFlow(const StereoRig& rig, std::unique_ptr<FlowMethod> flow,
@@ -36,8 +36,6 @@ public:
         const RigidTransform turn{rig_.T_still_video.rotation.conjugate(), {0, 0, 0}};
         const RigidTransform T_b_a = turn * stillFromFrame(rig_, *frame.pose, *stillPose_);
         const std::span<const float> vectors(found.flow.ptr<float>(), 2 * found.flow.total());
-        out.ms += medianOfThree(
-            [&] { return methodMs([&] { stage_.run(vectors, T_b_a, {.method = method_}); }); });
         const auto& points = stage_.run(vectors, T_b_a, {.method = method_});
         for (std::size_t i = 0; i < points.size(); ++i)
             out.inverseDepth.ptr<float>()[i] = points[i].inverseDepth;

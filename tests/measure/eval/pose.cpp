@@ -25,7 +25,7 @@ constexpr double kFlipDeg = 3;
 const std::vector<Column> kColumns{
     {"ms", 2},         {"rot_deg", 4},   {"trans_mm", 3}, {"trans_percent", 3},
     {"jitter_deg", 4}, {"jitter_mm", 3}, {"tags", 1},     {"flips", 0},
-    {"corner_px", 3},  {"found", 0},     {"missed", 0},   {"false", 0}};
+    {"corner_px", 3},  {"found", 2},     {"missed", 3},   {"false", 3}};
 enum At {
     Ms,
     Rot,

@@ -77,8 +77,9 @@ Picture overPaper(const std::uint8_t* rgba, std::size_t pixels) {
     Picture out(pixels);
     for (std::size_t i = 0; i < pixels; ++i)
         for (std::size_t c = 0; c < 3; ++c)
-            out[i][c] = static_cast<float>(rgba[4 * i + c]) +
-                        kPaper * static_cast<float>(255 - rgba[4 * i + 3]) / 255;
+            out[i][c] =
+                std::min(255.0F, static_cast<float>(rgba[4 * i + c]) +
+                                     kPaper * static_cast<float>(255 - rgba[4 * i + 3]) / 255);
     return out;
 }
 

@@ -64,7 +64,8 @@ void measure(int threads, int runs) {
     const StereoRig rig = rigOf(kVideo, kStill);
     for (const float light : {0.0F, 1.0F})
         row(light > 0 ? "still pyramid, means of light" : "still pyramid",
-            leastMs(runs / 10, [&] { pyramids.buildStill(still.rows(), rig, light); }));
+            leastMs(std::max(1, runs / 10),
+                    [&] { pyramids.buildStill(still.rows(), rig, light); }));
     pyramids.buildSecond(second.rows());
     const TileWork work = wholeWork(kVideo);
     Flow2d flow(kVideo, {}, workers);
@@ -86,6 +87,10 @@ void measure(int threads, int runs) {
 
 int main(int argc, char** argv) {
     const int runs = argc > 1 ? std::atoi(argv[1]) : 200;
+    if (runs < 1) {
+        std::fprintf(stderr, "usage: mfar-simd-flow-bench [RUNS]; RUNS must be at least 1\n");
+        return 2;
+    }
     for (const int threads : {1, 2})
         mfar::simd::measure(threads, runs);
 }

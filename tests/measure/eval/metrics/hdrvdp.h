@@ -45,8 +45,8 @@ struct HdrVdpResult {
 
 /// Quality of a picture against a reference, predicted by HDR-VDP-2 (Mantiuk et al. 2011; weights
 /// of Narwaria et al. 2015), with the constants of releases 2.2.x and a dark surround (1e-5
-/// cd/m^2). Q falls with the pixels per degree and rises with the size. So compare only values with
-/// equal sizes and equal pixels per degree.
+/// cd/m^2). Q is smaller for more pixels per degree, and larger for larger pictures. So compare
+/// only values of pictures with equal size and equal pixels per degree.
 ///
 /// Both pictures hold light [cd/m^2] as from displayedLight(): CV_64F, or CV_64FC3 (B G R of
 /// `emission`), same size, at least 17x17. Throws std::invalid_argument for other pictures, and for
