@@ -16,7 +16,8 @@ using std::chrono::milliseconds;
 /// takes 50 ms of waiting and 20 ms of work.
 constexpr milliseconds kCapture{1500};
 constexpr milliseconds kPicture{2000};
-/// Thread of the control socket: reading one request of mfarctl, without the time for its answer.
+/// Thread of the control socket: reading one request of mfarctl. Waiting for the answer does not
+/// count.
 constexpr milliseconds kControl{500};
 constexpr milliseconds kMain{500};
 

@@ -89,7 +89,7 @@ void CameraWatch::checkRepeats(const Frame& frame, Timestamp now) {
     if (state_.repeats || ++repeats_ < kRepeats || now - *state_.lastDistinct < kRepeatTime) return;
     state_.repeats = true;
     warnings_.push_back(fmt::format(
-        "{}: repeats the same picture, for {} s so far", name_,
+        "{}: repeats the same picture (for {} s)", name_,
         std::chrono::duration_cast<std::chrono::seconds>(now - *state_.lastDistinct).count()));
 }
 

@@ -16,6 +16,7 @@ std::string describe(const PoseConfig& config, const TagMap& map) {
     case PoseOrigin::Recorded: return "recorded poses";
     case PoseOrigin::Tags: break;
     }
+    if (map.tags().size() == 1) return "poses from a map of one tag";
     if (!map.empty()) return fmt::format("poses from a map of {} tags", map.tags().size());
     return fmt::format("poses from the first tag, whose edge is {:g} m", config.tagSize);
 }

@@ -11,8 +11,8 @@ namespace {
 
 std::string times(std::uint64_t count, std::chrono::nanoseconds span) {
     const double s = std::chrono::duration<double>(span).count();
-    return count == 1 ? fmt::format(" (once more in {:.0f} s)", s)
-                      : fmt::format(" ({} more times in {:.0f} s)", count, s);
+    return count == 1 ? fmt::format(" (repeated once in {:.0f} s)", s)
+                      : fmt::format(" (repeated {} times in {:.0f} s)", count, s);
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ public:
     /// older message about the same event.
     [[nodiscard]] bool mayPass(std::string_view event, const Message& message, Timestamp now);
     /// Returns the kept messages that may be logged now, in the order of their last events. Each
-    /// ends with the number of repetitions: "... (7 more times in 28 s)".
+    /// ends with the number of repetitions: "... (repeated 7 times in 28 s)".
     [[nodiscard]] std::vector<Message> due(Timestamp now);
     [[nodiscard]] std::vector<Message> rest(Timestamp now);
 

@@ -58,9 +58,10 @@ vec2 lineOf(ivec2 cell) {
     return middle + sum / weight;
 }
 
-// Compares the patch at the flow `u`, which changes by dx and dy per pixel, with the still. Returns
-// covariance, variance in the video, variance in the still, and the squared correlation. All are 0
-// if the patch's centre is outside the still.
+// Compares the cell's patch with the still at the flow `u`. The flow changes by `dx` per pixel to the
+// right and by `dy` per pixel downwards. Returns covariance, variance in the video and variance in the
+// still, as sums over the pixels, and the squared correlation. All are 0 if the patch's centre is
+// outside the still.
 vec4 compared(ivec2 cell, vec2 u, vec2 dx, vec2 dy) {
     vec2 size = vec2(1.0) / vec2(params.texelX, params.texelY);
     ivec2 video = ivec2(params.videoWidth, params.videoHeight);

@@ -16,7 +16,7 @@ struct TracedLayer::State {
 
     void take(const RenderedPicture& picture) {
         if (picture.scene != scene) {
-            // Even if only the light is new, re-rendered pixels must be discarded.
+            // Discards the re-rendered pictures, even if the new scene differs only in its light.
             scene = picture.scene;
             warp.setScene(*scene);
         }

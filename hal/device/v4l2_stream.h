@@ -35,10 +35,10 @@ public:
     V4l2Stream& operator=(const V4l2Stream&) = delete;
     ~V4l2Stream() { close(); }
 
-    /// Queues every buffer whose picture is not in use and starts the driver. Throws like the
+    /// Queues every buffer whose picture is not in use and starts the capture. Throws like the
     /// constructor.
     void start();
-    /// Stops the driver. Idempotent; errors of a lost device are ignored.
+    /// Stops the capture. May be called again. Errors are ignored, because the device may be lost.
     void stop() noexcept;
     /// Calls stop() and releases the device, so that another program can use it. The memory of
     /// pictures in use stays mapped.

@@ -27,7 +27,7 @@ public:
         context_ = OSMesaCreateContextAttribs(wanted.data(), nullptr);
         if (context_ == nullptr)
             throw std::runtime_error(
-                "OSMesa: an OpenGL 4.5 context cannot be created; Mesa 17 or later is needed");
+                "OSMesa: an OpenGL 4.5 context cannot be created; Mesa 20.2 or later is needed");
         makeCurrent();
         description_ = std::string("OSMesa: ") +
                        reinterpret_cast<const char*>(glGetString(GL_RENDERER)) + ", OpenGL " +

@@ -130,7 +130,7 @@ void requireFolder(const fs::path& folder) {
     if (!fs::is_directory(folder, error))
         recordingFault(folder, 0,
                        error == std::errc::permission_denied ? error.message()
-                                                             : "the folder is missing");
+                                                             : "there is no such folder");
 }
 
 std::optional<fs::path> existing(fs::path file) {

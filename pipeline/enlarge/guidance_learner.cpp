@@ -32,8 +32,8 @@ constexpr double kMostPairs = 1e15;  // a double represents counts below this ex
 // Pixels with a video luma outside these limits may be saturated [1/8 grey level].
 constexpr int kDarkest = 2 * kLumaScale, kBrightest = 253 * kLumaScale;
 
-/// Recomputes what was added to the cubic enlargement of a frame at the sub-pixels of one pixel: by
-/// the still, by the video's own detail, and by learned filters.
+/// Recomputes what was added to the cubic enlargement of a frame, at the output positions of one
+/// video pixel: the terms that guidance scales, and the rest.
 class DrawnFrame {
 public:
     DrawnFrame(const MatchedPictures& pictures, const FilterBank& filters,

@@ -12,9 +12,9 @@ struct Flow2dOptions {
     /// Each cell tries this number of flow vectors from the next coarser pyramid level, [1, 4].
     int candidates = 4;
     int steps = 4;  ///< number of Gauss-Newton steps from the best candidate, [0, 16]
-    /// Number of rounds in which cells adopt flow vectors of their neighbours, [0, 8].
-    /// `propagations`: in the flow from video to still at the finest pyramid level.
-    /// `coarsestPropagations`: at the coarsest pyramid level.
+    /// Number of rounds in which each cell tries the flow vectors of its neighbours, [0, 8].
+    /// `propagations` applies to the finest pyramid level of the flow from video to still,
+    /// `coarsestPropagations` to the coarsest level.
     int propagations = 0;
     int coarsestPropagations = 4;
     int planeFits = 2;  ///< number of rounds of plane fits (flow_filter.comp), [0, 2]

@@ -41,7 +41,8 @@ struct PathIntegrator::World {
 
     /// True if nothing hides the sampled point: the first triangle that the ray hits must be the
     /// sampled one. If two triangles coincide, only the one that RayScene::first() returns gives
-    /// light, because next() uses the same function. Holes of an alpha mask give no light.
+    /// light. next() finds the same one, so light that is sampled and light that is hit by chance
+    /// agree. Holes of an alpha mask give no light.
     bool sees(const EmissiveTriangles::Sample& sample) {
         Ray ray = sample.ray;
         const RayHit hit = scene.objects().first(ray);

@@ -131,8 +131,8 @@ private:
     std::uint8_t copy_[10 * kWidth];
 };
 
-/// Sums over a patch: of its pixels (a), of twice their gradient (x, y), and of the products of
-/// these three (aa to yy).
+/// Sums over a patch: of its pixels minus 128 (a), of twice their gradient (x, y), and of the
+/// product of each pair of these (aa to yy).
 struct PatchSums {
     Parts a, x, y, aa, ax, ay, xx, xy, yy;
 };

@@ -24,8 +24,8 @@ enum class TracedStep : unsigned char {
 
 /// `sinceShown` is PictureScene::changeOf() from the view of the shown picture to the present view;
 /// `sinceNext` is the same for the next picture. A value is empty if its picture does not exist or
-/// shows another scene. Without a next picture, one begins if `sinceShown` is empty or reaches
-/// `renewed`.
+/// shows other objects; `sinceShown` is also empty if the light has changed. If there is no next
+/// picture, one begins when `sinceShown` is empty or at least `renewed`.
 [[nodiscard]] TracedStep nextStep(std::optional<double> sinceShown, std::optional<double> sinceNext,
                                   double renewed);
 

@@ -34,7 +34,7 @@ TEST_F(RepeatLimitTest, FirstEventIsLoggedAtOnceAndRepetitionsWithTheirCount) {
     pass(milliseconds(9900));
     EXPECT_THAT(said, ElementsAre("gone")) << "repetitions must not be logged before ten seconds";
     pass(milliseconds(100));
-    EXPECT_THAT(said, ElementsAre("gone", "gone (7 more times in 10 s)"));
+    EXPECT_THAT(said, ElementsAre("gone", "gone (repeated 7 times in 10 s)"));
     pass(seconds(100));
     EXPECT_EQ(said.size(), 2U) << "without a new event nothing may be logged";
     happen("plug", "gone");
@@ -45,7 +45,7 @@ TEST_F(RepeatLimitTest, ASingleRepetitionIsLoggedWithTheWordsOnceMore) {
     happen("plug", "gone");
     happen("plug", "gone");
     pass(seconds(28));
-    EXPECT_THAT(said, ElementsAre("gone", "gone (once more in 28 s)"));
+    EXPECT_THAT(said, ElementsAre("gone", "gone (repeated once in 28 s)"));
 }
 
 // Without the limit, 16 lines would be logged in 28 s.
@@ -70,7 +70,7 @@ TEST_F(RepeatLimitTest, NewestTextOfAnEventIsKept) {
     EXPECT_THAT(said, ElementsAre("gone from /dev/video0", "full"))
         << "different events must be counted separately";
     pass(seconds(10));
-    EXPECT_EQ(said.back(), "gone from /dev/video4 (2 more times in 10 s)");
+    EXPECT_EQ(said.back(), "gone from /dev/video4 (repeated 2 times in 10 s)");
 }
 
 TEST_F(RepeatLimitTest, AStormOfEventsIsLoggedEveryTenSeconds) {
@@ -110,7 +110,7 @@ TEST_F(RepeatLimitTest, PendingRepetitionsAreLoggedAtTheEnd) {
     now = now + seconds(3);
     const auto left = limit.rest(now);
     ASSERT_EQ(left.size(), 1U);
-    EXPECT_EQ(left.front().text, "gone (2 more times in 3 s)");
+    EXPECT_EQ(left.front().text, "gone (repeated 2 times in 3 s)");
     EXPECT_EQ(left.front().priority, 4);
     EXPECT_THAT(limit.rest(now), IsEmpty());
 }

@@ -226,7 +226,7 @@ TEST(StillPolicy, ALostStillIsCountedAndRequestedAgain) {
     EXPECT_NEAR(board.firedAt[1] - board.firedAt[0], 1, 2 * kFrame);
 }
 
-/// A board whose last two stills were lost after a second each. It has run for `seconds`.
+/// Returns a board that has run for `seconds` and has requested two stills. Both were lost.
 Simulation withTwoLostStills(TriggerConfig config, double seconds) {
     config.timeoutS = 1;
     Simulation board(config);

@@ -51,7 +51,7 @@ TEST(FrameDrops, AChangedFrameRateIsLearned) {
     EXPECT_EQ(drops.period(), 2 * kPeriod);
 }
 
-TEST(FrameDrops, FrameNumbersGiveExactDropsAtAnyRate) {
+TEST(FrameDrops, WithFrameNumbersDropsAreCountedExactlyAtAnyRate) {
     for (const auto period : {kPeriod, 2 * kPeriod, 5 * kPeriod}) {
         FrameDrops drops;
         Timestamp time{0};

@@ -282,7 +282,7 @@ TEST_P(ScaledLayer, ColoursAreInterpolatedLinearlyBetweenPixelsOfTheLayer) {
         ASSERT_NEAR(got.at(50, y, 1), 4 * ((y + 0.5) / 2 - 0.5), most) << y;
 }
 
-TEST_P(ScaledLayer, AtEdgesOfTheLayerTheDepthOfTheCoveredPixelDecides) {
+TEST_P(ScaledLayer, AtEdgesOfTheLayerPixelsWithoutASurfaceDoNotChangeTheVisibility) {
     constexpr Size kQuarter{40, 30};
     for (const double nothing : {0.0, kNan, -1.0}) {
         LaidLayer layer{kQuarter};

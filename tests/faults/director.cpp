@@ -27,8 +27,8 @@ constexpr Ns kUs = 1000;
 constexpr Ns kEndTime = 3 * kSecond;  ///< longest time from SIGTERM to the end
 /// Longest time from the start to READY, whatever the devices do.
 constexpr Ns kReadyTime = 5 * kSecond;
-/// Pause between episodes. It lets late effects of faults end. Then mfard is checked without
-/// faults.
+/// Pause that lets late effects of faults end. After it, mfard is checked while no fault is
+/// injected.
 constexpr Ns kQuiet = 4500 * kMs;
 
 long numberOf(const char* variable, long otherwise) {

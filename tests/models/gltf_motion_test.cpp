@@ -30,7 +30,7 @@ GltfMaker risingTriangle() {
     return maker;
 }
 
-TEST(GltfMotion, ATranslationMovesThePartUpwards) {
+TEST(GltfMotion, ATranslationAlongYInTheFileMovesThePartAlongZ) {
     const Model model = modelOf(risingTriangle());
     ASSERT_EQ(model.paths.size(), 1U);
     EXPECT_EQ(model.paths[0].length, 4);

@@ -202,7 +202,7 @@ TEST(Recording, EveryFaultIsRefusedWithTheFileAndTheLineIfKnown) {
 }
 
 TEST(Recording, MissingFolderIsNamed) {
-    EXPECT_EQ(faultOf("/nonexistent/recording"), "/nonexistent/recording: the folder is missing");
+    EXPECT_EQ(faultOf("/nonexistent/recording"), "/nonexistent/recording: there is no such folder");
 }
 
 TEST(Recording, RecordingHasTheContentOfItsFiles) {

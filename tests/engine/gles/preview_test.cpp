@@ -121,7 +121,7 @@ TEST_F(Preview, SurfacesAroundAndBehindTheCameraAreDrawnCorrectly) {
     }
 }
 
-TEST_F(Preview, ObjectsOutOfViewDrawNothing) {
+TEST_F(Preview, ObjectsThatAreOutOfViewOrNotFiniteAreNotDrawn) {
     PreviewRenderer renderer(lens(), kOutput);
     constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
     constexpr double kInfinite = std::numeric_limits<double>::infinity();

@@ -85,8 +85,9 @@ TEST_F(QualityTest, NeighboursAffectedByAChangeAreRedrawn) {
     EXPECT_TRUE(p.readImage() == whole.readImage());
 }
 
-// Learned filters do not use the texture of columns from which other frames are enlarged. Drawing a
-// tile also reads the columns of its neighbours, so after learned filters all are computed.
+// Without learned filters, the video is enlarged along columns into a texture, and then along rows.
+// Learned filters do not update this texture. A tile also reads the columns of its neighbours, so
+// the first frame after learned filters must compute all columns.
 TEST_F(QualityTest, ATileDrawnAfterLearnedFiltersReadsNoOldColumns) {
     const PipelineCase c;
     for (const bool cubic : {true, false}) {
