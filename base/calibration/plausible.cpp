@@ -29,9 +29,15 @@ std::string text(const Range& range) {
 /// Returns true if the lens model folds over inside the picture: several rays map to one pixel.
 bool foldsInside(const CameraModel& c) {
     const double right = c.size.width - 1, bottom = c.size.height - 1;
-    const std::array<Eigen::Vector2d, 4> edges{
-        {{0, c.cy}, {right, c.cy}, {c.cx, 0}, {c.cx, bottom}}};
-    for (const Eigen::Vector2d& p : edges)
+    const std::array<Eigen::Vector2d, 8> border{{{0, c.cy},
+                                                 {right, c.cy},
+                                                 {c.cx, 0},
+                                                 {c.cx, bottom},
+                                                 {0, 0},
+                                                 {right, 0},
+                                                 {0, bottom},
+                                                 {right, bottom}}};
+    for (const Eigen::Vector2d& p : border)
         if (!((c.project(c.unproject(p)) - p).norm() < kMaxFoldError)) return true;
     return false;
 }

@@ -60,6 +60,10 @@ TEST(PoseTrack, EndsOfTheTrackAndNeighboursOfAMissingFrameHaveNoPose) {
     EXPECT_TRUE(known(7.5));
     EXPECT_FALSE(known(9.5));
     EXPECT_FALSE(known(11));
+    track.allowMissingFrames();
+    EXPECT_TRUE(known(3.5));
+    EXPECT_TRUE(known(5));
+    EXPECT_FALSE(known(9.5));
 }
 
 }  // namespace

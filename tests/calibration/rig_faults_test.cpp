@@ -78,6 +78,7 @@ constexpr Fault kFaults[] = {
      "own/video.yaml:8: ", "'equidistant' is not supported"},
     {"own", kVideo, "-0.115", ".inf", "own/video.yaml:12: ", "not finite"},
     {"own", kVideo, "-0.115", "-4", "own/video.yaml:12: ", "several rays"},
+    {"own", kVideo, "-0.115, 0.062", "-0.3, 0.0", "own/video.yaml:12: ", "several rays"},
     {"own", kVideo, "-0.0005, 0]", "-0.0005, 0, 0.1]", "own/video.yaml:12: ", "coefficient 6"},
     {"own", kVideo, "-0.115, 0.062, ", "", "own/video.yaml:12: ", "3 distortion coefficients"},
     {"own", kStill, "2304", "2304.5", "own/still.yaml:1: ", "not a whole number"},

@@ -83,6 +83,27 @@ TEST(Calibrate, AClockOffsetBeyondTheSearchIsRefused) {
     }
 }
 
+TEST(Calibrate, ARecordingThatHasLostVideoFramesIsUsed) {
+    for (const int every : {3, 4}) {
+        BothViews views = makeViews(kGrid, {});
+        int frame = 0;
+        std::erase_if(views.video.views, [&](const TargetView&) { return ++frame % every == 0; });
+        const Calibration found = calibrate(kGrid, views.video, views.still, {});
+        expectRig(found);
+        EXPECT_GE(found.pairs, 12) << every;
+    }
+}
+
+TEST(Calibrate, FewStillsThatTheVideoSawAreNotTakenForOutliers) {
+    BothViews views = makeViews(kGrid, {});
+    // The video saw the target during a third of the stills.
+    const auto end = views.video.views[views.video.views.size() / 3].time;
+    std::erase_if(views.video.views, [&](const TargetView& v) { return v.time > end; });
+    const Calibration found = calibrate(kGrid, views.video, views.still, {});
+    EXPECT_GE(found.pairs, 6);
+    expectRig(found);
+}
+
 TEST(Calibrate, WrongCornersAndWrongViewsAreExcluded) {
     BothViews views = makeViews(kGrid, {});
     for (std::size_t i = 0; i < views.video.views.size(); i += 3)

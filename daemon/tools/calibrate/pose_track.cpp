@@ -7,8 +7,6 @@
 namespace mfar::calibration {
 namespace {
 
-constexpr double kMaxGap = 1.7;  // [intervals]; one missing frame makes a gap of 2
-
 double seconds(Timestamp a, Timestamp b) {
     return static_cast<double>((b - a).count()) * 1e-9;
 }
@@ -33,6 +31,10 @@ void PoseTrack::add(Timestamp time, const RigidTransform& pose) {
     poses_.push_back(pose);
 }
 
+void PoseTrack::allowMissingFrames() {
+    maxGap_ = 2.5;
+}
+
 double PoseTrack::interval() const {
     std::vector<double> gaps;
     for (std::size_t i = 1; i < times_.size(); ++i)
@@ -47,7 +49,7 @@ std::optional<std::array<int, 4>> PoseTrack::around(Timestamp t) const {
     const auto next = std::upper_bound(times_.begin(), times_.end(), t);
     const int second = static_cast<int>(next - times_.begin()) - 1;
     if (second < 1 || second + 2 >= size()) return std::nullopt;
-    const double limit = kMaxGap * interval();
+    const double limit = maxGap_ * interval();
     for (int i = second - 1; i < second + 2; ++i)
         if (!(seconds(times_[i], times_[i + 1]) <= limit)) return std::nullopt;
     return std::array<int, 4>{second - 1, second, second + 1, second + 2};

@@ -23,7 +23,8 @@ public:
     [[nodiscard]] int size() const { return static_cast<int>(times_.size()); }
 
     /// Returns the indices of four consecutive poses, two before and two after t. Returns nothing
-    /// if one of the four is missing.
+    /// if a frame between them is missing, or after allowMissingFrames(), if two are missing in a
+    /// row.
     [[nodiscard]] std::optional<std::array<int, 4>> around(Timestamp t) const;
     [[nodiscard]] Timestamp time(int index) const { return times_[index]; }
     [[nodiscard]] const RigidTransform& pose(int index) const { return poses_[index]; }
@@ -31,7 +32,12 @@ public:
     /// Returns the median time between consecutive poses [s]; 0 if there are fewer than two poses.
     [[nodiscard]] double interval() const;
 
+    /// The error of between() grows where frames are missing, but a recording that has lost many
+    /// frames has too few stills otherwise.
+    void allowMissingFrames();
+
 private:
+    double maxGap_ = 1.5;  // [intervals]; one missing frame makes a gap of 2
     std::vector<Timestamp> times_;
     std::vector<RigidTransform> poses_;
 };

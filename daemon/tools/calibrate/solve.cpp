@@ -16,6 +16,8 @@ namespace mfar::calibration {
 namespace {
 
 constexpr int kLeastVideoViews = 12, kLeastStillViews = 6, kLeastPairs = 5;
+// With fewer stills between video frames without gaps, gaps of one missing frame are accepted.
+constexpr int kFewPairs = 12;
 // A clock offset counts as known if its standard deviation is at most this [s].
 constexpr double kMaxOffsetDeviation = 0.002;
 // The target counts as moving during a still if its image in the video moves by at least this
@@ -49,6 +51,10 @@ public:
             track_.add(video_.views[i].time, *videoFit_.poses[i]);
             trackViews_.push_back(i);
         }
+        const auto isTied = [&](const TargetView& view) {
+            return track_.around(view.time).has_value();
+        };
+        if (std::ranges::count_if(still_.views, isTied) < kFewPairs) track_.allowMissingFrames();
         if (movingStills() < kLeastMoving) options_.maxOffset = 0;
         std::vector<StillPose> stills;
         for (std::size_t i = 0; i < still_.views.size(); ++i)
@@ -56,7 +62,8 @@ public:
         start_ = startOfRig(track_, stills, options_.maxOffset);
         if (start_.stills < kLeastPairs)
             throw Unsuitable(fmt::format(
-                "only {} stills were taken while the video saw the target; at least {} are needed",
+                "only {} stills were taken while the video saw the target and lost no frames; at "
+                "least {} are needed",
                 start_.stills, kLeastPairs));
     }
 
@@ -162,7 +169,8 @@ private:
             addStill(bundle, view, offset);
         if (pairs_ < kLeastPairs)
             throw Unsuitable(fmt::format(
-                "only {} stills were taken while the video saw the target; at least {} are needed",
+                "only {} stills were taken while the video saw the target and lost no frames; at "
+                "least {} are needed",
                 pairs_, kLeastPairs));
         return bundle;
     }
@@ -183,24 +191,32 @@ private:
         // adjusted its video poses to the stills, which are more precise. With those poses, a still
         // with an error would seem to fit.
         const auto shift = static_cast<std::int64_t>(std::llround(bundle.offset() * 1e9));
-        std::vector<double> errors;
+        // Stills that are not tied to video poses have much smaller residuals than the others, so
+        // both kinds are judged apart.
+        std::vector<int> tied, others;
+        std::vector<double> tiedErrors, otherErrors;
         for (const Member& m : stillMembers_) {
             const TargetView& view = still_.views[m.view];
             const auto T_video_target = track_.at({view.time.ns + shift});
-            errors.push_back(rms(T_video_target
-                                     ? residualsOf(target_, view, bundle.rig().still,
-                                                   bundle.rig().T_still_video * *T_video_target)
-                                     : bundle.residuals(m.index)));
+            (T_video_target ? tied : others).push_back(m.view);
+            (T_video_target ? tiedErrors : otherErrors)
+                .push_back(rms(T_video_target
+                                   ? residualsOf(target_, view, bundle.rig().still,
+                                                 bundle.rig().T_still_video * *T_video_target)
+                                   : bundle.residuals(m.index)));
         }
+        const bool anyTied = leaveOut(tied, tiedErrors), anyOther = leaveOut(others, otherErrors);
+        return anyTied || anyOther;
+    }
+
+    bool leaveOut(const std::vector<int>& stills, const std::vector<double>& errors) {
         const std::vector<bool> bad = outliers(errors);
-        bool any = false;
         for (std::size_t k = 0; k < bad.size(); ++k) {
             if (!bad[k]) continue;
-            stillFit_.poses[stillMembers_[k].view].reset();
-            std::erase(stillFit_.chosen, stillMembers_[k].view);
-            any = true;
+            stillFit_.poses[stills[k]].reset();
+            std::erase(stillFit_.chosen, stills[k]);
         }
-        return any;
+        return std::ranges::count(bad, true) > 0;
     }
 
     [[nodiscard]] SensorResult result(const RigBundle& bundle, const SensorViews& sensor,
