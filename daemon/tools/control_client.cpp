@@ -20,21 +20,24 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr timeval kPatience{15, 0};
+// Longest waits for an answer [s]. The end of a recording waits until the disk has all pictures.
+constexpr int kPatience = 15, kPatienceWithDisk = 600;
 constexpr std::size_t kLongestLine = 1U << 20U;
 constexpr std::uint64_t kMostData = 1ULL << 31U;
 
 class Connection {
 public:
-    explicit Connection(const std::filesystem::path& socket)
-        : path_(socket), fd_(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+    Connection(const std::filesystem::path& socket, int patience)
+        : path_(socket), patience_(patience),
+          fd_(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
         sockaddr_un address{};
         address.sun_family = AF_UNIX;
         if (path_.native().size() >= sizeof address.sun_path)
             fail("the path of the socket is too long; use a shorter --socket");
         path_.native().copy(address.sun_path, path_.native().size());
-        setsockopt(fd_.get(), SOL_SOCKET, SO_RCVTIMEO, &kPatience, sizeof kPatience);
-        setsockopt(fd_.get(), SOL_SOCKET, SO_SNDTIMEO, &kPatience, sizeof kPatience);
+        const timeval limit{patience_, 0};
+        setsockopt(fd_.get(), SOL_SOCKET, SO_RCVTIMEO, &limit, sizeof limit);
+        setsockopt(fd_.get(), SOL_SOCKET, SO_SNDTIMEO, &limit, sizeof limit);
         if (connect(fd_.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0)
             fail(reason());
     }
@@ -67,7 +70,9 @@ private:
     void more() {
         std::array<char, 65536> part{};
         const ssize_t got = recv(fd_.get(), part.data(), part.size(), 0);
-        if (got < 0) fail(errno == EAGAIN ? "no answer within 15 s" : std::strerror(errno));
+        if (got < 0)
+            fail(errno == EAGAIN ? "no answer within " + std::to_string(patience_) + " s"
+                                 : std::strerror(errno));
         if (got == 0) fail("mfard closed the connection before its answer was complete");
         read_.append(part.data(), static_cast<std::size_t>(got));
     }
@@ -81,6 +86,7 @@ private:
     }
 
     std::filesystem::path path_;
+    int patience_;
     OwnedFd fd_;
     std::string read_;
 };
@@ -88,7 +94,7 @@ private:
 }  // namespace
 
 Reply ask(const std::filesystem::path& socket, const nlohmann::json& request) {
-    Connection connection(socket);
+    Connection connection(socket, request.contains("stop") ? kPatienceWithDisk : kPatience);
     connection.send(request.dump() + "\n");
     Reply reply{ordered_json::parse(connection.line(), nullptr, false), {}};
     if (!reply.body.is_object() || !reply.body.contains("ok") || !reply.body["ok"].is_boolean())
