@@ -57,7 +57,7 @@ std::shared_ptr<const Scene> SceneFollower::follow(const InverseDepthField& fiel
     if (!isDue(T_world_video, time) || knownShare(field, seen) < rule_.leastKnown) return nullptr;
     ShadowCatcher measured = depthCatcher(field, video, T_world_video, seen, planes_);
     if (measured.triangles.size() < kLeastTriangles) return nullptr;
-    addUnseen(measured, planeCatcher(planes_), video, T_world_video);
+    addUnseen(measured, planes_, video, T_world_video);
     measured.albedo = scene_.catcher.albedo;
     scene_.catcher = std::move(measured);
     caught_ = time;

@@ -1,5 +1,6 @@
 #include "pipeline/composite/shadow_catcher.h"
 
+#include "pipeline/composite/lens_projection.h"
 #include "pipeline/scene/glow.h"
 
 #include <algorithm>
@@ -11,6 +12,8 @@ namespace mfar {
 namespace {
 
 constexpr int kPlaneCells = 8;
+// Planes beside a measured surface have small triangles, so that the gap between both is small.
+constexpr int kUnseenCells = 32;
 // Distance between vertices [video px]. A finer grid would only show the noise of the depth.
 constexpr int kStep = 4;
 // Two neighbouring vertices are on different surfaces if their depths differ by at least this
@@ -146,37 +149,49 @@ std::vector<GroundPlane> groundPlanes(const Scene& scene) {
     return out;
 }
 
-ShadowCatcher planeCatcher(const Eigen::AlignedBox3d& objects, double reachInRadii) {
+namespace {
+
+ShadowCatcher planeCatcher(const Eigen::AlignedBox3d& objects, double reachInRadii, int cells) {
     if (objects.isEmpty()) return {};
     const double reach = reachInRadii * radiusOf(objects);
     if (objects.max().z() < 0 || objects.min().z() > reach || !(reach > 0)) return {};
     const Eigen::Vector2d low = objects.min().head<2>().array() - reach;
     const Eigen::Vector2d high = objects.max().head<2>().array() + reach;
-    Grid grid(kPlaneCells + 1, kPlaneCells + 1);
-    for (int y = 0; y <= kPlaneCells; ++y) {
-        for (int x = 0; x <= kPlaneCells; ++x) {
-            const Eigen::Array2d share = Eigen::Array2d(x, y) / kPlaneCells;
+    Grid grid(cells + 1, cells + 1);
+    for (int y = 0; y <= cells; ++y) {
+        for (int x = 0; x <= cells; ++x) {
+            const Eigen::Array2d share = Eigen::Array2d(x, y) / cells;
             const Eigen::Vector2d p = low.array() + share * (high - low).array();
             grid.set(x, y, {p.x(), p.y(), 0});
         }
     }
-    for (int y = 0; y < kPlaneCells; ++y)
-        for (int x = 0; x < kPlaneCells; ++x)
+    for (int y = 0; y < cells; ++y)
+        for (int x = 0; x < cells; ++x)
             grid.addCell(x, y);
     return grid.take();
 }
 
-ShadowCatcher planeCatcher(std::span<const GroundPlane> planes) {
+ShadowCatcher planeCatcher(std::span<const GroundPlane> planes, int cells) {
     ShadowCatcher out;
     for (const GroundPlane& plane : planes) {
         const auto first = static_cast<std::uint32_t>(out.positions.size());
-        const ShadowCatcher part = planeCatcher(plane.objects, plane.reach);
+        const ShadowCatcher part = planeCatcher(plane.objects, plane.reach, cells);
         for (const Eigen::Vector3f& p : part.positions)
             out.positions.emplace_back((plane.T_world_plane * p.cast<double>()).cast<float>());
         for (const auto& t : part.triangles)
             out.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
     }
     return out;
+}
+
+}  // namespace
+
+ShadowCatcher planeCatcher(const Eigen::AlignedBox3d& objects, double reachInRadii) {
+    return planeCatcher(objects, reachInRadii, kPlaneCells);
+}
+
+ShadowCatcher planeCatcher(std::span<const GroundPlane> planes) {
+    return planeCatcher(planes, kPlaneCells);
 }
 
 ShadowCatcher depthCatcher(const InverseDepthField& field, const CameraModel& video,
@@ -212,25 +227,25 @@ ShadowCatcher depthCatcher(const InverseDepthField& field, const CameraModel& vi
     return grid.take();
 }
 
-void addUnseen(ShadowCatcher& measured, const ShadowCatcher& planes, const CameraModel& video,
-               const RigidTransform& T_world_video) {
+void addUnseen(ShadowCatcher& measured, std::span<const GroundPlane> planes,
+               const CameraModel& video, const RigidTransform& T_world_video) {
+    const ShadowCatcher all = planeCatcher(planes, kUnseenCells);
     const RigidTransform T_video_world = T_world_video.inverse();
+    const LensProjection lens(video);
     std::vector<bool> seen;
-    for (const Eigen::Vector3f& position : planes.positions) {
-        const Eigen::Vector3d p = T_video_world * position.cast<double>();
-        const Eigen::Vector2d ray = p.head<2>() / p.z();
-        const Eigen::Vector2d pixel = p.z() > 0 ? video.project(ray) : Eigen::Vector2d(-1, -1);
-        seen.push_back(pixel.x() >= 0 && pixel.y() >= 0 && pixel.x() < video.size.width &&
-                       pixel.y() < video.size.height);
+    for (const Eigen::Vector3f& position : all.positions) {
+        const Eigen::Vector3d p = lens(T_video_world * position.cast<double>());
+        seen.push_back(p.z() > 0 && p.x() >= 0 && p.y() >= 0 && p.x() < p.z() * video.size.width &&
+                       p.y() < p.z() * video.size.height);
     }
     const auto first = static_cast<std::uint32_t>(measured.positions.size());
     const std::size_t before = measured.triangles.size();
-    for (const auto& t : planes.triangles)
-        if (!seen[t[0]] || !seen[t[1]] || !seen[t[2]])
+    for (const auto& t : all.triangles)
+        if (!seen[t[0]] && !seen[t[1]] && !seen[t[2]])
             measured.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
     if (measured.triangles.size() > before)
-        measured.positions.insert(measured.positions.end(), planes.positions.begin(),
-                                  planes.positions.end());
+        measured.positions.insert(measured.positions.end(), all.positions.begin(),
+                                  all.positions.end());
 }
 
 }  // namespace mfar

@@ -45,9 +45,9 @@ struct GroundPlane {
                                          const PixelRect& where,
                                          std::span<const GroundPlane> planes);
 
-/// Adds the triangles of `planes` that are not completely inside the video picture. So shadows that
-/// lie outside of the view of a depthCatcher() fall onto the planes.
-void addUnseen(ShadowCatcher& measured, const ShadowCatcher& planes, const CameraModel& video,
-               const RigidTransform& T_world_video);
+/// Adds those parts of the planes that are outside of the video picture. So shadows outside of the
+/// view of a depthCatcher() fall onto the planes.
+void addUnseen(ShadowCatcher& measured, std::span<const GroundPlane> planes,
+               const CameraModel& video, const RigidTransform& T_world_video);
 
 }  // namespace mfar

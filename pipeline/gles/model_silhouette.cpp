@@ -12,13 +12,22 @@
 namespace mfar {
 namespace {
 
+/// Returns the alpha of each texel, or of fewer texels if the GPU's textures are smaller.
 gpu::Texture alphaOf(const SurfaceTexture& texture) {
+    GLint most = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
+    const Size from = texture.size, to{std::min(from.width, most), std::min(from.height, most)};
     std::vector<std::uint8_t> alpha;
-    alpha.reserve(texture.texels.size());
-    for (const auto& texel : texture.texels)
-        alpha.push_back(texel[3]);
-    gpu::Texture out(texture.size, gpu::TexelFormat::R8, gpu::Filter::Linear);
-    out.upload({alpha.data(), static_cast<std::size_t>(texture.size.width)});
+    alpha.reserve(static_cast<std::size_t>(to.width) * to.height);
+    // `from` has at most 2^13 texels per side, so the products fit.
+    for (int y = 0; y < to.height; ++y)
+        for (int x = 0; x < to.width; ++x) {
+            const int column = (2 * x + 1) * from.width / (2 * to.width);
+            const int row = (2 * y + 1) * from.height / (2 * to.height);
+            alpha.push_back(texture.texels[static_cast<std::size_t>(row) * from.width + column][3]);
+        }
+    gpu::Texture out(to, gpu::TexelFormat::R8, gpu::Filter::Linear);
+    out.upload({alpha.data(), static_cast<std::size_t>(to.width)});
     out.repeat();
     return out;
 }

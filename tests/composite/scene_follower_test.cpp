@@ -116,8 +116,8 @@ TEST(SceneFollower, OutsideOfTheViewTheShadowCatcherIsStillAPlane) {
     EXPECT_NEAR(reach(c).min().x(), -planes.max().x(), 0.02F);
     for (const auto& t : c.triangles) {
         const auto at = [&](int i) { return c.positions[t[static_cast<std::size_t>(i)]]; };
-        const float right = std::max({at(0).x(), at(1).x(), at(2).x()});
-        EXPECT_EQ(at(0).z() < 0.01F, right > 0.018F) << right;
+        const float left = std::min({at(0).x(), at(1).x(), at(2).x()});
+        EXPECT_EQ(at(0).z() < 0.01F, left > 0.018F) << left;
     }
 }
 
