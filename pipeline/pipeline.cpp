@@ -15,10 +15,7 @@ namespace mfar {
 namespace {
 
 void requireFit(const ImageView& view, Size size, const char* what) {
-    if (view.size == size) {
-        requireSound(view, what);
-        return;
-    }
+    if (view.size == size) return requireSound(view, what);
     throw std::invalid_argument(std::string(what) + " is " + std::to_string(view.size.width) + "x" +
                                 std::to_string(view.size.height) + ", but the calibration is for " +
                                 std::to_string(size.width) + "x" + std::to_string(size.height));
@@ -228,8 +225,11 @@ Pipeline::State::Match Pipeline::State::matchStill(const VideoFrame& frame, cons
     if (pose) {
         const PixelRect where = around(pixelsOf(work.detailTiles), forDepth);
         const int tiles = forDepth.empty() ? work.matched : work.changed;
-        result.stats.usedPose = tiles > 0 && !where.empty();
-        if (result.stats.usedPose) epipolar->run(frame.view, *pose, where);
+        result.stats.usedPose = true;
+        if (tiles > 0 && !where.empty()) {
+            epipolar->run(frame.view, *pose, where);
+            publishPose(*epipolar, result.stats);
+        }
         lap("epipolar");
         found = &newest.flow->refine({frame, *newest.pictures, light()}, pyramids, work,
                                      {epipolar->forward(), epipolar->occlusion()});
@@ -342,7 +342,6 @@ void Pipeline::State::publish(const TileWork& work, bool usedStill) {
     stats.redrawn = plan.redrawnShare();
     stats.usedStill = usedStill;
     stats.searched2d = newest.flow->finishedSearchedCount();
-    if (stats.usedPose) publishPose(*epipolar, stats);
     stats.transfers = {transfers.uploadedBytes - transfersBefore.uploadedBytes,
                        transfers.downloadedBytes - transfersBefore.downloadedBytes};
     transfersBefore = transfers;
