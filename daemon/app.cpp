@@ -119,9 +119,7 @@ std::string App::runSession(const Config& config) {
     Session session(config, stats_, changes_, sessionCalls_,
                     {input_.get_token(), cancel_.get_token()});
     RunDescription description = session.description();
-    if (options_.frames)
-        description.plannedFrames =
-            std::min(*options_.frames, description.plannedFrames.value_or(*options_.frames));
+    description.plannedPictures = options_.frames;
     description.plannedSeconds = options_.seconds;
     {
         const std::lock_guard lock(mutex_);
@@ -253,7 +251,7 @@ void App::onTick() {
     const Health now = health(counted);
     logHealth(now);
     feedWatchdog(now);
-    logWarnings();
+    if (running_) logWarnings();
     log_.sayKept();
     leaveIfHanging();
     logChanges(counted);
@@ -329,7 +327,6 @@ void App::takeChanges(const Counted& counted) {
 }
 
 void App::logWarnings() {
-    if (!running_) return;
     for (const Warning& warning : stats_.takeWarnings())
         log_.warning(warning.text, {}, warning.subject);
 }

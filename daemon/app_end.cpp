@@ -89,12 +89,16 @@ bool App::writes() {
 
 void App::leave(const std::string& why) {
     log_.endStatus();
+    logWarnings();
     log_.warning(why, {}, {message::kEnded});
     if (ended_ && ended_->error) leaveFailed(ended_->error);
     const std::string reason = stopReason_.value_or(ended_ ? ended_->reason : "");
-    const bool written = writeResults(reason, ExitCode::Ok);
+    // Without a signal and before the end of the run, pictures may be missing in the output.
+    const bool isComplete = stopSignal_ || ended_ || !writes();
+    const ExitCode end = isComplete ? ExitCode::Ok : ExitCode::OutputFailed;
+    const bool written = writeResults(reason, end);
     removeControl();
-    const ExitCode code = written || stopSignal_ ? ExitCode::Ok : ExitCode::OutputFailed;
+    const ExitCode code = written || stopSignal_ ? end : ExitCode::OutputFailed;
     std::_Exit(static_cast<int>(code));
 }
 
@@ -145,6 +149,7 @@ ExitCode App::finish(std::future<std::string>& end) {
     logHealth(last);
     showStatus(counted, last);
     log_.endStatus();
+    logWarnings();
     try {
         const std::string reason = end.get();
         const ExitCode code = writeResults(stopReason_.value_or(reason), ExitCode::Ok)

@@ -43,13 +43,15 @@ Governor::Governor(std::vector<QualityLevel> levels, double deadlineMs)
 
 void Governor::add(const Frame& frame) {
     if (!(frame.ms >= 0 && std::isfinite(frame.ms))) return;
+    // A frame with a new still may be late. But if each frame has one, these frames must count.
+    const bool mayBeLate = frame.newStill && framesSinceStill_ > 0;
     framesSinceStill_ = frame.newStill ? 0 : framesSinceStill_ + 1;
     if (frame.newStill) stillMs_ = frame.ms;
     if (frame.redrawn > 0 && !next_.redraw) {
         restFrames_ = 0;
         isPolished_ = false;
         const bool isComplete = frame.usedStill || level().quality.mode == SuperResMode::Off;
-        if (isComplete && !frame.newStill) count(frame.ms);
+        if (isComplete && !mayBeLate) count(frame.ms);
     } else {
         ++restFrames_;
     }

@@ -16,8 +16,8 @@ std::string describe(const PoseConfig& config, const TagMap& map) {
     case PoseOrigin::Recorded: return "recorded poses";
     case PoseOrigin::Tags: break;
     }
-    if (map.tags().size() == 1) return "poses from a map of one tag";
-    if (!map.empty()) return fmt::format("poses from a map of {} tags", map.tags().size());
+    if (const std::size_t tags = map.tags().size(); tags > 0)
+        return fmt::format("poses from a map of {} tag{}", tags, tags == 1 ? "" : "s");
     return fmt::format("poses from the first tag, whose edge is {:g} m", config.tagSize);
 }
 

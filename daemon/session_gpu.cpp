@@ -19,8 +19,7 @@ void Session::makeDrawing() {
     pipeline.setMatchListener(learning_.get());
     pipeline.setFilters(filters_);
     for (const std::optional<UsedStill>* still : {&secondStill_, &usedStill_})
-        if (*still && config_.superres.mode != SuperResMode::Off)
-            pipeline.setStill((*still)->view, (*still)->time, (*still)->pose);
+        if (*still) pipeline.setStill((*still)->view, (*still)->time, (*still)->pose);
     placeObjects();
 }
 

@@ -6,6 +6,7 @@ namespace mfar {
 namespace {
 
 constexpr std::chrono::seconds kRateWindow{1};
+constexpr std::chrono::milliseconds kOpeningTime{500};
 
 double milliseconds(std::chrono::nanoseconds d) {
     return static_cast<double>(d.count()) * 1e-6;
@@ -14,6 +15,20 @@ double milliseconds(std::chrono::nanoseconds d) {
 double rate(std::uint64_t intervals, Timestamp from, Timestamp to) {
     const double s = to.seconds() - from.seconds();
     return s > 0 ? static_cast<double>(intervals) / s : 0;
+}
+
+/// Returns `now` with all that was counted `before` by other path tracers.
+TracedLayerCounters sumOf(const TracedLayerCounters& before, TracedLayerCounters now) {
+    now.render.samples += before.render.samples;
+    now.render.cpuMs += before.render.cpuMs;
+    now.render.pictures += before.render.pictures;
+    now.render.shown += before.render.shown;
+    now.render.holePixels += before.render.holePixels;
+    now.warped += before.warped;
+    now.unmoved += before.unmoved;
+    now.requested += before.requested;
+    now.answered += before.answered;
+    return now;
 }
 
 }  // namespace
@@ -109,7 +124,15 @@ void Stats::objects(const FrameStats& frame) {
 
 void Stats::fault(const std::optional<std::string>& fault) {
     const std::lock_guard lock(mutex_);
-    if (fault && !counted_.fault) ++counted_.faults;
+    const Timestamp now = Timestamp::now();
+    if (!fault) fault_ = {};
+    if (fault && !fault_.since) fault_.since = now;
+    // Before the first picture, a camera that is being opened is a fault only if that takes long.
+    if (fault && !fault_.isCounted &&
+        (counted_.frames > 0 || now - *fault_.since >= kOpeningTime)) {
+        ++counted_.faults;
+        fault_.isCounted = true;
+    }
     counted_.fault = fault;
 }
 
@@ -167,7 +190,10 @@ void Stats::bannerShown(Timestamp shown) {
 
 void Stats::traced(const TracedLayerCounters& counters, Timestamp frame) {
     const std::lock_guard lock(mutex_);
-    counted_.traced = counters;
+    // A new path tracer counts from 0 again.
+    if (counters.render.cpuMs < traced_.render.cpuMs) tracedBefore_ = *counted_.traced;
+    traced_ = counters;
+    counted_.traced = sumOf(tracedBefore_, counters);
     counted_.referenceAgeS.reset();
     if (const auto since = counters.render.shownSince)
         counted_.referenceAgeS = static_cast<double>((frame - *since).count()) * 1e-9;

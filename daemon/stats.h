@@ -211,6 +211,12 @@ private:
     Timestamp lastShown_;
     PictureRate rate_;
     std::vector<Warning> warnings_;
+    struct {
+        std::optional<Timestamp> since;
+        bool isCounted = false;
+    } fault_;  // the present fault
+    // Counters of the present path tracer, and sums of those before it.
+    TracedLayerCounters traced_, tracedBefore_;
     std::optional<RunHistory> history_;
     RunPictures pictures_;
     Heartbeats heartbeats_;

@@ -14,13 +14,15 @@ constexpr std::array<const char*, kTileClasses> kTileNames = {"unchanged", "upsc
 
 std::optional<double> progress(const Counted& counted, const RunDescription& run, double elapsedS) {
     std::optional<double> done;
-    if (run.plannedFrames && *run.plannedFrames > 0) {
-        // Dropped frames count as done, too.
-        const auto past = counted.frames + counted.drops.mailbox + counted.drops.sensor;
-        done = static_cast<double>(past) / static_cast<double>(*run.plannedFrames);
-    }
-    if (run.plannedSeconds && *run.plannedSeconds > 0)
-        done = std::max(done.value_or(0), elapsedS / *run.plannedSeconds);
+    const auto add = [&](double past, auto planned) {
+        if (planned && *planned > 0)
+            done = std::max(done.value_or(0), past / static_cast<double>(*planned));
+    };
+    // Of a recording, dropped frames count as done, too.
+    add(static_cast<double>(counted.frames + counted.drops.mailbox + counted.drops.sensor),
+        run.plannedFrames);
+    add(static_cast<double>(counted.frames), run.plannedPictures);
+    add(elapsedS, run.plannedSeconds);
     if (done) done = std::clamp(*done, 0.0, 1.0);
     return done;
 }

@@ -16,11 +16,12 @@ struct RunDescription {
     std::string source;
     std::string display;
     std::string mode;
-    std::optional<std::uint64_t> plannedFrames;
+    std::optional<std::uint64_t> plannedFrames;  ///< frames of a recording
     std::optional<double> plannedSeconds;
     std::string poses;
     std::string engine{};
-    double videoRateHz = 0;  ///< expected rate of pictures [Hz]; 0: unknown
+    double videoRateHz = 0;                          ///< expected rate of pictures [Hz]; 0: unknown
+    std::optional<std::uint64_t> plannedPictures{};  ///< pictures to show
 };
 
 /// Returns the status line. It has a progress bar if the end of the run is planned, and the health

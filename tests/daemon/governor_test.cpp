@@ -208,6 +208,16 @@ TEST(Governor, TheTimeForAStillDoesNotCountAsTimeOfTheLevel) {
     EXPECT_EQ(governor.level().name, "b");
 }
 
+TEST(Governor, IfEachFrameHasANewStillTheseFramesCount) {
+    Governor governor(fourLevels(), 100);
+    for (int i = 0; i < 100; ++i)
+        governor.add({.ms = 4 * fourLevels()[0].ms, .newStill = true});
+    EXPECT_EQ(governor.level().name, "b") << "100 ms are in time";
+    for (int i = 0; i < 20; ++i)
+        governor.add({.ms = 150, .newStill = true});
+    EXPECT_NE(governor.level().name, "b");
+}
+
 TEST(Governor, RequestsNoStillForALevelWithoutStills) {
     Governor governor(fourLevels(), 30);
     EXPECT_EQ(governor.level().name, "off");

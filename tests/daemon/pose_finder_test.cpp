@@ -52,7 +52,7 @@ double rotationError(const Pose& pose, double at) {
 TEST(PoseFinder, TagsGiveFramesAndStillsTheirPose) {
     Stats stats;
     PoseFinder finder({}, inputs(), stats);
-    EXPECT_EQ(finder.description(), "poses from a map of 1 tags");
+    EXPECT_EQ(finder.description(), "poses from a map of 1 tag");
     for (int i = 0; i < 4; ++i)
         EXPECT_LT(rotationError(video(finder, i).value(), i), 0.01) << i;
     const std::optional<Pose> sharp = still(finder, 2.5, true);

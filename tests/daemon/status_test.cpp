@@ -333,6 +333,9 @@ TEST(Status, LineHasAProgressBarIfTheEndIsKnown) {
     run.plannedFrames = 40;
     EXPECT_THAT(statusLine(stats.count(), run, 1), testing::StartsWith("[########........]  50% "));
     run.plannedFrames.reset();
+    run.plannedPictures = 80;
+    EXPECT_THAT(statusLine(stats.count(), run, 1), testing::StartsWith("[####............]  25%"));
+    run.plannedPictures.reset();
     run.plannedSeconds = 4;
     EXPECT_THAT(statusLine(stats.count(), run, 1), testing::StartsWith("[####............]  25%"));
 }
