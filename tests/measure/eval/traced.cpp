@@ -75,11 +75,11 @@ private:
 
 Picture overPaper(const std::uint8_t* rgba, std::size_t pixels) {
     Picture out(pixels);
-    for (std::size_t i = 0; i < pixels; ++i)
+    for (std::size_t i = 0; i < pixels; ++i) {
+        const float paper = kPaper * static_cast<float>(255 - rgba[4 * i + 3]) / 255;
         for (std::size_t c = 0; c < 3; ++c)
-            out[i][c] =
-                std::min(255.0F, static_cast<float>(rgba[4 * i + c]) +
-                                     kPaper * static_cast<float>(255 - rgba[4 * i + 3]) / 255);
+            out[i][c] = std::min(255.0F, static_cast<float>(rgba[4 * i + c]) + paper);
+    }
     return out;
 }
 
@@ -109,7 +109,6 @@ struct MeanSquare {
         return 10 * std::log10(255.0 * 255 * values / std::max(sum, 1e-9));
     }
 };
-
 cv::Mat lumaOf(const Picture& error, Size size) {
     cv::Mat out(size.height, size.width, CV_64F);
     double* to = out.ptr<double>();
