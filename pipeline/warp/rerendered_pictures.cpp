@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <ranges>
 #include <span>
 
 namespace mfar {
@@ -36,10 +37,8 @@ void RerenderedPictures::age() {
 void RerenderedPictures::add(const HoleAnswer& answer,
                              const std::function<void(const StoredRows&)>& store) {
     const auto& pixels = answer.pixels;
-    bool isEmpty = true;
-    for (std::size_t i = 0; i < pixels.size() && isEmpty; ++i)
-        isEmpty = !isObject(answer, i);
-    if (isEmpty) return;
+    const auto indices = std::views::iota(std::size_t{0}, pixels.size());
+    if (std::ranges::none_of(indices, [&](std::size_t i) { return isObject(answer, i); })) return;
     std::rotate(pictures_.begin(), pictures_.end() - 1, pictures_.end());
     Picture& picture = pictures_.front();
     PixelRect bounds;

@@ -186,8 +186,8 @@ void requireAllPixels(const RenderedPicture& picture, std::size_t count) {
         picture.id.size() != count || (!picture.light.empty() && picture.light.size() != count) ||
         (!picture.gloss.empty() && picture.gloss.size() != count))
         throw std::invalid_argument("a rendered picture must have a colour, a depth and an id for "
-                                    "each pixel of its camera, and a light and a gloss for each "
-                                    "pixel or for none");
+                                    "each pixel of its camera; its light and its gloss must be "
+                                    "empty or have a value for each pixel");
 }
 
 /// Marks the gloss of moving objects as unknown, so that their reflections are shown as traced. The

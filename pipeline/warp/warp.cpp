@@ -3,7 +3,6 @@
 #include "base/se3.h"
 
 #include <algorithm>
-#include <iterator>
 #include <span>
 #include <stdexcept>
 #include <utility>
@@ -65,7 +64,7 @@ void Warp::setTracedPicture(TracedPicture traced) {
 // Keeps re-rendered pictures, because they stay valid until the scene changes.
 void Warp::dropTracedPicture() {
     traced_.reset();
-    lastRequest_ = {};
+    requested_ = {};
     step_->dropHoles();
     rested({});
 }
@@ -149,19 +148,16 @@ std::optional<HoleRequest> Warp::request(std::vector<std::uint32_t> pixels, bool
     return out;
 }
 
-/// True if the pixels of the last request belong to the frame whose missing pixels are listed.
-bool Warp::isOfLastRequest() const {
-    return listPoses_.empty() && isUnmoved(lastRequest_.view.T_world_camera, listPose_);
+/// True if the requested pixels belong to the view of the frame whose missing pixels are listed.
+bool Warp::isOfRequested() const {
+    return listPoses_.empty() && isUnmoved(requested_.T_world_camera, listPose_);
 }
 
 void Warp::remember(const HoleRequest& request) {
-    if (!isOfLastRequest()) {
-        lastRequest_ = request;
-        return;
-    }
-    std::vector<std::uint32_t> both;
-    std::ranges::set_union(lastRequest_.pixels, request.pixels, std::back_inserter(both));
-    lastRequest_.pixels = std::move(both);
+    if (!isOfRequested()) requested_ = {request.view.T_world_camera, {}};
+    requested_.pixels.push_back(request.pixels);
+    if (requested_.pixels.size() > RerenderedPictures::kPictures)
+        requested_.pixels.erase(requested_.pixels.begin());
 }
 
 /// True if no point of the traced picture moves by leastMotion [px] or more.
@@ -175,12 +171,14 @@ bool Warp::isUnmoved(const RigidTransform& from, const RigidTransform& to) const
            std::max(options_.leastMotion, kSamePose);
 }
 
-// Removes the pixels that were requested since the view changed last. These pixels were rendered
-// but are missing again, so rendering them once more would not help.
+// Removes pixels that were already requested for this view. These pixels were rendered but are
+// missing again, so rendering them once more would not help.
 void Warp::dropRefused(std::vector<std::uint32_t>& pixels) const {
-    if (!isOfLastRequest()) return;
+    if (!isOfRequested()) return;
     std::erase_if(pixels, [&](std::uint32_t p) {
-        return std::ranges::binary_search(lastRequest_.pixels, p);
+        return std::ranges::any_of(requested_.pixels, [&](const auto& request) {
+            return std::ranges::binary_search(request, p);
+        });
     });
 }
 

@@ -70,7 +70,7 @@ public:
 
 private:
     [[nodiscard]] bool isUnmoved(const RigidTransform& from, const RigidTransform& to) const;
-    [[nodiscard]] bool isOfLastRequest() const;
+    [[nodiscard]] bool isOfRequested() const;
     void remember(const HoleRequest& request);
     void dropRefused(std::vector<std::uint32_t>& pixels) const;
     void rested(const std::optional<RigidTransform>& T_world_camera);
@@ -85,7 +85,10 @@ private:
     std::optional<TracedPicture> traced_;
     std::uint64_t scene_ = 0;
     bool asked_ = false;
-    HoleRequest lastRequest_;  // its pixels: all that were requested at its pose
+    struct {
+        RigidTransform T_world_camera;
+        std::vector<std::vector<std::uint32_t>> pixels;  // of each request; as many as are stored
+    } requested_;                                        // the last requests, all for the same view
     RigidTransform listPose_;  // pose of the frame whose missing pixels are listed
     std::vector<RigidTransform> poses_, listPoses_;  // object poses: now, and with listPose_
     std::optional<RigidTransform> warpedTo_;  // pose of the displayed frame; empty: not warped
