@@ -22,7 +22,6 @@ namespace {
 using Seconds = std::chrono::duration<double>;
 
 constexpr Seconds kLookTime{1};
-constexpr double kOpeningTime = 0.5;  // [s]
 /// The normal time limits apply after this number of pictures. Before that, all time limits are
 /// longer by the factor kFirstPatience.
 constexpr std::uint64_t kFirstPictures = 10;
@@ -295,7 +294,7 @@ void App::logHealth(const Health& health) {
     // During a shutdown, no new pictures are expected, so the state Stalled is not a fault.
     if (stopReason_ && health.state == HealthState::Stalled) return;
     // One camera may be opened later than the other, so a short fault at the start is not logged.
-    if (health.isDevice && !isProven_ && health.sinceS < kOpeningTime) return;
+    if (health.isDevice && !isProven_ && health.sinceS < kOpeningS) return;
     if (health.state != HealthState::Ok)
         log_.warning(sentence(health), health.cause, subjectOf(health));
     else if (told_.isDevice)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 
 namespace mfar {
 
@@ -21,7 +22,7 @@ public:
     }
 
 private:
-    double due_ = 0;
+    double due_ = -std::numeric_limits<double>::infinity();
 };
 
 }  // namespace mfar

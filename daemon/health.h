@@ -13,6 +13,9 @@
 
 namespace mfar {
 
+/// At the start, a camera that is being opened counts as a fault only after this time [s].
+inline constexpr double kOpeningS = 0.5;
+
 enum class HealthState {
     Ok,        ///< pictures are shown, and everything that is configured works
     Degraded,  ///< something does not work; mfard waits for it or tries to repair it

@@ -47,8 +47,11 @@ public:
     /// frames.
     [[nodiscard]] std::optional<Pose> place(const StillMeasurement& measured, Timestamp time);
 
-    /// Returns true if the pose was measured or recorded, false if it was only predicted.
-    [[nodiscard]] bool isMeasured(const Pose& pose) const { return recorded_ || pose.tags > 0; }
+    /// Returns true if the pose was recorded, or measured in a world frame that stays, see
+    /// Tracker::map(). Returns false if it was only predicted. For the thread that calls ofVideo().
+    [[nodiscard]] bool isRecordable(const Pose& pose) const {
+        return recorded_ || (pose.tags > 0 && (foundTags_ || !mayFindTags()));
+    }
     [[nodiscard]] const TagMap& tags() const { return tags_; }
     /// If there was no tag map at the start, returns the map that was made from the first pictures
     /// with tags, see Tracker::map(). Its only tag defines the world frame. Returns the map only

@@ -1,12 +1,13 @@
 #include "daemon/stats.h"
 
+#include "daemon/health.h"
+
 #include <algorithm>
 
 namespace mfar {
 namespace {
 
 constexpr std::chrono::seconds kRateWindow{1};
-constexpr std::chrono::milliseconds kOpeningTime{500};
 
 double milliseconds(std::chrono::nanoseconds d) {
     return static_cast<double>(d.count()) * 1e-6;
@@ -129,7 +130,7 @@ void Stats::fault(const std::optional<std::string>& fault) {
     if (fault && !fault_.since) fault_.since = now;
     // Before the first picture, a camera that is being opened is a fault only if that takes long.
     if (fault && !fault_.isCounted &&
-        (counted_.frames > 0 || now - *fault_.since >= kOpeningTime)) {
+        (counted_.frames > 0 || (now - *fault_.since).count() * 1e-9 >= kOpeningS)) {
         ++counted_.faults;
         fault_.isCounted = true;
     }

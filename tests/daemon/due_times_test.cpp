@@ -34,6 +34,7 @@ TEST(DueTimes, AnyOtherIntervalIsKeptInTheMean) {
 TEST(DueTimes, AfterAPauseNothingIsMadeUpFor) {
     DueTimes due;
     EXPECT_TRUE(due.isDue(1, 2));
+    EXPECT_FALSE(due.isDue(2, 2));
     EXPECT_TRUE(due.isDue(50, 2));
     EXPECT_FALSE(due.isDue(51, 2));
     EXPECT_TRUE(due.isDue(52, 2));

@@ -186,12 +186,16 @@ TEST_F(FilterLearningTest, StillsThatArriveTooSoonAreSkipped) {
     FilterLearning learning(options);
     const twin::Grey first = sharpDiscs(1), second = sharpDiscs(2);
     showTo(learning, first, first, {});
+    const auto begun = std::chrono::steady_clock::now();
     for (int i = 0; i < 60'000 && learning.counts().learner.stills == 0; ++i)
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    const auto learned = std::chrono::steady_clock::now();
     ASSERT_EQ(learning.counts().learner.stills, 1U);
     // The thread is idle again. It rests nine times as long as it has learned.
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
     showTo(learning, second, second, {});
+    if (std::chrono::steady_clock::now() - learned > 4 * (learned - begun))
+        GTEST_SKIP() << "this machine is too busy: the second still came late";
     EXPECT_EQ(learning.counts().leftOut, 1U);
 }
 

@@ -115,10 +115,12 @@ TEST(PoseFinder, WithoutATagMapTheFirstTagIsTheOriginOfTheWorld) {
     EXPECT_FALSE(finder.takeFoundTags());
     const Pose pose = video(finder, 1).value();
     EXPECT_LT(angleBetween(standOnTag() * pose.T_world_video, view(1)), 0.01);
+    EXPECT_FALSE(finder.isRecordable(pose)) << "another tag may become the world";
     for (int i = 2; i < 6; ++i) {
         EXPECT_FALSE(finder.takeFoundTags()) << "one frame may be a false detection";
         EXPECT_TRUE(video(finder, i));
     }
+    EXPECT_TRUE(finder.isRecordable(pose));
     const std::optional<TagMap> found = finder.takeFoundTags();
     ASSERT_TRUE(found);
     EXPECT_NE(found->find(kPlacedTag.tag), nullptr);

@@ -41,7 +41,7 @@ TEST_F(RepeatLimitTest, FirstEventIsLoggedAtOnceAndRepetitionsWithTheirCount) {
     EXPECT_EQ(said.back(), "gone") << "an event long after the last one must be logged at once";
 }
 
-TEST_F(RepeatLimitTest, ASingleRepetitionIsLoggedWithTheWordsOnceMore) {
+TEST_F(RepeatLimitTest, ASingleRepetitionIsLoggedAsRepeatedOnce) {
     happen("plug", "gone");
     happen("plug", "gone");
     pass(seconds(28));

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <thread>
+
 namespace mfar {
 namespace {
 
@@ -24,14 +27,19 @@ TEST(Stats, ACameraThatIsBeingOpenedIsNoFault) {
     stats.fault("video camera is being opened");
     stats.fault({});
     EXPECT_EQ(stats.count().faults, 0U);
+    stats.fault("still camera is missing");
+    std::this_thread::sleep_for(std::chrono::milliseconds(550));
+    stats.fault("still camera is missing");
+    EXPECT_EQ(stats.count().faults, 1U) << "a camera that is missing for long is a fault";
+    stats.fault({});
     const std::vector<StageTime> stages;
     stats.picture({{}, stages, {}, {}, {}});
     stats.fault("video camera was lost");
     stats.fault("video camera was lost");
     stats.fault({});
-    EXPECT_EQ(stats.count().faults, 1U);
-    stats.fault("video camera was lost");
     EXPECT_EQ(stats.count().faults, 2U);
+    stats.fault("video camera was lost");
+    EXPECT_EQ(stats.count().faults, 3U);
 }
 
 }  // namespace

@@ -144,7 +144,7 @@ TEST(StillPolicy, MotionWhileNoStillMayBeDemandedIsRemembered) {
     EXPECT_EQ(board.run(30, frame(0.2, 0)), 1);
 }
 
-TEST(StillPolicy, IfNoStillMayBeDemandedCommandsAndModeRateStillFireTheTrigger) {
+TEST(StillPolicy, CommandsAndModeRateFireTheTriggerEvenIfDemandIsForbidden) {
     for (const TriggerMode mode : {TriggerMode::Demand, TriggerMode::Off}) {
         Simulation board({.mode = mode});
         board.mayDemand = false;
