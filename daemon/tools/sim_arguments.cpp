@@ -49,9 +49,10 @@ SimParser::SimParser() {
     app.add_option("--rate", a.rateHz, "video frames per second")
         ->check(numberFrom(1, 1000))
         ->capture_default_str();
-    app.add_option("--stills", a.sim.stillsHz, "stills per second; 0: no stills")
-        ->check(numberFrom(0, 10))
-        ->capture_default_str();
+    const CLI::Option* stills =
+        app.add_option("--stills", a.sim.stillsHz, "stills per second; 0: no stills")
+            ->check(numberFrom(0, 10))
+            ->capture_default_str();
     app.add_option("--seed", a.board.seed,
                    "seed of the random numbers: the same seed gives the same bytes")
         ->check(withoutSign())
@@ -62,8 +63,9 @@ SimParser::SimParser() {
     app.add_option("--out", a.sim.out, "folder to write the recording into, new or empty");
     app.add_flag("--no-truth", a.noTruth, "do not write truth/, the ground truth");
     app.add_flag("--list", a.list, "print the names of all scenes and paths, then exit");
-    app.callback([&a] {
+    app.callback([&a, stills] {
         if (!a.list && a.sim.out.empty()) throw CLI::RequiredError("--out");
+        if (stills->count() == 0) a.sim.stillsHz = std::min(a.sim.stillsHz, a.rateHz);
         if (a.sim.stillsHz > a.rateHz)
             throw CLI::ValidationError(
                 "--stills", "must not exceed --rate: a still is taken with a video frame");

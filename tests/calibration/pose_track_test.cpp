@@ -66,5 +66,15 @@ TEST(PoseTrack, EndsOfTheTrackAndNeighboursOfAMissingFrameHaveNoPose) {
     EXPECT_FALSE(known(9.5));
 }
 
+TEST(PoseTrack, FramesAreMissingAlsoIfEveryThirdOneIs) {
+    PoseTrack track;
+    for (int i = 0; i < 60; ++i)
+        if (i % 3 != 2) track.add(at(i / 30.), {});
+    EXPECT_NEAR(track.interval(), 1 / 30., 1e-6);
+    EXPECT_FALSE(track.at(at(30.5 / 30)));
+    track.allowMissingFrames();
+    EXPECT_TRUE(track.at(at(30.5 / 30)));
+}
+
 }  // namespace
 }  // namespace mfar::test

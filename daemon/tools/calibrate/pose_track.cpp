@@ -40,9 +40,9 @@ double PoseTrack::interval() const {
     for (std::size_t i = 1; i < times_.size(); ++i)
         gaps.push_back(seconds(times_[i - 1], times_[i]));
     if (gaps.empty()) return 0;
-    const auto middle = gaps.begin() + static_cast<std::ptrdiff_t>(gaps.size() / 2);
-    std::nth_element(gaps.begin(), middle, gaps.end());
-    return *middle;
+    const auto quarter = gaps.begin() + static_cast<std::ptrdiff_t>(gaps.size() / 4);
+    std::nth_element(gaps.begin(), quarter, gaps.end());
+    return *quarter;
 }
 
 std::optional<std::array<int, 4>> PoseTrack::around(Timestamp t) const {

@@ -29,7 +29,8 @@ public:
     [[nodiscard]] Timestamp time(int index) const { return times_[index]; }
     [[nodiscard]] const RigidTransform& pose(int index) const { return poses_[index]; }
     [[nodiscard]] std::optional<RigidTransform> at(Timestamp t) const;
-    /// Returns the median time between consecutive poses [s]; 0 if there are fewer than two poses.
+    /// Returns the time between consecutive frames [s]; 0 if there are fewer than two poses. It is
+    /// the lower quartile of the gaps between poses, because many frames may be missing.
     [[nodiscard]] double interval() const;
 
     /// The error of between() grows where frames are missing, but a recording that has lost many
