@@ -215,7 +215,7 @@ TEST_F(AutoDisplay, TriesTheNextDeviceWhenTheFirstPictureIsRefused) {
     EXPECT_FALSE(kms_.held);
 }
 
-TEST_F(AutoDisplay, ARefusingDeviceDoesNotInterruptTheNextOne) {
+TEST_F(AutoDisplay, IfADeviceRefusesPicturesTheNextDeviceShowsEveryPicture) {
     kms_.presence = fbdev_.presence = Presence::Ready;
     kms_.refuses = true;
     (void)run(kSecond);

@@ -25,7 +25,7 @@ TEST(PictureTimes, ATimeIsTheMiddleOfTheExposure) {
     EXPECT_EQ(times.add(picture, kArrived), kArrived.monotonic - 35ms);
 }
 
-TEST(PictureTimes, WithoutATimeStampTheTimeOfArrivalIsUsedAndCounted) {
+TEST(PictureTimes, APictureWithoutTimeStampGetsItsTimeOfArrivalAndIsCounted) {
     PictureTimes times(kWhole, 30);
     PictureTimes::Reported picture = reported(0, 0ms);
     picture.stamp = 0;

@@ -37,7 +37,7 @@ std::shared_ptr<const Scene> swinging() {
                             {{0, -0.04, 0.1, 0}, {0, 0.04, 0.1, 0}, {0, -0.04, 0.1, 0}}});
 }
 
-/// The ball jumps by 30 cm after 1 s, and back after 60 s.
+/// The ball jumps by 29 cm at the time 1 s, and back at the time 60 s.
 std::shared_ptr<const Scene> jumping() {
     return movingStillLife({MotionTrack::Between::Step,
                             {0, 1, 60},

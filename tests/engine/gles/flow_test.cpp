@@ -190,7 +190,7 @@ TEST_F(FlowPasses, CostsOfBentPatchesMatchTheOracle) {
 }
 
 // The second picture shows the surface 15 % larger.
-TEST_F(FlowPasses, BentPatchesMatchAnEnlargedSurfaceWhereShiftedPatchesCannot) {
+TEST_F(FlowPasses, BentPatchesHaveLessThanHalfTheErrorOfShiftedPatchesOnALargerSurface) {
     const Waves waves(4, 5, 40, 40);
     constexpr double kStretch = 1 / 1.15;
     const LevelPair pair(waves.shoot(kSize, {}),

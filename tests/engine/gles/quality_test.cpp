@@ -161,6 +161,18 @@ TEST_F(QualityTest, PosesInAnotherWorldFrameThanTheStillsAreIgnored) {
     EXPECT_TRUE(p.run(c.video({3, 0}).view(), {}, posed(0.03)).stats.usedPose);
 }
 
+TEST_F(QualityTest, ARestingFrameDoesNotRepeatTheResultsOfAnEarlierSearch) {
+    const PipelineCase c;
+    Pipeline p(c.rig, {});
+    p.setStill(c.still().view(), {}, posed(0));
+    const TestPicture frame = c.video({2, 0});
+    EXPECT_GT(p.run(frame.view(), {}, posed(0.02)).stats.posePatches, 0);
+    const FrameStats& rests = p.run(frame.view(), {}, posed(0.02)).stats;
+    EXPECT_TRUE(rests.usedPose);
+    EXPECT_EQ(rests.posePatches, 0);
+    EXPECT_EQ(rests.epipolarError, 0);
+}
+
 TEST_F(QualityTest, UnchangedTilesKeepTheirPixels) {
     const PipelineCase c;
     Pipeline p(c.rig, {});

@@ -233,7 +233,7 @@ void expectLists(const Classified& got, const std::array<std::set<std::uint32_t>
     }
 }
 
-TEST_F(Classify, TileClassesCountsAndListsMatchTheOracle) {
+TEST_F(Classify, ClassesOfTilesTheirCountsAndTheirListsMatchTheOracle) {
     const twin::Cells field = mixedField();
     // Tiles that the four lists must contain: changed, only enlarged, trusted, blended.
     std::array<std::set<std::uint32_t>, 4> wanted;

@@ -172,9 +172,9 @@ std::string toTable(const BenchResult& result) {
     out += toTable(result.warp, result.objects);
     const TriangulationTimes& t = result.triangulation;
     out +=
-        fmt::format("triangulation for depth by other flow methods [ns per point]: from the flow "
+        fmt::format("triangulation [ns per point], used only for other flow methods: closed form "
                     "{:.1f}, midpoint {:.1f}, cv::triangulatePoints {:.0f} ({:.0f} times as "
-                    "long as from the flow)\n",
+                    "long as the closed form)\n",
                     t.flow, t.midpoint, t.opencv, t.opencv / t.flow);
     return out + toTable(result.render);
 }

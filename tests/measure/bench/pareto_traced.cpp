@@ -56,8 +56,8 @@ ParetoStage warpStage(bool quick) {
     sums.at(kInpainting).ms += sums.at("none").ms;
     ParetoStage out{"warp of a path-traced picture",
                     "RMSE inside the silhouette [grey levels]",
-                    fmt::format("{}, turned by 10 degrees, {}x{}, wall clock; pixels that are "
-                                "re-rendered in the background do not count",
+                    fmt::format("{}, turned by 10 degrees, {}x{}, wall clock, "
+                                "without the time of re-rendered pixels",
                                 fmt::join(request.scenes, " and "), request.size.width,
                                 request.size.height),
                     {}};

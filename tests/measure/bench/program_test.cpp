@@ -222,6 +222,9 @@ TEST(MfarBench, InvalidArgumentsEndWithStatus2) {
     EXPECT_EQ(WEXITSTATUS(std::system(
                   (program + " pareto --stages flow --table /tmp/x 2>/dev/null").c_str())),
               2);
+    EXPECT_EQ(WEXITSTATUS(std::system(
+                  (program + " --quick --curves /tmp/x --mode blend 2>/dev/null").c_str())),
+              2);
     EXPECT_EQ(WEXITSTATUS(
                   std::system((program + " --curves /absent --data /absent 2>/dev/null").c_str())),
               2);

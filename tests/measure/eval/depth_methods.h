@@ -18,7 +18,7 @@ public:
     struct Result {
         cv::Mat inverseDepth;  ///< CV_32F [1/m] of every video pixel; 0: unknown
         /// Method `depth`: wall time of the needed stages in a single run. Other methods:
-        /// FlowMethod::Result::ms plus the time of the triangulation.
+        /// FlowMethod::Result::ms, without the time of the triangulation.
         double ms = 0;
         cv::Mat variance{};  ///< CV_32F [1/m^2]; empty if the method has none
     };
