@@ -13,9 +13,9 @@ namespace {
 constexpr double kRoom = 0.85;
 constexpr double kDownRoom = 0.95;
 // A faster level is chosen when more than kMostLate of the last kLateWindow counted frames are
-// late. Frames with a new still are not counted. If the last frame with a new still was late, only
-// one in kStillEvery frames gets a new still. So at most one frame in twenty is late: one in 40
-// with a new still, and one in 40 of the others.
+// late. A frame with a new still is not counted, unless the frame before it had one. If the last
+// frame with a new still was late, only one in kStillEvery frames gets a new still. So at most one
+// frame in twenty is late: one in 40 with a new still, and one in 40 of the others.
 constexpr std::size_t kMostLate = 1;
 constexpr std::uint64_t kLateWindow = 40;
 // Smallest number of counted frames between a change of level and a change to a better level.

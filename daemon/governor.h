@@ -30,8 +30,9 @@ namespace mfar {
 /// the governor tries the better level.
 ///
 /// Three types of frames are not counted: frames in which nothing was drawn, frames with a new
-/// still, and frames without a still at a level that uses one. When the picture comes to rest, it
-/// is drawn once more at the best level. That frame may be late, because nothing moves in it.
+/// still, unless the frame before had one, too, and frames without a still at a level that uses
+/// one. When the picture comes to rest, it is drawn once more at the best level. That frame may be
+/// late, because nothing moves in it.
 class Governor {
 public:
     /// `levels` must not be empty and must be sorted by time. `deadlineMs` must be greater than

@@ -38,7 +38,7 @@ void readShape(TomlReader& file, const std::string& prefix, VirtualObject& out) 
     out.size.setConstant(0.1);
     file.choice<VirtualShape>(prefix + "shape", out.shape, kShapes);
     file.numbers(prefix + "size", {out.size.data(), 3});
-    // If only one colour is given, it is used for the whole object.
+    // If only `colour` is given, it is used for the whole object.
     Eigen::Vector3d first = Eigen::Vector3d::Constant(-1);
     file.numbers(prefix + "colour", {first.data(), 3});
     if (first.x() >= 0) out.colours.fill(first.cast<float>());

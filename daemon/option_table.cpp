@@ -207,7 +207,7 @@ constexpr Option kPose[] = {
     text("tags", R"("")",
          "Path of the tag map: a tags.toml, or the tags.yaml of apriltag_ros. Empty: the tags.toml "
          "of the recording or the tags of the simulated board; if there is no map, the largest tag "
-         "of the first picture with a tag defines the world."),
+         "with a usable pose defines the world."),
     {"families", OptionType::Texts, R"(["tag36h11"])",
      "Tag families to search without a map; with a tags.yaml, the family of its tags.", kFamilies},
     number("tag_size", kTagSize, "0.1",
@@ -271,11 +271,11 @@ constexpr Option kVirtual[] = {
           "Samples per pixel of a path-traced picture. More samples: less noise, more time."),
     number("resolution", {0.05, 1, ""}, "0.28",
            "Width and height of the path-traced picture as a share of the still's. The path-traced "
-           "picture is never larger than the output and the textures of the GPU."),
+           "picture is never larger than the output, or than the GPU's textures allow."),
     word("holes", "push-pull re-render both none", R"("both")",
          "Method that fills holes (pixels that come into view between two path-traced pictures): "
-         "\"push-pull\": colours around the hole; \"re-render\": few samples of the path tracer, "
-         "not in shadows; \"both\": \"push-pull\" until the samples are ready; or \"none\"."),
+         "\"push-pull\": colours around the hole; \"re-render\": a few samples of the path tracer "
+         "for objects; \"both\": \"push-pull\" until the samples are ready; or \"none\"."),
     whole("threads", kThreads, "1", "Number of threads of the path tracer."),
     flag("filter", "true", "Smooth the noise of pictures with few samples, but not their edges."),
     number(
@@ -363,7 +363,7 @@ constexpr Option kLevel[] = {
     whole("flow2d.search_radius", {0, 40, "px"}, "10",
           "Radius of the search for a cell's flow at the coarsest pyramid level."),
     whole("flow2d.candidates", {1, 4, ""}, "4",
-          "Number of flow vectors of the coarser pyramid level that are compared for each cell."),
+          "Number of flow vectors from the next coarser pyramid level that each cell tries."),
     whole("flow2d.steps", {0, 16, ""}, "4",
           "Gauss-Newton steps that refine a cell's best flow vector."),
     whole("flow2d.propagations", kFew, "0",

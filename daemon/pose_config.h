@@ -22,8 +22,8 @@ enum class PoseOrigin {
 struct PoseConfig {
     PoseOrigin source = PoseOrigin::Tags;
     /// Path of the tag map. If it is empty, the source's own tag map is used. If the source has
-    /// none, `families` and `tagSize` describe the tags to detect. Then the largest tag of the
-    /// first picture with tags defines the world frame.
+    /// none, `families` and `tagSize` describe the tags to detect. Then the largest tag with
+    /// a usable pose defines the world frame.
     std::filesystem::path tags;
     std::vector<TagFamily> families{TagFamily::Tag36h11};
     double tagSize = 0.1;

@@ -66,9 +66,9 @@ public:
     [[nodiscard]] std::optional<std::string> fault() const;
     [[nodiscard]] ExitCode inputFailure() const;
 
-    /// Copies a frame into the recording, if one is running. Waits only if the source is lossless:
-    /// then up to budget::kWriter, if the disk is slow. Only one thread may call recordVideo().
-    /// Only one thread, which may be another one, may call recordStill().
+    /// Copies a frame or a still into the recording, if one is running. If the source is lossless
+    /// and the disk is slow, waits up to budget::kWriter. recordVideo() must always be called by
+    /// the same thread, and so must recordStill(). The two threads may differ.
     void recordVideo(const Frame& frame);
     void recordStill(const Frame& frame);
     void recordPose(const Pose& pose);

@@ -71,7 +71,7 @@ public:
     [[nodiscard]] std::string run(std::optional<std::uint64_t> maxFrames, const Over& over);
 
     // Other threads must not call the following functions directly, but through the CallQueue. The
-    // picture thread executes queued calls between two pictures. All these functions throw
+    // picture thread executes queued calls between two pictures. Each of these functions may throw
     // std::runtime_error.
 
     /// Returns the last picture as it was given to the display. If `ofScreen` is true, returns it

@@ -18,7 +18,7 @@ std::optional<double> progress(const Counted& counted, const RunDescription& run
         if (planned && *planned > 0)
             done = std::max(done.value_or(0), past / static_cast<double>(*planned));
     };
-    // Of a recording, dropped frames count as done, too.
+    // Dropped frames of a recording count as done, too.
     add(static_cast<double>(counted.frames + counted.drops.mailbox + counted.drops.sensor),
         run.plannedFrames);
     add(static_cast<double>(counted.frames), run.plannedPictures);

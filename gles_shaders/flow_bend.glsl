@@ -1,5 +1,5 @@
-// Reads a flow field from x and y of the texture `displacement`. The shader must declare this
-// sampler and params (columns, rows).
+// Measures how abruptly the flow changes around a cell. The flow is in the channels x and y of the
+// texture `displacement`. The shader must declare this sampler and params (columns, rows).
 #include "pipeline/engine/params/weigh.h"
 
 ivec2 lastCell() {

@@ -31,8 +31,8 @@ struct FrameStats {
     double changed = 0;  ///< share of tiles whose video changed since they were last drawn, [0, 1]
     double redrawn = 0;  ///< share of tiles that were drawn again for any reason, [0, 1]
     bool usedStill = false;
-    bool usedPose =
-        false;  ///< parts were searched along epipolar lines: still and frame have poses
+    /// Still and frame have poses, so changed parts were matched along epipolar lines.
+    bool usedPose = false;
     bool predicted = false;
     bool refinedPose = false;
     /// posePatches: number of patches that were matched to refine the pose. epipolarError: the

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Makes a sysroot, if it does not exist: a folder of extracted Debian packages with the headers and
-# libraries of another architecture. Prints its path. Needs root rights; takes about two minutes and
-# 1 GB.
+# Prints the path of a sysroot: a folder of extracted Debian packages with the headers and libraries
+# of another architecture. If it does not exist, makes it. This needs root rights, about two minutes
+# and 1 GB.
 # Usage: sysroot.sh CACHE ARCHITECTURE PACKAGE...   (ARCHITECTURE: Debian's name: arm64, armhf)
 set -euo pipefail
 here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")

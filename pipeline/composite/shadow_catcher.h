@@ -45,8 +45,8 @@ struct GroundPlane {
                                          const PixelRect& where,
                                          std::span<const GroundPlane> planes);
 
-/// Adds those parts of the planes that are outside of the video picture. So shadows outside of the
-/// view of a depthCatcher() fall onto the planes.
+/// Adds those triangles of the planes that have no vertex inside the video picture. So shadows
+/// outside of the view of a depthCatcher() fall onto the planes.
 void addUnseen(ShadowCatcher& measured, std::span<const GroundPlane> planes,
                const CameraModel& video, const RigidTransform& T_world_video);
 

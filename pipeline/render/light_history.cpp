@@ -116,10 +116,9 @@ KnownLight LightHistory::found(const SeenSurface& seen, const Eigen::Vector3f& p
     const Size size = camera_.size;
     if (!(pixel.x() > -1 && pixel.y() > -1 && pixel.x() < size.width && pixel.y() < size.height))
         return {};
-    // In a part of the shadow catcher, the earlier picture may have sampled only every second
-    // column and row. Samples 2 px apart are used there, and adjacent pixels elsewhere. At the
-    // border of such a part, samples may be missing at that distance, so the other distance is
-    // tried next.
+    // In parts of the shadow catcher, the earlier picture may have sampled only every second column
+    // and row. There, samples 2 px apart are used, and elsewhere adjacent pixels. If this finds no
+    // light on the catcher, at the border of such a part, the other spacing is tried.
     const bool catches = seen.hit.id == kCatcherId, isSparse = catches && isSparseAt(pixel);
     KnownLight out = between(pixel, isSparse ? 2 : 1, seen, point);
     if (catches && !(out.firstCount > 0)) out = between(pixel, isSparse ? 1 : 2, seen, point);

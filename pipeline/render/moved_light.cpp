@@ -13,11 +13,11 @@ namespace {
 constexpr double kLeastTurn = 1e-5, kLeastWay = 1e-6;
 // The same for the motion of two objects relative to each other, which has rounding errors [rad],
 // [radii].
-constexpr float kLeastRelativeTurn = 1e-3F;
+constexpr float kLeastRelativeMotion = 1e-3F;
 // Assumed standard deviation of a single sample, relative to the light.
 constexpr float kNoise = 0.5F;
-// The light that a moved object itself receives is assumed to change by this share if the object
-// moves by its radius or turns by a radian.
+// The light that a moved object receives from lights and objects at rest is assumed to change by
+// this share if the object moves by its radius or turns by a radian.
 constexpr float kOwnChange = 0.5F;
 // A shadow of the sun is expected up to this angle outside of the object's ball [rad].
 constexpr float kPenumbra = 0.03F;
@@ -84,7 +84,8 @@ std::vector<MovedLight::Ball> MovedLight::othersOf(const Moved& own, std::span<c
         ball.turn =
             Eigen::AngleAxisf(own.T_before_now.linear().transpose() * other.T_before_now.linear())
                 .angle();
-        if (ball.turn > kLeastRelativeTurn || ball.way() > kLeastRelativeTurn) out.push_back(ball);
+        if (ball.turn > kLeastRelativeMotion || ball.way() > kLeastRelativeMotion)
+            out.push_back(ball);
     }
     return out;
 }

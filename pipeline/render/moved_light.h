@@ -60,7 +60,7 @@ private:
         std::uint8_t id;
         Ball ball;
         Eigen::Isometry3f T_before_now;
-        std::vector<Ball> others;  ///< objects that moved relative to this one, and how
+        std::vector<Ball> others;  ///< other moved objects, and their motion relative to this one
     };
     /// A moved ball as seen from a point.
     struct Sight;

@@ -93,7 +93,8 @@ HWY_INLINE Weight WeightOf(const WeighRow& row, int x, V low, V lowStill, V conf
     const V tear = hn::Sqrt(hn::Add(Tear(row.flowX, x), Tear(row.flowY, x)));
     const V whole = hn::Sub(Const(1), smoothStep(params::kSmoothStep, params::kTornStep, tear));
     const V weight = hn::Mul(hn::Mul(gain, trust), hn::Mul(confidence, whole));
-    // A cell whose flow is NaN gets weight 0: `bend` is NaN, so bend == bend is false.
+    // A cell gets weight 0 if the flow of an adjacent cell is NaN. Then `bend` is NaN, so bend ==
+    // bend is false.
     const auto counts = hn::And(hn::Gt(weight, Const(params::kSmallestWeight)), hn::Eq(bend, bend));
     const V signal = hn::Mul(hn::NegMulAdd(Const(2), noise, video), perVideo);
     const auto textured =

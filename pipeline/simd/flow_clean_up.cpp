@@ -53,9 +53,9 @@ HWY_INLINE Vec medianAt(const float* plane, std::ptrdiff_t pitch) {
     return centre;
 }
 
-/// Weighted sums over a cell's neighbours in one row. A neighbour has the weight w and the column
-/// offset i. Its flow minus the planes is (x, y). For example, `wii` is the sum of w i i, and `xi`
-/// is the sum of w x i.
+/// Weighted sums over a cell's neighbours in one row. For example, `wii` is the sum of w i i, `x`
+/// is the sum of w x, and `xi` is the sum of w x i. In these products, w is a neighbour's weight, i
+/// is its column offset, and (x, y) is the difference between its flow and the fitted planes.
 struct RowSums {
     Vec w, wi, wii, x, xi, y, yi;
 };

@@ -6,8 +6,8 @@
 
 namespace mfar::simd {
 
-// Functions for rows of a still. Rows that are written need 64 bytes of padding, and so do luma
-// rows and 16-bit rows that are read.
+// Functions for rows of a still. Rows that are written, and luma rows and 16-bit rows that are
+// read, need 64 more bytes after their end, because the last vector may reach beyond it.
 
 /// Parameters of lumaOfPlane() and lumaOfPairs(), which compute luma from Y and chroma.
 /// lumaOfPlane() reads a plane of Y; lumaOfPairs() reads byte pairs with Y first. The result is Y *

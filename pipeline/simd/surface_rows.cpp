@@ -93,7 +93,7 @@ struct TexelPair {
 HWY_INLINE TexelPair TexelsAbout(float coordinate, int side) {
     const float place = (coordinate - std::floor(coordinate)) * static_cast<float>(side) - 0.5F;
     const float below = std::floor(place);
-    const int first = std::clamp(static_cast<int>(below), -1, side - 1);
+    const int first = below >= 0 ? std::min(static_cast<int>(below), side - 1) : -1;
     return {first < 0 ? side - 1 : first, first + 1 >= side ? 0 : first + 1, place - below};
 }
 

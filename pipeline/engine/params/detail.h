@@ -57,9 +57,9 @@ inline constexpr float kSeen = 1.0F;
 /// most kGuideReach video pixels away along each axis. (With 1 instead of 2, guidance gained
 /// 0.08 to 0.1 dB less on synthetic scenes.)
 inline constexpr int kGuideReach = 2;
-/// For each tile that is drawn with detail, the still is reduced to the video's resolution in the
-/// tile and in a margin of this width around it [video px]. Drawing reads only a part of the
-/// margin.
+/// For each tile that shows the second still, the GLES engine reduces this still to the video's
+/// resolution in the tile and in a margin of this width around it [video px]. Drawing reads only a
+/// part of the margin.
 inline constexpr int kTileAround = 8;
 
 struct alignas(16) ClassifyTiles {
