@@ -1,6 +1,6 @@
 #include "pipeline/engine_trial.h"
 
-#include "base/gl/gl.h"
+#include "base/gl/texture.h"
 #include "pipeline/engine/params/enlarge.h"
 #include "pipeline/engine_guess.h"
 #include "pipeline/warp/rerendered_pictures.h"
@@ -73,12 +73,6 @@ double medianFrame(const EngineChoice& engines, const StereoRig& rig, Size outpu
     return ms[kFrames / 2];
 }
 
-GLint largestTexture() {
-    GLint most = 0;
-    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
-    return most;
-}
-
 }  // namespace
 
 std::vector<EngineTrial> tryEngines(const std::vector<EngineChoice>& placements,
@@ -94,7 +88,7 @@ std::vector<EngineTrial> tryEngines(const std::vector<EngineChoice>& placements,
 }
 
 bool fitsGpu(const StereoRig& rig, Size output) {
-    const GLint most = largestTexture();
+    const int most = gpu::largestTexture();
     const auto [video, still] = std::pair(rig.video.size, rig.still.size);
     // The learned enlargement writes kGrid pictures of the video, one above the other.
     return std::max({video.width, params::kGrid * video.height, still.width, still.height,
@@ -104,7 +98,7 @@ bool fitsGpu(const StereoRig& rig, Size output) {
 Size layerOnGpu(Size wanted) {
     // The silhouette has twice the layer's width and height. The re-rendered pictures are one below
     // the other.
-    const double most = largestTexture();
+    const double most = gpu::largestTexture();
     const double share = std::min({1.0, most / (2.0 * wanted.width),
                                    most / (1.0 * RerenderedPictures::kPictures * wanted.height)});
     const auto scaled = [&](int edge) { return std::max(1, static_cast<int>(share * edge)); };

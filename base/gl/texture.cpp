@@ -27,11 +27,16 @@ void fillWithNan(Size size, TexelFormat format) {
 
 }  // namespace
 
+int largestTexture() {
+    GLint most = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
+    return most;
+}
+
 Texture::Texture(Size size, TexelFormat format, Filter filter, int levels)
     : size_(size), format_(format) {
     checkErrors("a call before Texture()");
-    GLint most = 0;
-    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
+    const int most = largestTexture();
     if (size.width > most || size.height > most)
         throw GlError("a picture of " + std::to_string(size.width) + "x" +
                       std::to_string(size.height) + " pixels exceeds this GPU's limit of " +

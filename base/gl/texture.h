@@ -34,6 +34,9 @@ enum class TexelFormat : GLenum {
 
 enum class Filter { Nearest, Linear };
 
+/// Returns the largest width and height of a texture on this GPU. Needs a current GL context.
+[[nodiscard]] int largestTexture();
+
 /// A 2-D texture of fixed size and format. R8 textures are sampled as grey. Move-only. Its GL
 /// context must be current whenever the object is used or destroyed. Throws GlError if the driver
 /// refuses the size or format.

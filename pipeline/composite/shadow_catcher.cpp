@@ -11,7 +11,6 @@
 namespace mfar {
 namespace {
 
-constexpr int kPlaneCells = 8;
 // Planes beside a measured surface have small triangles, so that the gap between both is small.
 constexpr int kUnseenCells = 32;
 // Distance between vertices [video px]. A finer grid would only show the noise of the depth.
@@ -149,8 +148,6 @@ std::vector<GroundPlane> groundPlanes(const Scene& scene) {
     return out;
 }
 
-namespace {
-
 ShadowCatcher planeCatcher(const Eigen::AlignedBox3d& objects, double reachInRadii, int cells) {
     if (objects.isEmpty()) return {};
     const double reach = reachInRadii * radiusOf(objects);
@@ -182,16 +179,6 @@ ShadowCatcher planeCatcher(std::span<const GroundPlane> planes, int cells) {
             out.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
     }
     return out;
-}
-
-}  // namespace
-
-ShadowCatcher planeCatcher(const Eigen::AlignedBox3d& objects, double reachInRadii) {
-    return planeCatcher(objects, reachInRadii, kPlaneCells);
-}
-
-ShadowCatcher planeCatcher(std::span<const GroundPlane> planes) {
-    return planeCatcher(planes, kPlaneCells);
 }
 
 ShadowCatcher depthCatcher(const InverseDepthField& field, const CameraModel& video,

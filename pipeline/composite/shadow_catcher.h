@@ -13,12 +13,14 @@ namespace mfar {
 /// Shadows are expected up to this distance from the objects' bounding box, in units of half the
 /// box's diagonal. Light of glowing objects is expected up to glowReach() times this distance.
 inline constexpr double kShadowReach = 1;
+/// A plane has this number of columns and of rows of cells. Each cell is two triangles.
+inline constexpr int kPlaneCells = 8;
 
 /// Returns the part of the tag map's plane (z = 0 in the world) below and around the objects'
 /// bounding box. It extends beyond the box by `reach` times half of the box's diagonal. Empty if
 /// all objects are below the plane, or farther above it than this distance.
 [[nodiscard]] ShadowCatcher planeCatcher(const Eigen::AlignedBox3d& objects,
-                                         double reach = kShadowReach);
+                                         double reach = kShadowReach, int cells = kPlaneCells);
 
 /// A plane of the real scene: z = 0 of its frame.
 struct GroundPlane {
@@ -33,7 +35,8 @@ struct GroundPlane {
 [[nodiscard]] std::vector<GroundPlane> groundPlanes(const Scene& scene);
 
 /// Returns the parts of the planes below and around their objects, as planeCatcher() does.
-[[nodiscard]] ShadowCatcher planeCatcher(std::span<const GroundPlane> planes);
+[[nodiscard]] ShadowCatcher planeCatcher(std::span<const GroundPlane> planes,
+                                         int cells = kPlaneCells);
 
 /// Returns the measured surface of the real scene around the objects. Its vertices are video pixels
 /// of `where` with known depth, a few pixels apart. Four neighbours are joined by two triangles

@@ -14,8 +14,7 @@ namespace {
 
 /// Returns the alpha of each texel, or of fewer texels if the GPU's textures are smaller.
 gpu::Texture alphaOf(const SurfaceTexture& texture) {
-    GLint most = 0;
-    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
+    const int most = gpu::largestTexture();
     const Size from = texture.size, to{std::min(from.width, most), std::min(from.height, most)};
     std::vector<std::uint8_t> alpha;
     alpha.reserve(static_cast<std::size_t>(to.width) * to.height);

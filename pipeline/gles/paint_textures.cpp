@@ -55,9 +55,7 @@ gpu::Texture textureOf(const std::vector<PaintPicture>& pyramid, std::uint32_t P
 }  // namespace
 
 PaintTextures::PaintTextures(const PaintSource& source) {
-    GLint longestSide = 0;
-    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &longestSide);
-    const std::vector<PaintPicture> pyramid = paintPyramid(source, longestSide);
+    const std::vector<PaintPicture> pyramid = paintPyramid(source, gpu::largestTexture());
     diffuse = textureOf(pyramid, &PaintWords::diffuse);
     facing = textureOf(pyramid, &PaintWords::facing);
 }

@@ -85,10 +85,11 @@ private:
     std::optional<TracedPicture> traced_;
     std::uint64_t scene_ = 0;
     bool asked_ = false;
+    // The last requests, all for the same view; as many as pictures are stored.
     struct {
         RigidTransform T_world_camera;
-        std::vector<std::vector<std::uint32_t>> pixels;  // of each request; as many as are stored
-    } requested_;                                        // the last requests, all for the same view
+        std::vector<std::vector<std::uint32_t>> pixels;
+    } requested_;
     RigidTransform listPose_;  // pose of the frame whose missing pixels are listed
     std::vector<RigidTransform> poses_, listPoses_;  // object poses: now, and with listPose_
     std::optional<RigidTransform> warpedTo_;  // pose of the displayed frame; empty: not warped

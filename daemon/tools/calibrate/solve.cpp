@@ -60,11 +60,7 @@ public:
         for (std::size_t i = 0; i < still_.views.size(); ++i)
             if (stillFit_.poses[i]) stills.push_back({still_.views[i].time, *stillFit_.poses[i]});
         start_ = startOfRig(track_, stills, options_.maxOffset);
-        if (start_.stills < kLeastPairs)
-            throw Unsuitable(fmt::format(
-                "only {} stills were taken while the video saw the target and lost no frames; at "
-                "least {} are needed",
-                start_.stills, kLeastPairs));
+        requirePairs(start_.stills);
     }
 
     Calibration run() {
@@ -84,6 +80,14 @@ public:
     }
 
 private:
+    static void requirePairs(int stills) {
+        if (stills < kLeastPairs)
+            throw Unsuitable(fmt::format(
+                "only {} stills were taken while the video saw the target and lost no frames; at "
+                "least {} are needed",
+                stills, kLeastPairs));
+    }
+
     /// Returns the number of stills during which the target moves in the video by more than noise.
     /// If the camera is at rest, noise looks like motion. The clock offset would then be wrong,
     /// although its standard deviation is small.
@@ -167,11 +171,7 @@ private:
             poseOf(bundle, view);
         for (const int view : stillFit_.chosen)
             addStill(bundle, view, offset);
-        if (pairs_ < kLeastPairs)
-            throw Unsuitable(fmt::format(
-                "only {} stills were taken while the video saw the target and lost no frames; at "
-                "least {} are needed",
-                pairs_, kLeastPairs));
+        requirePairs(pairs_);
         return bundle;
     }
 
