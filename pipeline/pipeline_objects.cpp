@@ -69,8 +69,9 @@ void Pipeline::State::followScene(const VideoFrame& frame, const std::optional<P
                                   Timestamp time) {
     if (!sceneFollower || !pose || !inView()) return;
     const RigidTransform& T_world_video = pose->T_world_video;
-    if (auto scene = sceneFollower->follow(depth->snap.field(), rig.video, T_world_video,
-                                           objects->region(), time))
+    const SceneFollower::RealDepth real{depth->snap.field(), depth->snap.where(), rig.video,
+                                        T_world_video, time};
+    if (auto scene = sceneFollower->follow(real, objects->region()))
         objects->setScene(std::move(scene));
     if (!lightFollower) return;
     if (auto light = lightFollower->follow(frame.view, rig.video, T_world_video, time))

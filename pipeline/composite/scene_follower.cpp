@@ -47,13 +47,13 @@ bool SceneFollower::isDue(const RigidTransform& T_world_video, Timestamp time) c
            angleBetween(caughtFrom_ - centre, T_world_video.translation - centre) >= rule_.turn;
 }
 
-std::shared_ptr<const Scene> SceneFollower::follow(const InverseDepthField& field,
-                                                   const CameraModel& video,
-                                                   const RigidTransform& T_world_video,
-                                                   const PixelRect& region, Timestamp time) {
+std::shared_ptr<const Scene> SceneFollower::follow(const RealDepth& depth,
+                                                   const PixelRect& region) {
+    const auto& [field, where, video, T_world_video, time] = depth;
     const PixelRect seen = common(region, {0, 0, field.size.width, field.size.height});
     if (planes_.empty() || planes_.front().objects.isEmpty() || seen.empty()) return nullptr;
     ++frames_;
+    if (around(where, seen) != where) return nullptr;
     if (!isDue(T_world_video, time) || knownShare(field, seen) < rule_.leastKnown) return nullptr;
     ShadowCatcher measured = depthCatcher(field, video, T_world_video, seen, planes_);
     if (measured.triangles.size() < kLeastTriangles) return nullptr;

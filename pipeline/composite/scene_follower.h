@@ -38,12 +38,19 @@ public:
     /// Changes the light. Returns the scene with the new light, which must be shown.
     std::shared_ptr<const Scene> relight(Lighting lighting);
 
-    /// Must be called after each frame. `field` is the depth of the real scene, measured in the
-    /// rectangle `region` [video px] around the objects. Returns the scene that must be shown if
-    /// the shadow catcher has changed, otherwise null.
-    std::shared_ptr<const Scene> follow(const InverseDepthField& field, const CameraModel& video,
-                                        const RigidTransform& T_world_video,
-                                        const PixelRect& region, Timestamp time);
+    /// The depth of the real scene in a frame. `field` is known only inside the rectangle `where`
+    /// [video px], the camera is at the pose `T_world_video`.
+    struct RealDepth {
+        const InverseDepthField& field;
+        const PixelRect& where;
+        const CameraModel& video;
+        const RigidTransform& T_world_video;
+        Timestamp time;
+    };
+    /// Must be called after each frame. `region` is the rectangle around the objects [video px].
+    /// The surface is measured only if the depth's rectangle contains it. Returns the scene that
+    /// must be shown if the shadow catcher has changed, otherwise null.
+    std::shared_ptr<const Scene> follow(const RealDepth& depth, const PixelRect& region);
 
 private:
     [[nodiscard]] bool isDue(const RigidTransform& T_world_video, Timestamp time) const;

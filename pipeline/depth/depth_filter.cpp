@@ -175,13 +175,15 @@ void DepthFilter::closeCrack(std::size_t i, std::size_t before, std::size_t afte
     points_.reset(i);
 }
 
-void DepthFilter::fuse(const InverseDepthField& measured, const PixelRect& where) {
+void DepthFilter::fuse(const InverseDepthField& measured, const PixelRect& where,
+                       std::span<const std::uint8_t> fixed) {
     known_ = around(known_, where);
     workers_->forRange(where.y1 - where.y0, 16, [&](int first, int last) {
         for (int y = where.y0 + first; y < where.y0 + last; ++y) {
             const auto row = static_cast<std::size_t>(y) * field_.size.width;
             for (std::size_t i = row + where.x0; i < row + where.x1; ++i)
-                if (InverseDepthField::isSound(measured.inverseDepth[i], measured.variance[i]))
+                if ((fixed.empty() || fixed[i] == 0) &&
+                    InverseDepthField::isSound(measured.inverseDepth[i], measured.variance[i]))
                     fusePixel(i, measured.inverseDepth[i], measured.variance[i]);
         }
     });

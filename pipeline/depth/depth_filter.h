@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -36,8 +37,10 @@ public:
     /// Fuses the depth of a frame, measured within `where` at the pose of the last predict(). If a
     /// measurement agrees with the known depth of its pixel, the two are averaged. If measurements
     /// disagree repeatedly, the last of them replaces the known depth. Pixels of `measured` without
-    /// a valid inverse depth and variance are ignored.
-    void fuse(const InverseDepthField& measured, const PixelRect& where);
+    /// a valid inverse depth and variance are ignored, and so are pixels whose flag in `fixed` is
+    /// not 0. `fixed` is empty or has a flag for each pixel of the picture.
+    void fuse(const InverseDepthField& measured, const PixelRect& where,
+              std::span<const std::uint8_t> fixed = {});
     void forget(const PixelRect& where);
     /// Deletes the known depths that `measured` contradicts inside `where`, but only in blocks in
     /// which most measurements contradict the known depth. Single false measurements thus delete

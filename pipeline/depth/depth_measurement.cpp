@@ -68,9 +68,12 @@ void DepthMeasurement::land(const EpipolarSearch& search, const Eigen::Matrix3f&
     workers_->forRange(where.y1 - where.y0, 16, [&](int first, int last) {
         for (int y = where.y0 + first; y < where.y0 + last; ++y) {
             const std::size_t i = static_cast<std::size_t>(y) * width + where.x0;
+            const auto count = static_cast<std::size_t>(where.x1 - where.x0);
             simd::landRow(lens_.lens(), lens_.size(), motion, lens_.raysX().data() + i,
-                          lens_.raysY().data() + i, s_.data() + i, where.x1 - where.x0,
-                          landing_.data() + i);
+                          lens_.raysY().data() + i, s_.data() + i, count, landing_.data() + i);
+            // The other picture may show less than the video's rectangle in its geometry.
+            search.dropUnseen(where.x0, y, std::span(s_).subspan(i, count),
+                              std::span(landing_).subspan(i, count));
         }
     });
     findNearest(where);

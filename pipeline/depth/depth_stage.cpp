@@ -59,34 +59,56 @@ void DepthStage::run(const Rows<const std::uint8_t>& luma, const Pose& pose,
     const Summary before = summaryOf(where, pose);
     source_ = before.share < 1 ? DepthSource::Carried : DepthSource::None;
     const double brightness = brightnessOf(luma);
-    const bool sees = seesMore(pose, before.inverseDepth, where);
-    if (!where.empty() && (sees || isRenewed_)) {
+    const bool moved = hasMoved(pose, before.inverseDepth);
+    if (!where.empty() && (moved || isRenewed_ || !isMeasured(where))) {
+        fixed_.clear();
+        if (!moved && !isRenewed_) fixKnown(where);
         if (still && still->search.pixelsPerUnit() > 0 && still->lengthError < kMostLengthError) {
             measurement_.run(still->search, still->R_still_video, still->unit, still->cells, where,
                              measured_);
-            if (!sees) filter_.forgetContradicted(measured_, where);
-            filter_.fuse(measured_, where);
+            if (!moved && isRenewed_) filter_.forgetContradicted(measured_, where);
+            filter_.fuse(measured_, where, fixed_);
             source_ = DepthSource::Still;
         }
         findNeeds(pose, brightness, source_ == DepthSource::Still ? still->unit : 0, where);
         searchKeyframe(luma, pose);
         if (source_ != DepthSource::None && source_ != DepthSource::Carried) {
-            measuredPose_ = pose.T_world_video;
+            if (moved || isRenewed_) measuredPose_ = pose.T_world_video;
             measuredWhere_ = where;
-            isRenewed_ = false;
+            isRenewed_ = isLost_ = false;
         }
     }
     keyframes_.add(luma, pose, brightness, before.inverseDepth);
 }
 
-// True if the view differs from the view of the last measurement. Measuring the same view again
-// would repeat the same errors, but the filter would take them for new evidence and reduce the
-// variance.
-bool DepthStage::seesMore(const Pose& pose, double inverseDepth, const PixelRect& where) const {
-    if (!measuredPose_ || around(measuredWhere_, where) != measuredWhere_) return true;
+void DepthStage::forget(const PixelRect& where) {
+    filter_.forget(where);
+    isLost_ = true;
+}
+
+// True if the view differs from the view of the last measurement.
+bool DepthStage::hasMoved(const Pose& pose, double inverseDepth) const {
+    if (!measuredPose_) return true;
     const RigidTransform T = measuredPose_->inverse() * pose.T_world_video;
     const double turn = 2 * T.rotation.vec().norm();
     return focal_ * (turn + inverseDepth * T.translation.norm()) >= kSameView;
+}
+
+bool DepthStage::isMeasured(const PixelRect& where) const {
+    return !isLost_ && around(measuredWhere_, where) == measuredWhere_;
+}
+
+// Fixes the known depths, so that a measurement adds only unknown ones. Measuring the same view
+// again would repeat the same errors, but the filter would take them for new evidence and reduce
+// the variance.
+void DepthStage::fixKnown(const PixelRect& where) {
+    const InverseDepthField& field = filter_.field();
+    fixed_.assign(field.inverseDepth.size(), 0);
+    for (int y = where.y0; y < where.y1; ++y)
+        for (int x = where.x0; x < where.x1; ++x) {
+            const auto i = static_cast<std::size_t>(y) * field.size.width + x;
+            fixed_[i] = field.isKnown(i) ? 1 : 0;
+        }
 }
 
 // Finds the parts of the picture for which a keyframe would give a more accurate depth, and chooses
@@ -135,7 +157,7 @@ void DepthStage::searchKeyframe(const Rows<const std::uint8_t>& luma, const Pose
         return;
     const Eigen::Matrix3f R = search_.pose().rotation.toRotationMatrix().cast<float>();
     measurement_.run(search_, R, relative.unit, {}, where, measured_);
-    filter_.fuse(measured_, where);
+    filter_.fuse(measured_, where, fixed_);
     source_ = source_ == DepthSource::Still ? DepthSource::Both : DepthSource::Keyframe;
 }
 

@@ -6,6 +6,7 @@
 #include "pipeline/depth/keyframes.h"
 #include "pipeline/epipolar/unit_pose.h"
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -41,7 +42,8 @@ public:
     /// be empty. `still` is empty if the frame was not matched along epipolar lines.
     void run(const Rows<const std::uint8_t>& luma, const Pose& pose,
              const std::optional<StillSearch>& still, const PixelRect& where);
-    void forget(const PixelRect& where) { filter_.forget(where); }
+    /// Forgets the known depth inside `where`. It is measured again, also if the camera rests.
+    void forget(const PixelRect& where);
 
     [[nodiscard]] const InverseDepthField& field() const { return filter_.field(); }
     [[nodiscard]] DepthSource source() const { return source_; }
@@ -58,8 +60,9 @@ private:
         Keyframes::Choice choice;
     };
     [[nodiscard]] Summary summaryOf(const PixelRect& where, const Pose& pose);
-    [[nodiscard]] bool seesMore(const Pose& pose, double inverseDepth,
-                                const PixelRect& where) const;
+    [[nodiscard]] bool hasMoved(const Pose& pose, double inverseDepth) const;
+    [[nodiscard]] bool isMeasured(const PixelRect& where) const;
+    void fixKnown(const PixelRect& where);
     void findNeeds(const Pose& pose, double brightness, double stillBaseline,
                    const PixelRect& where);
     void searchKeyframe(const Rows<const std::uint8_t>& luma, const Pose& pose);
@@ -76,8 +79,11 @@ private:
     DepthSource source_ = DepthSource::None;
     long searchedKey_ = -1;
     std::optional<RigidTransform> measuredPose_;
-    bool isRenewed_ = false;
+    // isLost_: forget(where) was called after the last measurement.
+    bool isRenewed_ = false, isLost_ = false;
     PixelRect measuredWhere_;
+    // Empty, or a flag for each pixel: the current frame must not change its depth.
+    std::vector<std::uint8_t> fixed_;
     std::optional<Timestamp> last_;
     int world_ = 0;  ///< world frame of the known depth and of the keyframes, see Pose::world
     std::vector<Need> needs_;

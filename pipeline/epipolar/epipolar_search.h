@@ -11,6 +11,7 @@
 
 #include <Eigen/Core>
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -70,6 +71,11 @@ public:
     /// s [1/unit of length] of each pixel of the area, see EpipolarLens. Noise or pose errors can
     /// make it negative; such a point would be beyond infinity.
     [[nodiscard]] const std::vector<float>& s() const { return s_; }
+    /// Finds out which points the still shows. The points lie on the rays of the frame's pixels
+    /// from (x, y) to the right, and `s` are their values of s. If the still does not show a point,
+    /// because the point is outside of its picture, sets `landing` of that point to -1. Threads may
+    /// call it at the same time.
+    void dropUnseen(int x, int y, std::span<const float> s, std::span<std::int32_t> landing) const;
     /// Largest motion of any pixel along its epipolar line [px] per unit of s. If there is no
     /// parallax, it is zero, and nothing was searched.
     [[nodiscard]] double pixelsPerUnit() const { return pixelsPerUnit_; }

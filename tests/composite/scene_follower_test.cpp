@@ -46,6 +46,13 @@ Timestamp atSecond(int s) {
     return Timestamp::fromSeconds(s);
 }
 
+std::shared_ptr<const Scene> followed(SceneFollower& follower, const InverseDepthField& field,
+                                      const RigidTransform& T_world_video, int second,
+                                      const PixelRect& region = kPicture,
+                                      const PixelRect& measured = kPicture) {
+    return follower.follow({field, measured, kFollowing, T_world_video, atSecond(second)}, region);
+}
+
 bool isFlatAt(const ShadowCatcher& c, float z) {
     return !c.positions.empty() &&
            std::all_of(c.positions.begin(), c.positions.end(),
@@ -58,7 +65,7 @@ TEST(SceneFollower, ShadowsFallOntoAPlaneUntilDepthIsKnown) {
     EXPECT_TRUE(isFlatAt(first->catcher, 0));
     EXPECT_EQ(first->catcher.albedo, cube().catcher.albedo);
     const auto follow = [&](double known, int s) {
-        return follower.follow(table(0.03, known), kFollowing, downAt(0), kPicture, atSecond(s));
+        return followed(follower, table(0.03, known), downAt(0), s);
     };
     EXPECT_EQ(follow(1, 1), nullptr);
     EXPECT_EQ(follow(1, 2), nullptr);
@@ -79,14 +86,14 @@ TEST(SceneFollower, ANewLightChangesNothingElse) {
     EXPECT_TRUE(after->lighting.sun.has_value());
     EXPECT_EQ(after->objects.size(), before->objects.size());
     EXPECT_EQ(after->catcher.positions, before->catcher.positions);
-    EXPECT_EQ(follower.follow(table(0.03), kFollowing, downAt(0), kPicture, atSecond(1)), nullptr);
+    EXPECT_EQ(followed(follower, table(0.03), downAt(0), 1), nullptr);
 }
 
 TEST(SceneFollower, IfTheViewTurnsTheShadowCatcherIsRebuiltAfterTheLeastInterval) {
     SceneFollower follower({.settling = 1, .leastKnown = 0.5, .turn = 0.3, .leastInterval = 4});
     follower.set(cube());
     const auto follow = [&](double angle, int s) {
-        return follower.follow(table(0), kFollowing, downAt(angle), kPicture, atSecond(s));
+        return followed(follower, table(0), downAt(angle), s);
     };
     ASSERT_NE(follow(0, 1), nullptr);
     EXPECT_EQ(follow(0, 100), nullptr);
@@ -109,7 +116,7 @@ TEST(SceneFollower, OutsideOfTheViewTheShadowCatcherIsStillAPlane) {
     // The right border of the picture cuts through the objects.
     RigidTransform aside = downAt(0);
     aside.translation.x() -= 0.25;
-    const auto scene = follower.follow(table(0.03), kFollowing, aside, kPicture, atSecond(1));
+    const auto scene = followed(follower, table(0.03), aside, 1);
     ASSERT_NE(scene, nullptr);
     const ShadowCatcher& c = scene->catcher;
     EXPECT_NEAR(reach(c).max().x(), planes.max().x(), 1e-6F);
@@ -121,15 +128,26 @@ TEST(SceneFollower, OutsideOfTheViewTheShadowCatcherIsStillAPlane) {
     }
 }
 
+TEST(SceneFollower, DepthOfAPartOfTheRegionDoesNotReplaceTheShadowCatcher) {
+    SceneFollower follower({.settling = 0});
+    follower.set(cube());
+    const PixelRect region{20, 20, 140, 100};
+    const auto follow = [&](const PixelRect& measured) {
+        return followed(follower, table(0.03), downAt(0), 1, region, measured);
+    };
+    EXPECT_EQ(follow({20, 20, 130, 100}), nullptr);
+    EXPECT_EQ(follow({20, 30, 140, 100}), nullptr);
+    EXPECT_NE(follow({16, 16, 144, 112}), nullptr);
+}
+
 TEST(SceneFollower, WithoutObjectsInThePictureTheShadowCatcherIsNotRebuilt) {
     SceneFollower follower({.settling = 0});
-    EXPECT_EQ(follower.follow(table(0), kFollowing, downAt(0), kPicture, atSecond(1)), nullptr);
+    EXPECT_EQ(followed(follower, table(0), downAt(0), 1), nullptr);
     EXPECT_TRUE(follower.set({})->catcher.positions.empty());
-    EXPECT_EQ(follower.follow(table(0), kFollowing, downAt(0), kPicture, atSecond(2)), nullptr);
+    EXPECT_EQ(followed(follower, table(0), downAt(0), 2), nullptr);
     follower.set(cube());
-    EXPECT_EQ(follower.follow(table(0), kFollowing, downAt(0), {}, atSecond(3)), nullptr);
-    EXPECT_NE(follower.follow(table(0), kFollowing, downAt(0), {-9, -9, 900, 900}, atSecond(3)),
-              nullptr);
+    EXPECT_EQ(followed(follower, table(0), downAt(0), 3, {}), nullptr);
+    EXPECT_NE(followed(follower, table(0), downAt(0), 3, {-9, -9, 900, 900}), nullptr);
 }
 
 }  // namespace

@@ -54,6 +54,14 @@ public:
         const Eigen::Matrix3f R = Eigen::Matrix3f::Identity();
         stage_.run(video, nextPose(), DepthStage::StillSearch{search, R, 1, 0.01, {}}, where_);
     }
+    void measureIn(const PixelRect& where) { where_ = where; }
+    [[nodiscard]] int known(const PixelRect& where) const {
+        int out = 0;
+        for (int y = where.y0; y < where.y1; ++y)
+            for (int x = where.x0; x < where.x1; ++x)
+                out += stage_.field().isKnown(static_cast<std::size_t>(y) * kAll.x1 + x) ? 1 : 0;
+        return out;
+    }
     /// The poses of the next frames are in another world frame.
     void changeWorld() { ++world_; }
     void change(const Scene& scene) { scene_ = scene; }
@@ -207,6 +215,65 @@ TEST(DepthStage, AtRestOneStillCorrectsTheDepthOfAThingThatIsGone) {
     walk.rest();
     expectGood(walk.errors());
     EXPECT_EQ(walk.stage().source(), DepthSource::Still);
+}
+
+TEST(DepthStage, AtRestForgottenDepthIsMeasuredAgain) {
+    Walk walk;
+    walk.goSideways(8, 0.012);
+    walk.rest();
+    const PixelRect tile{112, 80, 128, 96};
+    walk.stage().forget(tile);
+    EXPECT_EQ(walk.known(tile), 0);
+    walk.rest();
+    EXPECT_GT(walk.known(tile), 0.9 * 16 * 16);
+    expectGood(walk.errors());
+}
+
+TEST(DepthStage, AtRestAMovingRectangleDoesNotReduceTheVarianceOfKnownDepth) {
+    Walk walk;
+    walk.measureIn({40, 20, 200, 160});
+    walk.stage().renew();
+    walk.rest();
+    const std::vector<float> before = walk.stage().field().variance;
+    for (int i = 0; i < 6; ++i) {
+        walk.measureIn(i % 2 == 0 ? PixelRect{24, 20, 200, 160} : PixelRect{40, 20, 216, 160});
+        walk.rest();
+    }
+    const InverseDepthField& field = walk.stage().field();
+    for (int y = 20; y < 160; ++y)
+        for (int x = 40; x < 200; ++x) {
+            const auto i = static_cast<std::size_t>(y) * field.size.width + x;
+            if (!std::isfinite(before[i])) continue;
+            EXPECT_EQ(field.variance[i], before[i]) << x << ' ' << y;
+        }
+    EXPECT_GT(walk.known({24, 40, 40, 140}), 0.8 * 16 * 100) << "new parts are measured";
+}
+
+TEST(DepthStage, WhatTheStillDoesNotShowHasNoDepth) {
+    const CameraModel video = barrelCamera();
+    const StereoRig rig{video, {{480, 360}, 640, 643, 241, 178, {}}, {}};
+    const Scene scene = panelScene();
+    const RigidTransform T_still_video = motion({0, 0, 0}, {0.06, 0.02, 0});
+    const auto workers = std::make_shared<Workers>(2);
+    EpipolarSearch search(rig, workers);
+    search.setStill(scene.render(rig.still, T_still_video));
+    ASSERT_TRUE(search.run(scene.render(video, {}), T_still_video));
+    InverseDepthField field(video.size);
+    DepthMeasurement(video, workers)
+        .run(search, Eigen::Matrix3f::Identity(), 1, {}, Walk::kAll, field);
+    int seen = 0, seenKnown = 0, unseen = 0, unseenKnown = 0;
+    for (int y = 8; y < 172; ++y)
+        for (int x = 8; x < 232; ++x) {
+            const Eigen::Vector2d ray = video.unproject({x, y});
+            const Eigen::Vector3d point = scene.depth({}, ray) * ray.homogeneous();
+            const Eigen::Vector2d at = rig.still.project((T_still_video * point).hnormalized());
+            const bool isSeen = at.x() >= 0 && at.y() >= 0 && at.x() < 480 && at.y() < 360;
+            const bool isKnown = field.isKnown(static_cast<std::size_t>(y) * 240 + x);
+            ++(isSeen ? seen : unseen);
+            (isSeen ? seenKnown : unseenKnown) += isKnown ? 1 : 0;
+        }
+    EXPECT_GT(seenKnown, 0.65 * seen);
+    EXPECT_LT(unseenKnown, 0.25 * unseen) << "0.6 if the still's border is not heeded";
 }
 
 TEST(DepthStage, DepthIsForgottenOnRequest) {
