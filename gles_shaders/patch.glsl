@@ -17,10 +17,10 @@ float sumOf(Row a) {
 float product(Row a, Row b) {
     return dot(a.left, b.left) + dot(a.right, b.right);
 }
-// Returns the index in luma[] of a word in the first row of a pyramid level. `column` is counted in
-// words from the level's left edge, without the margin.
-int wordAt(LumaLevel l, int column) {
-    return l.offset + kLumaMarginWords + column;
+// Returns the index in luma[] of a word in row y of a pyramid level. `column` is counted in words
+// from the level's left edge, without the margin.
+int wordAt(LumaLevel l, int column, int y) {
+    return l.offset + clamp(y, 0, l.height - 1) * l.pitch + kLumaMarginWords + column;
 }
 uvec3 fetchWords(int at) {
     return uvec3(luma[at], luma[at + 1], luma[at + 2]);
@@ -54,7 +54,7 @@ Window windowAt(LumaLevel l, vec2 start, vec2 u) {
     vec2 origin = clamp(start + u, vec2(-7.0), vec2(l.width - 2, l.height - 2));
     vec2 whole = floor(origin);
     ivec2 at = ivec2(whole);
-    Window w = Window(wordAt(l, at.x >> 2), at.y, uint(at.x & 3) * 8u, origin - whole, uvec3(0u));
+    Window w = Window(wordAt(l, at.x >> 2, 0), at.y, uint(at.x & 3) * 8u, origin - whole, uvec3(0u));
     w.above = fetchPixels(l, w);
     return w;
 }
@@ -77,7 +77,7 @@ Row nextRow(inout Window w, LumaLevel l) {
 vec3 spreadOf(LumaLevel a, LumaLevel b, ivec2 cell, vec2 u) {
     ivec2 start = patchStart(cell, sizeOf(a));
     Window w = windowAt(b, vec2(start), u);
-    int first = wordAt(a, start.x >> 2);
+    int first = wordAt(a, start.x >> 2, 0);
     uint shift = uint(start.x & 3) * 8u;
     vec2 sum = vec2(0.0);
     vec3 squares = vec3(0.0);

@@ -55,7 +55,7 @@ void setMoment(int i, float value) {
 vec2 loadTemplate(LumaLevel l, ivec2 cell) {
     ivec2 start = patchStart(cell, sizeOf(l));
     uint shift = uint(start.x & 3) * 8u, toLeft = (shift + 24u) & 31u;
-    int first = wordAt(l, start.x >> 2), left = shift == 0u ? -1 : 0;
+    int first = wordAt(l, start.x >> 2, 0), left = shift == 0u ? -1 : 0;
     float sum = 0.0, sumSquares = 0.0;
     for (int y = start.y - 1, end = y + kRows + 2; y < end; ++y) {
         int r = y - end + kRows + 1, at = 3 * r + 3, from = first + clamp(y, 0, l.height - 1) * l.pitch;
