@@ -7,9 +7,10 @@
 
 namespace mfar {
 
-/// TOML files are limited, because a parser's recursion and memory grow with the depth and length
-/// of a text. kDeepestToml limits nested brackets, and parts of a dotted key. No file of this
-/// project reaches these limits.
+/// Limits of a TOML text. Without them, the recursion and memory of the parser would grow with the
+/// text. kDeepestToml limits the depth of nested brackets, and the number of parts of a dotted key.
+/// kMostTomlValues limits the number of the characters , = [ { and . outside of strings and
+/// comments. No file of this project reaches these limits.
 inline constexpr std::size_t kDeepestToml = 32;
 inline constexpr std::size_t kMostTomlValues = 100'000;
 

@@ -56,8 +56,10 @@ private:
     std::optional<CapturedStill> upcoming_;  ///< a still that is later than the last video frame
 };
 
-/// The thread that fetches video frames, finds their poses and puts the frames into the mailbox. It
-/// searches the next frame for tags while the picture thread still works on the previous one.
+/// The thread that fetches video frames, finds their poses and puts the frames into the mailbox.
+/// With a live source, it searches the next frame for tags while the picture thread still works on
+/// the previous one. With a lossless source, it fetches the next frame only when the picture thread
+/// asks for it.
 ///
 /// A live still camera is read by another thread, so that the video continues if the still camera
 /// hangs. The stills of a lossless source are read by this thread, so that the order of frames and

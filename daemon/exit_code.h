@@ -28,8 +28,8 @@ public:
     const ExitCode code;
 };
 
-/// Calls `action` and returns its result. If `action` throws an Error, throws a Failure with this
-/// exit code and the same message.
+/// Calls `action` and returns its result. If `action` throws an `Error`, throws a Failure with the
+/// exit code `code` and the same message.
 template <class Error = std::runtime_error, class Action>
 decltype(auto) orFail(ExitCode code, Action&& action) {
     try {

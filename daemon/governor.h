@@ -20,8 +20,8 @@ namespace mfar {
 ///
 /// If two of 40 counted frames are late, the governor changes to the best faster level that is
 /// expected to keep the deadline. If better levels are expected to need at most 85 % of the
-/// deadline, it changes to the best of them. A level that missed the deadline is not used again for
-/// some frames. The number of these frames doubles each time.
+/// deadline, it changes to the best of them. After a level missed the deadline, the governor does
+/// not change to it from a faster level for some counted frames. Their number doubles each time.
 ///
 /// If a part of the time is the same at all levels, the expected time of a better level is too
 /// long. So after 100 counted frames at a level, of which none of the last 40 was late, another
@@ -90,8 +90,9 @@ private:
     std::uint64_t changedAt_ = 0;        // value of frame_ at the last change of level
     std::vector<std::uint64_t> lateAt_;  // value of frame_ at each late frame since that change
     struct Trial {
-        // The level is not used until frame_ reaches `notBefore`. `wait` is the number of counted
-        // frames for which the level was last not used.
+        // The governor does not change from a faster level to this level until frame_ reaches
+        // `notBefore`. It may change to it from a slower level, and use it for the redraw at rest.
+        // `wait` is the length of the level's last waiting time [counted frames].
         std::uint64_t notBefore = 0, wait = 0;
     };
     std::vector<Trial> trials_;

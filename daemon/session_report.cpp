@@ -52,7 +52,7 @@ void Session::leavePictures() {
         if (drawing_->shown) pictures.frame = thumbnail(copyOf(*drawing_->shown).view());
         if (usedStill_) pictures.still = thumbnail(usedStill_->view);
     } catch (const std::runtime_error& error) {
-        stats_.warn(std::string("the report has no picture: ") + error.what());
+        stats_.warn(std::string("a picture for the report cannot be made: ") + error.what());
     }
     stats_.pictures(std::move(pictures));
 }

@@ -24,8 +24,8 @@ struct EngineTrial {
                                                   const StereoRig& rig, Size output,
                                                   EngineKind shownFrom);
 
-/// Returns true if the textures of all steps are within the GPU's limit. Needs a current GL
-/// context.
+/// Returns true if no texture of a step exceeds the largest size of the GPU's textures. Needs a
+/// current GL context.
 [[nodiscard]] bool fitsGpu(const StereoRig& rig, Size output);
 
 /// Returns the size of the path-traced layer, reduced if its textures exceed the GPU's limit. Needs

@@ -137,7 +137,7 @@ public:
     /// This vector replaces the interpolated one if the two differ by at least half a pixel, unless
     /// a moving object is at the pixel. Without a still, the result is empty.
     [[nodiscard]] std::vector<float> readFlow() const;
-    /// Confidence of every video pixel (eq. 2 of the paper in docs/paper.md), [0, 1]. Without a
+    /// Confidence of every video pixel (eq. 2 of the paper, see docs/paper.md), [0, 1]. Without a
     /// still, the result is empty.
     [[nodiscard]] std::vector<float> readConfidence() const;
     [[nodiscard]] std::vector<TileClass> readTileClasses() const;

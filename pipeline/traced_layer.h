@@ -13,7 +13,8 @@
 namespace mfar {
 
 struct TracedLayerOptions {
-    /// Size of the layer [px]; 0x0 means half the output size, rounded up.
+    /// Size of the layer [px]. Pipeline::setScene() replaces 0x0 by half the output size, rounded
+    /// up. VirtualView and TracedLayer need a size.
     Size size;
     TracedRendererOptions renderer{};
     WarpOptions warp{};

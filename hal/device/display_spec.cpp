@@ -62,7 +62,7 @@ void takeKmsWord(ScreenSpec& spec, std::string_view word) {
     } else {
         throw std::runtime_error(
             fmt::format("kms: \"{}\" is not a card (like card0), a connector (like HDMI-A-1) or a "
-                        "mode (like 1280x720@60), or it is given twice",
+                        "mode (like 1280x720@60), or is the second of its kind",
                         word));
     }
 }

@@ -53,7 +53,7 @@ Recorder::Recorder(const fs::path& root, const StereoRig& rig, double videoRateH
       poses_{root / "state_groundtruth_estimate0"}, syncer_(1, options.writer),
       writer_(1, options.writer) {
     beginCamera(video_.folder, {rig.video, {}, videoRateHz, 0},
-                "video sensor; its frame is the body frame");
+                "video sensor; its coordinates are the body coordinates");
     beginCamera(still_.folder, {rig.still, rig.T_still_video.inverse(), 0, options.stillTimeOffset},
                 "still sensor");
     syncFileSystem(root_);

@@ -127,8 +127,8 @@ public:
     /// pyramids of `pictures`.
     virtual const FlowCells& refine(const Pictures& pictures, const LumaPyramid& luma,
                                     const TileWork& work, const AlongLines& along) = 0;
-    /// Returns a flag for each tile, row-major: true if the last refine() searched the tile in two
-    /// dimensions. Waits for the GPU if necessary.
+    /// Returns a flag for each tile, row-major: true if the last call was refine() and it searched
+    /// the tile in two dimensions. After run(), all flags are false. Waits for the GPU if needed.
     [[nodiscard]] virtual std::vector<bool> searchedTiles() const = 0;
     [[nodiscard]] virtual int searchedCount() const = 0;
     /// Returns a searchedCount() without waiting for the GPU. With the SIMD engine, it is that of

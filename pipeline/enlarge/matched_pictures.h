@@ -38,7 +38,7 @@ struct MatchedPictures {
     [[nodiscard]] const std::int16_t* row(int y) const;
 };
 
-/// True if a cell is matched well enough to learn filters from it.
+/// True if a cell is matched well enough to learn filters, guidance and FineMatch from it.
 [[nodiscard]] inline bool mayTeach(const LookUpCell& cell) {
     constexpr float kLeastWeight = 0.25F, kLeastConfidence = 0.8F;
     return std::isfinite(cell.x) && std::isfinite(cell.y) && cell.weight >= kLeastWeight &&

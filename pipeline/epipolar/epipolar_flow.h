@@ -43,9 +43,9 @@ public:
     /// Flow from the video to the still, one entry per cell: x, y [video px], and two unused
     /// numbers. Positions in the still are those after resampling it with the video's lens.
     [[nodiscard]] const Cells& forward() const { return forward_; }
-    /// Two-way error [px], one entry per cell: the error (eq. 2 of the paper in docs/paper.md), and
-    /// three zeros. Several surfaces can match the same cell of the still. The error of a cell is
-    /// the difference between its parallax and that of the nearest of these surfaces, minus 1 px
+    /// Two-way error [px], one entry per cell: the error (eq. 2 of the paper, see docs/paper.md),
+    /// and three zeros. Several surfaces can match the same cell of the still. The error of a cell
+    /// is the difference between its parallax and that of the nearest of these surfaces, minus 1 px
     /// for slanted surfaces, and at least 0. If the flow ends outside the still, the error is 1e4.
     [[nodiscard]] const Cells& occlusion() const { return hidden_; }
     /// Converts flow vectors to inverse depths. For every cell, finds the point on its epipolar

@@ -37,8 +37,9 @@ struct PoseRefinement {
 
 /// Refines the relative pose by robust Gauss-Newton steps over matched rays. The inverse depth of
 /// each match is eliminated. Matches do not determine all unknowns, above all not the length of the
-/// translation; the prior determines these. If the prior's translation is zero, the matches must
-/// agree with a pure rotation. `focal` is the focal length [video px].
+/// translation; the prior determines these. If the prior's translation is zero and its covariance
+/// does not couple translation and rotation, the translation stays zero, and the matches must agree
+/// with a pure rotation. `focal` is the focal length [video px].
 ///
 /// The refinement is accepted under two conditions. `inliers` must be large enough, both by itself
 /// and as a share of `patches`. The median distance from the epipolar lines must decrease clearly:

@@ -29,9 +29,9 @@ struct EpipolarOptions {
     int levels = 4;  ///< Largest number of pyramid levels, [1, 4]. All have at least 60x60 px.
     /// Largest searched parallax, as a share of the picture's width, (0, 1].
     double longestParallax = 0.8;
-    /// Candidates for s (see EpipolarLens) at a pixel are chosen around the values that were found
-    /// at the next coarser pyramid level, within this distance of the pixel [px of that level],
-    /// [0, 8].
+    /// The labels that are searched at a pixel are centred on the range of labels that the next
+    /// coarser pyramid level found within this distance of the pixel [px of the coarser level],
+    /// [0, 8]. If that range is wide, only a part of it is searched.
     int windowRadius = 2;
     int stepPenalty = 12;  ///< Smoothness::step for a picture without noise, [1, 30]
     int jumpPenalty = 60;  ///< see Smoothness::jump, [1, 60]

@@ -25,7 +25,8 @@ json parseBounded(std::string_view text, std::size_t most) {
             throw std::runtime_error(
                 fmt::format("the JSON is nested more than {} levels deep", kDeepestJson));
         if (++values > most)
-            throw std::runtime_error(fmt::format("the JSON has more than {} values", most));
+            throw std::runtime_error(
+                fmt::format("the JSON has more than {} values, keys and brackets", most));
         return true;
     };
     try {

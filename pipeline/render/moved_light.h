@@ -80,7 +80,8 @@ private:
 };
 
 /// Returns the number of new samples that are as accurate as `count` old samples, if the share
-/// `change` of the light may have changed since.
+/// `change` of the light may have changed after the old samples were traced. `change` is at least 0
+/// and may exceed 1.
 [[nodiscard]] float stillWorth(float count, float change);
 
 }  // namespace mfar

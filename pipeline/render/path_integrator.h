@@ -14,7 +14,7 @@
 
 namespace mfar {
 
-/// Number of random pairs that a sample uses before its path begins.
+/// Number of pairs of random numbers that a sample uses before its path begins.
 inline constexpr std::uint32_t kCameraPairs = 1;
 
 /// The distant light of a scene, which does not depend on the poses of objects.

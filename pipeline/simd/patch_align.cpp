@@ -2,7 +2,7 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/patch_align.cpp"
-// clang-format off: the order of these two includes matters
+// clang-format off: these three includes must stay in this order
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 #include "pipeline/simd/patch_batch_inl.h"

@@ -242,8 +242,8 @@ HWY_INLINE hn::Vec<Rows16> loadTwoRows(const std::uint8_t* upper, const std::uin
                          hn::Combine(d8, hn::LoadU(Row8(), lower), hn::LoadU(Row8(), upper)));
 }
 
-/// Sums the products of a patch's pixels with the searched picture's pixels. The latter are
-/// interpolated between columns with weight `across` and between rows with weight `along` [2^-15].
+/// Computes CompareSums of a patch. The searched picture's pixels are first interpolated between
+/// columns with weight `across` and between rows with weight `along` [2^-15].
 HWY_INLINE void addUpRows(const Patch& patch, const PatchRows& rows, std::int16_t across,
                           std::int16_t along, int cell, CompareSums& out) {
     const Rows16 d;

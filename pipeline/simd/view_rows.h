@@ -8,8 +8,7 @@
 
 namespace mfar::simd {
 
-/// Number of the shadow catcher in words that are packed as in warp_surface.glsl; equals
-/// kCatcherId.
+/// Surface number of the shadow catcher in words packed as in warp_surface.glsl; equals kCatcherId.
 inline constexpr std::uint32_t kCatcherNumber = 255;
 /// Two pixels with the same surface number show the same part of the surface if their z differs by
 /// less than this fraction of z.

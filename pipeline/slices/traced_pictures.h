@@ -90,8 +90,8 @@ public:
     /// True if the picture in progress is complete enough to be shown.
     [[nodiscard]] bool toShow() const;
     /// Begins to convert the picture in progress to `out`. The caller then lets resolver() do the
-    /// work in portions. No more samples of the picture are traced until resolver().complete() is
-    /// true and endShow() was called.
+    /// work in portions. The caller must not call next() until resolver().complete() is true and
+    /// endShow() was called.
     void beginShow(const Exposure& exposure, RenderedPicture& out);
     [[nodiscard]] PictureResolver& resolver() { return resolver_; }
     void endShow(RenderedPicture& out);

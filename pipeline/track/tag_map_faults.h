@@ -32,8 +32,8 @@ struct TagFault {
     std::string what;
 };
 
-/// Checks the values of a tag. If one is wrong, returns a description of the fault. If all are
-/// right, adds the tag to `seen` and returns nothing.
+/// Checks the values of a tag. If one is wrong or `seen` already contains the tag, returns a
+/// description of the fault. Otherwise adds the tag to `seen` and returns nothing.
 inline std::optional<TagFault> wrongWith(const RawTag& raw, std::set<TagKey>& seen) {
     const TagFamilyInfo& family = info(raw.family);
     if (raw.id < 0 || raw.id >= family.count)

@@ -25,9 +25,9 @@ struct WarpCounters {
 };
 
 /// Image-based rendering of the virtual layer. It shows a finished picture (the traced picture)
-/// from the camera's current pose. This takes two passes (eq. 5 of the paper in docs/paper.md): one
-/// for depth, and one in which each pixel looks up its colour. The result is clipped to the models'
-/// silhouette at the current pose.
+/// from the camera's current pose. This takes two passes (eq. 5 of the paper, see docs/paper.md):
+/// one for depth, and one in which each pixel looks up its colour. The result is clipped to the
+/// models' silhouette at the current pose.
 /// An engine's WarpStep processes the pixels. This class decides which pictures are shown and which
 /// pixels are rendered individually.
 class Warp {

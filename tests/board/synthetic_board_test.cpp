@@ -124,7 +124,7 @@ TEST(SyntheticBoard, WaitingForAFrameTimesOutIfAllVideoBuffersAreInUse) {
     EXPECT_TRUE(board.video().next(10s));
 }
 
-TEST(SyntheticBoard, AtRealtimePaceTimesOfFramesIncreaseAndAreRecent) {
+TEST(SyntheticBoard, AtRealtimePaceFrameTimesIncreaseAndLieBetweenStartAndNow) {
     SyntheticBoard board(flat(Pace::Realtime));
     const Timestamp before = Timestamp::now();
     board.video().start();

@@ -102,7 +102,7 @@ TEST(ToneLearner, ExposuresThatDifferFromStillToStillGiveNoCurve) {
     }
 }
 
-TEST(ToneLearner, ACurveThatIsNotUsedIsNotUsedAfterARestartEither) {
+TEST(ToneLearner, AnUnconfirmedCurveStaysUnusedAfterARestart) {
     ToneLearner learner, restored;
     addStill(learner, kDarker);
     ASSERT_TRUE(restored.restore(learner.stored()));

@@ -81,7 +81,7 @@ TEST(Mended, AnInvalidTimeDoesNotIncreaseTheVariance) {
     EXPECT_GT(known, 0);
 }
 
-TEST(Mended, InvalidDepthStaysUnknownAtEdges) {
+TEST(Mended, EdgeSnapKeepsInvalidDepthUnknown) {
     EdgeSnap snap({8, 6}, oneWorker());
     const TestPicture picture({8, 6});
     for (const auto& [rho, variance] : {std::pair(kNan, 0.01F), {kInf, 0.01F}, {0.5F, -1.0F}}) {
