@@ -3,6 +3,8 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <cerrno>
+#include <cstdlib>
 #include <string>
 
 namespace mfar {
@@ -21,12 +23,15 @@ namespace mfar {
         fmt::format("FLOAT in [{:g} - {:g}]", least, most));
 }
 
-/// Validator of an option whose value is an unsigned integer. Without it, CLI11 turns -1 into
-/// 2^64 - 1.
-[[nodiscard]] inline CLI::Validator withoutSign() {
+/// Validator of an option whose value is an unsigned integer of 64 bits. Without it, CLI11 turns
+/// negative and too large numbers into other ones, for example -1 and 2^64 into 2^64 - 1.
+[[nodiscard]] inline CLI::Validator unsigned64() {
     return CLI::Validator(
         [](const std::string& text) {
-            return text.find('-') == std::string::npos ? std::string() : text + " is negative";
+            if (text.find('-') != std::string::npos) return text + " is negative";
+            errno = 0;
+            static_cast<void>(std::strtoull(text.c_str(), nullptr, 0));
+            return errno == ERANGE ? text + " exceeds 2^64 - 1" : std::string();
         },
         "");
 }

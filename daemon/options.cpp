@@ -62,7 +62,7 @@ void addKeys(CLI::App& app, Options& options, Words& words) {
     addKey(app, "--recording", options.recording, "DIR")->excludes(source);
     addWord(app, "--pace", words.pace, "PACE", sourcePace);
     addWord(app, "--pose", words.pose, "POSE", poseOrigin);
-    addKey(app, "--seed", options.seed, "N")->check(withoutSign());
+    addKey(app, "--seed", options.seed, "N")->check(unsigned64());
     addKey(app, "--display", options.display, "DISPLAY")->check(accepts(displayFault, "display"));
     addKey(app, "--size", words.size, "SIZE")->check(accepts(pictureSizeFault, "size"));
     addWord(app, "--mode", words.mode, "MODE", superResMode);

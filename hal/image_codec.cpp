@@ -104,6 +104,14 @@ std::vector<png_bytep> rowsOf(const std::uint8_t* first, std::size_t stride, int
     return rows;
 }
 
+bool isPng(std::span<const std::uint8_t> file) {
+    return file.size() >= 8 && png_sig_cmp(file.data(), 0, 8) == 0;
+}
+
+bool isJpeg(std::span<const std::uint8_t> file) {
+    return file.size() >= 3 && file[0] == 0xff && file[1] == 0xd8 && file[2] == 0xff;
+}
+
 void decodePng(std::span<const std::uint8_t> file, const TargetOf& targetOf, ImageAlpha alpha) {
     PngReader reader;
     if (!readHeader(reader, file, alpha)) throw std::runtime_error(reader.error.text);
@@ -175,11 +183,13 @@ bool write(PngWriter& writer, Size size, PixelBytes format, png_bytepp rows,
 
 }  // namespace
 
+bool isPngOrJpeg(std::span<const std::uint8_t> file) {
+    return isPng(file) || isJpeg(file);
+}
+
 void decodeImage(std::span<const std::uint8_t> file, const TargetOf& targetOf, ImageAlpha alpha) {
-    if (file.size() >= 8 && png_sig_cmp(file.data(), 0, 8) == 0)
-        return decodePng(file, targetOf, alpha);
-    if (file.size() >= 3 && file[0] == 0xff && file[1] == 0xd8 && file[2] == 0xff)
-        return decodeJpeg(file, targetOf);
+    if (isPng(file)) return decodePng(file, targetOf, alpha);
+    if (isJpeg(file)) return decodeJpeg(file, targetOf);
     throw std::runtime_error("is neither PNG nor JPEG");
 }
 

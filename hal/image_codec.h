@@ -23,6 +23,9 @@ enum class ImageAlpha : std::uint8_t {
     Kept,  ///< alpha comes from the file; 255 if the file has no alpha
 };
 
+/// Returns true if a file begins like a PNG or a JPEG.
+[[nodiscard]] bool isPngOrJpeg(std::span<const std::uint8_t> file);
+
 /// Decodes a PNG or JPEG of any colour type to RGBA. 16-bit values are reduced to their upper 8
 /// bits. Throws std::runtime_error if the file is damaged, or if it is a progressive JPEG of more
 /// than 2^24 pixels.

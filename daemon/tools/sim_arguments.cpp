@@ -55,7 +55,7 @@ SimParser::SimParser() {
             ->capture_default_str();
     app.add_option("--seed", a.board.seed,
                    "seed of the random numbers: the same seed gives the same bytes")
-        ->check(withoutSign())
+        ->check(unsigned64())
         ->capture_default_str();
     app.add_option("--noise", a.board.noise, "factor of the noise of both sensors; 0: no noise")
         ->check(numberFrom(0, 100))

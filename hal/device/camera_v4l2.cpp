@@ -220,8 +220,8 @@ std::optional<Timestamp> CameraV4l2::timeOf(const V4l2Filled& filled) {
     return out;
 }
 
-// Returns the manual exposure, or 0 if the exposure is automatic or unknown. V4L2's unit is 100 us.
-// Drivers use different names for the controls of the exposure.
+// Returns the exposure time that was set by hand, or 0 if it is automatic or unknown. V4L2's unit
+// is 100 us. Drivers use different names for the controls of the exposure.
 nanoseconds CameraV4l2::manualExposure() const {
     try {
         return readExposure();
@@ -235,10 +235,13 @@ nanoseconds CameraV4l2::manualExposure() const {
 
 nanoseconds CameraV4l2::readExposure() const {
     constexpr std::int64_t kMost = 100'000;
-    for (const char* automatic : {"auto_exposure", "exposure_auto"})
-        if (controls_->find(automatic) != nullptr &&
-            controls_->get(automatic) != V4L2_EXPOSURE_MANUAL)
+    for (const char* name : {"auto_exposure", "exposure_auto"}) {
+        if (controls_->find(name) == nullptr) continue;
+        // At shutter priority, only the iris is automatic.
+        const std::int64_t mode = controls_->get(name);
+        if (mode != V4L2_EXPOSURE_MANUAL && mode != V4L2_EXPOSURE_SHUTTER_PRIORITY)
             return nanoseconds(0);
+    }
     for (const char* name : {"exposure_time_absolute", "exposure_absolute"})
         if (controls_->find(name) != nullptr)
             return std::chrono::microseconds(

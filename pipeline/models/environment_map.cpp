@@ -36,10 +36,12 @@ void requireMemory(Size size, std::size_t memory) {
     const std::size_t kept =
         std::min<std::size_t>(pixels, static_cast<std::size_t>(kMostKept.width) * kMostKept.height);
     const std::size_t needed = 4 * pixels + sizeof(Eigen::Vector3f) * kept;
+    constexpr std::size_t kMegabyte = std::size_t{1} << 20U;
+    // The need is rounded up, so that the two numbers are never equal.
     if (needed > memory)
         throw std::runtime_error(fmt::format(
             "the picture of {}x{} pixels needs {} MB of memory, but only {} MB are left",
-            size.width, size.height, needed >> 20U, memory >> 20U));
+            size.width, size.height, (needed + kMegabyte - 1) / kMegabyte, memory / kMegabyte));
 }
 
 /// Averages rows as they are read, so that a large picture is never completely in memory.
@@ -127,7 +129,10 @@ Environment readLdr(std::span<const std::uint8_t> bytes, std::size_t memory) {
 Environment parseEnvironment(std::span<const std::uint8_t> bytes, const std::string& name,
                              std::size_t memory) {
     try {
-        return isRadianceHdr(bytes) ? readHdr(bytes, memory) : readLdr(bytes, memory);
+        if (isRadianceHdr(bytes)) return readHdr(bytes, memory);
+        if (!isPngOrJpeg(bytes))
+            throw std::runtime_error("is neither a Radiance picture (.hdr), PNG nor JPEG");
+        return readLdr(bytes, memory);
     } catch (const std::runtime_error& error) {
         throw ModelError(fmt::format("{}: {}", name, error.what()));
     }

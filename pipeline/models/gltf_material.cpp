@@ -68,7 +68,11 @@ float alphaCutoffOf(const GltfDocument& document, const tinygltf::Material& from
         document.refuse(
             place + ".alphaMode",
             fmt::format("{} is not supported; expected OPAQUE, MASK or BLEND", from.alphaMode));
-    return rangedFactor(document, from.alphaCutoff, 0, 1, place + ".alphaCutoff");
+    if (!(from.alphaCutoff >= 0))
+        document.refuse(place + ".alphaCutoff",
+                        fmt::format("must be at least 0, not {}", from.alphaCutoff));
+    // Every cutoff above 1 cuts away the whole surface.
+    return static_cast<float>(std::min(from.alphaCutoff, 2.0));
 }
 
 Eigen::Vector3f emissionOf(const GltfDocument& document, const tinygltf::Material& from,

@@ -64,7 +64,7 @@ struct RasterTriangle {
 struct RasterMask {
     const std::uint8_t* rgba;
     Size size;
-    float cutoff;  ///< texels with smaller alpha are transparent, [0, 1]
+    float cutoff;  ///< texels with smaller alpha are transparent; above 1: all texels
 };
 struct MaskedTriangle {
     RasterTriangle triangle;

@@ -47,6 +47,7 @@ TEST(MfarSim, InvalidArgumentsEndWithAMessageAndWriteNothing) {
         {"--stills nan" + out, "--stills"},
         {"--noise nan" + out, "--noise"},
         {"--seed -1" + out, "--seed"},
+        {"--seed 18446744073709551616" + out, "--seed"},
         {"--seconds 0.1", "--out is required"},
         {"--rate 2 --stills 3" + out, "must not exceed --rate"},
     };

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <fstream>
 #include <gmock/gmock.h>
 #include <vector>
@@ -89,6 +90,9 @@ TEST(Options, UsageErrorsListTheValidChoices) {
     EXPECT_THAT(usageFault({"--seconds", "nan"}), HasSubstr("--seconds"));
     EXPECT_THAT(usageFault({"--seed", "x"}), HasSubstr("--seed"));
     EXPECT_THAT(usageFault({"--seed", "-1"}), HasSubstr("--seed"));
+    EXPECT_THAT(usageFault({"--seed", "18446744073709551616"}),
+                AllOf(HasSubstr("--seed"), HasSubstr("exceeds 2^64 - 1")));
+    EXPECT_EQ(parse({"--seed", "18446744073709551615"}).options.seed, ~std::uint64_t{0});
     EXPECT_THAT(usageFault({"--colour"}), HasSubstr("--colour"));
     EXPECT_THAT(usageFault({"--source", "synthetic", "--recording", "x"}),
                 HasSubstr("--recording"));

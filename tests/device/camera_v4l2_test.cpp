@@ -217,11 +217,11 @@ TEST(CameraV4l2, MissedPicturesAreCounted) {
 
 TEST(CameraV4l2, TheTimeOfAPictureIsTheMiddleOfItsManualExposure) {
     // Returns true if the picture's time is its time stamp plus `shift`.
-    const auto isShifted = [](std::uint32_t flags, std::int64_t automatic,
+    const auto isShifted = [](std::uint32_t flags, std::int64_t mode,
                               std::chrono::milliseconds shift) {
         FakeV4l2 fake;
         fake.controls = {
-            {0x9a0901, "Auto Exposure", V4L2_CTRL_TYPE_INTEGER, 0, 3, 1, automatic},
+            {0x9a0901, "Auto Exposure", V4L2_CTRL_TYPE_INTEGER, 0, 3, 1, mode},
             {0x9a0902, "Exposure Time, Absolute", V4L2_CTRL_TYPE_INTEGER, 1, 5000, 1, 2000}};
         CameraV4l2 camera(wanted(), fake);
         camera.start();
@@ -229,12 +229,14 @@ TEST(CameraV4l2, TheTimeOfAPictureIsTheMiddleOfItsManualExposure) {
         fake.deliver({.flags = flags, .ageMs = 1000});
         const Timestamp after = Timestamp::now();
         const auto frame = camera.next(1s);
-        EXPECT_EQ(frame->exposure, automatic == V4L2_EXPOSURE_MANUAL ? 200ms : 0ms);
+        EXPECT_EQ(frame->exposure, shift == 0ms ? 0ms : 200ms);
         const Timestamp stamp = frame->time() - shift + 1s;
         return stamp >= before - 1us && stamp <= after;  // the stamp has whole microseconds
     };
     EXPECT_TRUE(isShifted(V4L2_BUF_FLAG_TSTAMP_SRC_SOE, V4L2_EXPOSURE_MANUAL, 100ms));
     EXPECT_TRUE(isShifted(V4L2_BUF_FLAG_TSTAMP_SRC_EOF, V4L2_EXPOSURE_MANUAL, -100ms));
+    EXPECT_TRUE(isShifted(V4L2_BUF_FLAG_TSTAMP_SRC_SOE, V4L2_EXPOSURE_SHUTTER_PRIORITY, 100ms));
+    EXPECT_TRUE(isShifted(V4L2_BUF_FLAG_TSTAMP_SRC_SOE, V4L2_EXPOSURE_APERTURE_PRIORITY, 0ms));
     EXPECT_TRUE(isShifted(V4L2_BUF_FLAG_TSTAMP_SRC_SOE, V4L2_EXPOSURE_AUTO, 0ms));
 }
 

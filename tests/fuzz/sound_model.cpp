@@ -22,8 +22,9 @@ bool isOne(float v) {
 void requireSound(const Material& m, const Model& model) {
     require(std::all_of(m.baseColour.begin(), m.baseColour.end(), isOne),
             "a base colour is outside of [0, 1]");
-    require(isOne(m.metallic) && isOne(m.roughness) && isOne(m.alphaCutoff),
-            "metallic, roughness or alpha cutoff is outside of [0, 1]");
+    require(isOne(m.metallic) && isOne(m.roughness), "metallic or roughness is outside of [0, 1]");
+    require(m.alphaCutoff >= 0 && std::isfinite(m.alphaCutoff),
+            "an alpha cutoff is negative or not finite");
     require(m.emission.allFinite() && m.emission.minCoeff() >= 0,
             "an emission is negative or not finite");
     require(std::isfinite(m.normalScale), "a normal scale is not finite");

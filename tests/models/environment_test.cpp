@@ -25,9 +25,9 @@ Bytes hdr(const std::string& header, const Bytes& pixels) {
 
 const std::string kHeader = "#?RADIANCE\n# a comment\nFORMAT=32-bit_rle_rgbe\n\n";
 
-std::string environmentFault(const Bytes& bytes) {
+std::string environmentFault(const Bytes& bytes, std::size_t memory = kEnvironmentMemory) {
     try {
-        (void)parseEnvironment(bytes, "sky.hdr");
+        (void)parseEnvironment(bytes, "sky.hdr", memory);
         return "none";
     } catch (const ModelError& error) {
         return error.what();
@@ -98,7 +98,9 @@ TEST(EnvironmentMap, LargePicturesAreReducedByAveraging) {
 
 TEST(EnvironmentMap, InvalidFilesAreRefused) {
     const Bytes pixel = {8, 8, 8, 136};
-    EXPECT_THAT(environmentFault({}), HasSubstr("sky.hdr: is neither PNG nor JPEG"));
+    for (const char* wrong : {"", "words"})
+        EXPECT_EQ(environmentFault(hdr(wrong, {})),
+                  "sky.hdr: is neither a Radiance picture (.hdr), PNG nor JPEG");
     EXPECT_THAT(environmentFault(hdr("#?RADIANCE\n", {})),
                 HasSubstr("header of the Radiance picture is invalid"));
     EXPECT_THAT(environmentFault(hdr("#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 2\n", pixel)),
@@ -122,6 +124,14 @@ TEST(EnvironmentMap, InvalidFilesAreRefused) {
                 HasSubstr("EXPOSURE"));
     const test::TempFolder folder;
     EXPECT_THROW((void)loadEnvironment(folder / "none.hdr"), ModelError);
+}
+
+// The smallest picture, of 2x1 pixels, needs 32 bytes.
+TEST(EnvironmentMap, APictureThatExceedsTheMemoryIsRefused) {
+    const Bytes picture = hdr(kHeader + "-Y 1 +X 2\n", Bytes(8, 136));
+    EXPECT_EQ(environmentFault(picture, 32), "none");
+    EXPECT_THAT(environmentFault(picture, 31),
+                HasSubstr("needs 1 MB of memory, but only 0 MB are left"));
 }
 
 // As in scene.h: column 0 is -x, +y is at three quarters of the width, row 0 is up.

@@ -205,6 +205,8 @@ TEST(GltfFaults, InvalidMaterialsAreRefused) {
     EXPECT_THAT(material("/pbrMetallicRoughness/baseColorFactor", {1, 2, 1, 1}),
                 saysAt("materials[0].baseColorFactor", "must be from 0 to 1, not 2"));
     EXPECT_THAT(material("/alphaMode", "GLASS"), saysAt("materials[0].alphaMode", "GLASS"));
+    EXPECT_THAT(material("/alphaCutoff", -1),
+                saysAt("materials[0].alphaCutoff", "must be at least 0, not -1"));
     EXPECT_THAT(material("/normalTexture/index", 9), saysAt("materials[0].normalTexture", "9"));
     EXPECT_THAT(material("/emissiveTexture/texCoord", 1), HasSubstr("the same texCoord"));
     EXPECT_THAT(material("/extensions/KHR_materials_emissive_strength/emissiveStrength", -2),

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 
 namespace mfar {
@@ -190,6 +191,15 @@ TEST(GltfModel, AlphaBlendingBecomesAMask) {
     EXPECT_EQ(modelOf(maker).materials.at(0).alphaCutoff, 0.5F);
     maker.root["materials"][0].erase("alphaMode");
     EXPECT_EQ(modelOf(maker).materials.at(0).alphaCutoff, 0);
+}
+
+TEST(GltfModel, AnAlphaCutoffAboveOneIsAccepted) {
+    GltfMaker maker = richModel();
+    for (const double cutoff : {1.5, 1e300}) {
+        maker.root["materials"][0]["alphaCutoff"] = cutoff;
+        const float found = modelOf(maker).materials.at(0).alphaCutoff;
+        EXPECT_TRUE(found > 1 && std::isfinite(found)) << found;
+    }
 }
 
 TEST(GltfModel, TwoNodesMayUseTheSameMesh) {

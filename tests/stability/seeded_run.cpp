@@ -14,9 +14,9 @@ void SeededRun::addOptions(CLI::App& app) {
     app.add_option("--minutes", minutes,
                    "number of minutes during which new seeds are run (default 1)")
         ->check(numberFrom(0, 1e6));
-    app.add_option("--seed", seed, "run only this seed")->check(withoutSign());
+    app.add_option("--seed", seed, "run only this seed")->check(unsigned64());
     app.add_option("--first", first, "the first seed (default: taken from the clock)")
-        ->check(withoutSign());
+        ->check(unsigned64());
     app.add_option("--rounds", rounds, "end after this many seeds in each process")
         ->check(CLI::NonNegativeNumber);
     app.add_option("--jobs", jobs,

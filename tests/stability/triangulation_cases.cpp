@@ -127,9 +127,7 @@ void usualTriangulation(Context& c) {
     for (const TriangulationMethod method : kMethods) {
         TriangulationOptions options;
         options.method = method;
-        const Points points = triangulate(c, s.views, s.flow, options);
-        // In smaller units of length, rounding of the flow would shift the midpoint noticeably.
-        if (unit >= 1e-3) checkAgainstTwin(c, s, points, options.flowSigma);
+        checkAgainstTwin(c, s, triangulate(c, s.views, s.flow, options), options.flowSigma);
     }
 }
 

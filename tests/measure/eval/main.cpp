@@ -125,7 +125,7 @@ void addDisturbances(CLI::App& sub, Options& o) {
         ->check(numberFrom(0, 180));
     sub.add_option("--pose-noise-seed", o.poseNoise.seed,
                    "seed of the random axes of --pose-noise-deg")
-        ->check(withoutSign())
+        ->check(unsigned64())
         ->needs("--pose-noise-deg");
 }
 
