@@ -163,6 +163,7 @@ void Judge::status(const ordered_json& said, Ns asked) {
     if (isEnding() || !isReady()) return;
     judgeState(said, asked);
     judgeBlame(textOf(said, "fault"), asked);
+    judgeWatchdog(asked);
 }
 
 void Judge::judgeState(const ordered_json& said, Ns asked) {
@@ -213,6 +214,14 @@ void Judge::judgeBlame(const std::string& fault, Ns asked) {
              " old");
 }
 
+/// Also to be called when mfard does not notify the watchdog, because mfard may never do so.
+void Judge::judgeWatchdog(Ns at) {
+    if (!isReady() || frames_ < kProvenFrames) return;
+    const Ns unfed = at - std::max(fed_.value_or(0), *ready_);
+    if (unfed > kLookTime + kSlack && calm_[All].lasts(kBack + kSlack + kLookTime, at))
+        fail("no fault is active, but mfard has not notified the watchdog for " + seconds(unfed));
+}
+
 void Judge::answersNot(const std::string& why, Ns asked) {
     if (isEnding() || !isReady() || !calm_[Slow].lasts(kBack, now())) return;
     fail(fmt::format("mfard gave no answer within {}: {}", seconds(now() - asked), why));
@@ -231,12 +240,9 @@ void Judge::serviceHears(std::string_view text) {
 void Judge::fed() {
     ++meals_;
     if (isEnding()) return;
-    const Ns before = fed_.value_or(now());
+    judgeWatchdog(now());
     fed_ = now();
     if (frames_ < kProvenFrames || !calm_[Slow].lasts(kBack, now())) return;
-    if (now() - before > kLookTime + kSlack && calm_[All].lasts(kBack + kSlack + kLookTime, now()))
-        fail("no fault is active, but mfard has not notified the watchdog for " +
-             seconds(now() - before));
     if (hangs_ && missing(now()) > kVideoBudget + kSlack)
         fail("mfard notifies the watchdog although the video driver has hung for " +
              seconds(missing(now())));

@@ -71,6 +71,7 @@ private:
     [[nodiscard]] Ns unfinished(Watched gpu, Ns now) const;
     void judgeState(const nlohmann::ordered_json& said, Ns asked);
     void judgeBlame(const std::string& fault, Ns asked);
+    void judgeWatchdog(Ns at);
     void fed();
     void change(const Fault& fault, int by);
 
