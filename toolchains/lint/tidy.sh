@@ -6,6 +6,7 @@
 everything() {
     sed -n 's|^ *"file": "\(.*\)",\?$|\1|p' .build/host/compile_commands.json |
         sort -u |
+        { grep -v '/\.build/.*\.cpp$' || true; } |
         { xargs grep -sL '^#include "[^"]*/\.build/' || true; } | # -s: some do not exist yet
         grep . # fails for an empty list
 }
