@@ -101,7 +101,10 @@ fuzz() {
     while [[ $# -gt 0 ]]; do
         case $1 in
         --minutes) [[ $# -ge 2 ]] || die "--minutes needs a number"
-            seconds=$(awk -v m="$2" 'BEGIN { print int(m * 60) }'); shift 2 ;;
+            seconds=$(awk -v m="$2" 'BEGIN { print int(m * 60) }')
+            # libFuzzer takes 0 seconds as a search without end.
+            [[ $seconds -gt 0 ]] || die "--minutes must be a number of at least 1/60, not '$2'"
+            shift 2 ;;
         --coverage) coverage=1; shift ;;
         --instrument-libraries) preset=fuzz-libraries; shift ;;
         *) fuzzTargets | grep -qx -- "$1" || die "unknown fuzz target '$1'; expected one of $(fuzzTargets | xargs)"
