@@ -228,6 +228,9 @@ class Budget(unittest.TestCase):
         self.assertEqual(self.faults(spills=1), ['a.comp on v3d-4: 1 spills, the budget is 0'])
         self.assertEqual(self.faults(scratch=3), ['a.comp on v3d-4: 3 scratch, the budget is 2'])
 
+    def test_a_shader_without_statistics_is_refused(self):
+        self.assertEqual(self.faults(instructions=0), ['a.comp on v3d-4: its driver printed no statistics'])
+
     def test_a_new_shader_is_reported_by_its_name(self):
         self.assertEqual(self.faults(shader='b.comp'), ['b.comp on v3d-4: has no budget in budget.csv'])
 

@@ -10,9 +10,13 @@ cache=${MFAR_CACHE:-${XDG_CACHE_HOME:-${HOME:-/root}/.cache}/mfar}
 command -v python3 >/dev/null || { echo "python3 is not installed"; exit 77; }
 drivers=()
 for suite in bookworm trixie; do
-    if libraries=$("$boards/drivers.sh" --if-built "$cache" "$suite"); then
-        drivers+=(--drivers "$suite=$libraries")
-    fi
+    status=0
+    libraries=$("$boards/drivers.sh" --if-built "$cache" "$suite") || status=$?
+    case $status in
+    0) drivers+=(--drivers "$suite=$libraries") ;;
+    77) ;; # this release's drivers are not built
+    *) exit 1 ;;
+    esac
 done
 [[ ${#drivers[@]} -gt 0 ]] || { echo "the boards' drivers are not built; ./run board-report builds them"; exit 77; }
 check=(python3 -B "$boards/report.py" --compile-shaders "$1" --check "${drivers[@]}")

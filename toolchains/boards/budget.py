@@ -25,10 +25,13 @@ def write(path, rows):
 
 
 def faults(rows, budget):
-    """Returns a message for each row that exceeds its limits or has no limits."""
+    """Returns a message for each row that exceeds its limits, or has no limits or no statistics."""
     out = []
     for row in rows:
         name = f'{row["shader"]} on {row["gpu"]}'
+        if row['instructions'] == 0:
+            out.append(f'{name}: its driver printed no statistics')
+            continue
         may = budget.get((row['gpu'], row['shader']))
         if may is None:
             out.append(f'{name}: has no budget in budget.csv')

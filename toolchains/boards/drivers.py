@@ -7,6 +7,10 @@ import shader_stats
 STATISTICS = {'v3d': {'V3D_DEBUG': 'nir,shaderdb'}, 'panfrost': {'BIFROST_MESA_DEBUG': 'shaders,shaderdb'},
               'freedreno': {'IR3_SHADER_DEBUG': 'vs,fs,cs'}}
 
+# Without a GPU, Panfrost crashes at a dispatch and at a shader that spills registers, so the shaders are only linked.
+# V3D prints no statistics of a shader that the same context has already compiled.
+OPTIONS = {'panfrost': ['--link-only'], 'v3d': ['--new-contexts']}
+
 
 def command(libraries, driver, program, arguments):
     """Returns a command that runs the program with all libraries (even libc) of the drivers' Debian release."""
@@ -17,9 +21,7 @@ def command(libraries, driver, program, arguments):
 def compile_shaders(libraries, gpu, program, files=()):
     """Compiles the shaders in `files`; if it is empty, all shaders of mfar. Returns {key: Shader}. Raises RuntimeError
     if a shader does not compile."""
-    # Without a GPU, Panfrost crashes at a dispatch and at a shader that spills registers, so the
-    # shaders are only linked.
-    arguments = (['--link-only'] if gpu['driver'] == 'panfrost' else []) + list(files)
+    arguments = [*OPTIONS.get(gpu['driver'], []), *files]
     environment = dict(os.environ, LIBGL_DRIVERS_PATH=libraries, GBM_BACKENDS_PATH=libraries,
                        MESA_SHADER_CACHE_DISABLE='1', **STATISTICS[gpu['driver']], **gpu['environment'])
     environment.pop('MFAR_GL_DEVICE', None)

@@ -23,7 +23,7 @@ testDriver() {
     shift
     ensurePackages buildPackages driverPackages
     build host mfard mfar-sim mfarctl mfar_faulty_gl mfar_pretended_v4l2 mfar-shader-tests-egl \
-        mfar-engine-tests-egl mfar-warp-tests-egl mfar-lost-context-tests
+        mfar-engine-tests-egl mfar-warp-tests-egl mfar-lost-context-tests mfar-even-last-row
     export LIBGL_ALWAYS_SOFTWARE=1 MFAR_GL_DEVICE=software GALLIUM_DRIVER=$driver
     export XDG_RUNTIME_DIR=${XDG_RUNTIME_DIR:-/tmp} # Vulkan's loader needs one
     case $driver in

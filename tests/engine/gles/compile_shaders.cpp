@@ -3,12 +3,15 @@
 // prints can be assigned to the shader. The driver V3D prints them with
 //   V3D_DEBUG=shaderdb mfar-compile-shaders 2>&1
 // and the driver for Mali with BIFROST_MESA_DEBUG=shaderdb. Usage:
-//   mfar-compile-shaders [--link-only] [FILE...]
+//   mfar-compile-shaders [--link-only] [--new-contexts] [FILE...]
 // --link-only: draws and dispatches nothing. This is enough for the driver Panfrost, which compiles
 // a shader when it is linked. On machines without its GPU (with Mesa's drm-shim), Panfrost crashes
-// at dispatches and at shaders that spill registers. FILE: a shader to be compiled instead, in the
-// format of gles_shaders/, but with every #include resolved. Exit status 1: a shader did not
-// compile.
+// at dispatches and at shaders that spill registers. --new-contexts: compiles each shader in a new
+// context, because V3D prints no statistics of a shader that the same context has already compiled,
+// such as the vertex shader that a fragment shader was linked with. (The driver for Adreno compiles
+// its own shaders in each context, and their statistics would be taken for the shader's.) FILE: a
+// shader to be compiled instead, in the format of gles_shaders/, but with every #include resolved.
+// Exit status 1: a shader did not compile.
 
 #include "base/gl/buffer.h"
 #include "base/gl/pass.h"
@@ -24,6 +27,7 @@
 #include <fstream>
 #include <iterator>
 #include <regex>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -205,15 +209,23 @@ std::vector<Shader> wanted(const std::vector<std::string>& files) {
     return out;
 }
 
-int compileAll(const std::vector<Shader>& shaders, bool runs) {
+/// Compiles the shaders in one context. Returns how many did not compile.
+std::size_t failures(std::span<const Shader> shaders, bool runs) {
     const std::unique_ptr<GlContext> context = createGlContext();
     std::printf("%s\n", context->description().c_str());
     Use use(runs);
-    int failed = 0;
+    std::size_t failed = 0;
     for (const Shader& shader : shaders)
-        failed += compiles(shader, use) ? 0 : 1;
-    std::printf("%zu compiled, %d failed\n", shaders.size() - static_cast<std::size_t>(failed),
-                failed);
+        failed += compiles(shader, use) ? 0U : 1U;
+    return failed;
+}
+
+int compileAll(std::span<const Shader> shaders, bool runs, bool newContexts) {
+    const std::size_t step = newContexts ? 1 : shaders.size();
+    std::size_t failed = 0;
+    for (std::size_t i = 0; i < shaders.size(); i += step)
+        failed += failures(shaders.subspan(i, step), runs);
+    std::printf("%zu compiled, %zu failed\n", shaders.size() - failed, failed);
     return failed == 0 && !shaders.empty() ? 0 : 1;
 }
 
@@ -224,7 +236,8 @@ int main(int argc, char** argv) {
     try {
         std::vector<std::string> files(argv + 1, argv + argc);
         const bool runs = std::erase(files, "--link-only") == 0;
-        return mfar::compileAll(mfar::wanted(files), runs);
+        const bool newContexts = std::erase(files, "--new-contexts") > 0;
+        return mfar::compileAll(mfar::wanted(files), runs, newContexts);
     } catch (const std::exception& error) {
         std::fprintf(stderr, "mfar-compile-shaders: %s\n", error.what());
         return 1;
