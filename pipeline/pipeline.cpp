@@ -109,11 +109,6 @@ void Pipeline::dropStill() {
     state_->redraw = true;
 }
 
-std::optional<Timestamp> Pipeline::secondStill() const {
-    const Reference& second = state_->second;
-    return second.pictures != nullptr ? std::optional(second.time) : std::nullopt;
-}
-
 void Pipeline::setMode(SuperResMode mode) {
     state_->quality.mode = mode;
     state_->quality.cubic = true;
@@ -171,6 +166,7 @@ const FrameResult& Pipeline::run(const ImageView& video, Timestamp time,
 
     const PixelRect decides = s.placeObjects(pose, time);
     const TileWork& work = s.planFrame(frame);
+    s.rest.add(s.plan.measured(), s.plan.leastStructure(), time);
     const bool usesStill = s.newest.pictures != nullptr && s.quality.mode != SuperResMode::Off;
     const bool usesPose =
         usesStill && s.quality.alongLines && pose && s.epipolar && s.epipolar->matches(*pose);
@@ -227,7 +223,7 @@ Pipeline::State::Match Pipeline::State::matchStill(const VideoFrame& frame, cons
         const int tiles = forDepth.empty() ? work.matched : work.changed;
         result.stats.usedPose = true;
         if (tiles > 0 && !where.empty()) {
-            epipolar->run(frame.view, *pose, where);
+            epipolar->run(frame.view, *pose, where, rest.restedSince(newest.time));
             publishPose(*epipolar, result.stats);
         }
         lap("epipolar");

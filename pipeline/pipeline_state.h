@@ -6,6 +6,7 @@
 #include "pipeline/depth/edge_snap.h"
 #include "pipeline/epipolar/epipolar_flow.h"
 #include "pipeline/pipeline.h"
+#include "pipeline/plan/camera_rest.h"
 #include "pipeline/plan/second_tiles.h"
 #include "pipeline/reference.h"
 #include "pipeline/stage_clock.h"
@@ -128,6 +129,7 @@ struct Pipeline::State {
     // now: the video of this frame. drawn: for each tile, its video when it was last drawn.
     RgbPlanes now, drawn;
     WorkPlan plan;
+    CameraRest rest;
     SecondTiles secondTiles;
     std::unique_ptr<EpipolarFlow> epipolar;
     std::future<std::unique_ptr<EpipolarFlow>> comingEpipolar;

@@ -92,4 +92,9 @@ std::vector<std::uint8_t> Pipeline::readImage() const {
     return out;
 }
 
+std::optional<Timestamp> Pipeline::secondStill() const {
+    const Reference& second = state_->second;
+    return second.pictures != nullptr ? std::optional(second.time) : std::nullopt;
+}
+
 }  // namespace mfar

@@ -99,21 +99,23 @@ void EpipolarFlow::dropStill() {
     prediction_.forget();
 }
 
-void EpipolarFlow::run(const ImageView& video, const Pose& pose, const PixelRect& where) {
+void EpipolarFlow::run(const ImageView& video, const Pose& pose, const PixelRect& where,
+                       bool rests) {
     if (const auto plane = lumaPlane(video)) {
         run(Rows<const std::uint8_t>{plane->data, static_cast<std::ptrdiff_t>(plane->stride),
                                      plane->size},
-            pose, where);
+            pose, where, rests);
         return;
     }
     lumaOf(video, luma_);
-    run(luma_.rows(), pose, where);
+    run(luma_.rows(), pose, where, rests);
 }
 
 void EpipolarFlow::run(const Rows<const std::uint8_t>& video, const Pose& pose,
-                       const PixelRect& where) {
+                       const PixelRect& where, bool rests) {
     frame_ = video;
-    const UnitPose relative = unitPose(rig_.T_still_video, *stillPose_, pose);
+    const UnitPose relative = rests ? restingPose(rig_.T_still_video, *stillPose_, pose)
+                                    : unitPose(rig_.T_still_video, *stillPose_, pose);
     unit_ = relative.unit;
     lengthError_ = relative.lengthError;
     search(relative, where);

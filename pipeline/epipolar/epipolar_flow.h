@@ -33,12 +33,14 @@ public:
 
     /// Refines the relative pose and matches the frame with the still. May be called only while
     /// there is a still. Pixels in `where` [video px] and in a margin around it are matched. All
-    /// other pixels get the s of the nearest matched pixel. `where` must not be empty.
-    void run(const ImageView& video, const Pose& pose, const PixelRect& where);
+    /// other pixels get the s of the nearest matched pixel. `where` must not be empty. `rests`:
+    /// true if the camera has not moved since the still was taken, see restingPose().
+    void run(const ImageView& video, const Pose& pose, const PixelRect& where, bool rests = false);
     void run(const ImageView& video, const Pose& pose) {
         run(video, pose, {0, 0, rig_.video.size.width, rig_.video.size.height});
     }
-    void run(const Rows<const std::uint8_t>& video, const Pose& pose, const PixelRect& where);
+    void run(const Rows<const std::uint8_t>& video, const Pose& pose, const PixelRect& where,
+             bool rests = false);
 
     /// Flow from the video to the still, one entry per cell: x, y [video px], and two unused
     /// numbers. Positions in the still are those after resampling it with the video's lens.

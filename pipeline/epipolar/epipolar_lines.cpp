@@ -1,7 +1,11 @@
-// Member functions of EpipolarSearch that work on labels (candidates of s, counted in steps). They
-// compute matching costs along epipolar lines, and refine the best label to a position between
-// labels.
+// Member functions of EpipolarSearch that work on labels (candidates of s, counted in steps) or on
+// values of s. They compute matching costs along epipolar lines, refine the best label to a
+// position between labels, and find out which points the still shows.
 #include "pipeline/epipolar/epipolar_search.h"
+#include "pipeline/simd/depth_rows.h"
+
+#include <algorithm>
+#include <array>
 
 namespace mfar {
 namespace {
@@ -50,6 +54,27 @@ void EpipolarSearch::costRow(int index, int vectors, int y, std::uint8_t* out) c
 
 bool EpipolarSearch::hasSlack(int index) const {
     return normalError_ > kNoSlack * (1 << index);
+}
+
+void EpipolarSearch::dropUnseen(int x, int y, std::span<const float> s,
+                                std::span<std::int32_t> landing) const {
+    const Level& fine = levels_.front();
+    const EpipolarLens& whole = lenses_.front();
+    simd::Lens lens = whole.lens();
+    lens.cx -= static_cast<float>(area_.x0) + static_cast<float>(fine.origin.x);
+    lens.cy -= static_cast<float>(area_.y0) + static_cast<float>(fine.origin.y);
+    const Eigen::Vector3f& t = translation_;
+    const simd::Motion motion{{1, 0, 0, 0, 1, 0, 0, 0, 1}, {t.x(), t.y(), t.z()}};
+    std::array<std::int32_t, 512> pixels{};
+    const std::size_t first = static_cast<std::size_t>(y) * whole.size().width + x;
+    for (std::size_t i = 0; i < s.size(); i += pixels.size()) {
+        const std::size_t count = std::min(pixels.size(), s.size() - i);
+        simd::landRow(lens, fine.still.size, motion, whole.raysX().data() + first + i,
+                      whole.raysY().data() + first + i, s.data() + i, count, pixels.data());
+        for (std::size_t k = 0; k < count; ++k)
+            if (pixels[k] < 0 || fine.seen[static_cast<std::size_t>(pixels[k])] == 0)
+                landing[i + k] = -1;
+    }
 }
 
 }  // namespace mfar

@@ -2,11 +2,9 @@
 
 #include "pipeline/epipolar/census.h"
 #include "pipeline/flow/cell_field.h"
-#include "pipeline/simd/depth_rows.h"
 #include "pipeline/simd/luma_filters.h"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
 
@@ -274,27 +272,6 @@ bool EpipolarSearch::turnStill(const Eigen::Matrix3d& R_still_video, int levels)
                           s.width, level.seen.data() + static_cast<std::size_t>(y) * s.width);
     }
     return true;
-}
-
-void EpipolarSearch::dropUnseen(int x, int y, std::span<const float> s,
-                                std::span<std::int32_t> landing) const {
-    const Level& fine = levels_.front();
-    const EpipolarLens& whole = lenses_.front();
-    simd::Lens lens = whole.lens();
-    lens.cx -= static_cast<float>(area_.x0) + static_cast<float>(fine.origin.x);
-    lens.cy -= static_cast<float>(area_.y0) + static_cast<float>(fine.origin.y);
-    const Eigen::Vector3f& t = translation_;
-    const simd::Motion motion{{1, 0, 0, 0, 1, 0, 0, 0, 1}, {t.x(), t.y(), t.z()}};
-    std::array<std::int32_t, 512> pixels{};
-    const std::size_t first = static_cast<std::size_t>(y) * whole.size().width + x;
-    for (std::size_t i = 0; i < s.size(); i += pixels.size()) {
-        const std::size_t count = std::min(pixels.size(), s.size() - i);
-        simd::landRow(lens, fine.still.size, motion, whole.raysX().data() + first + i,
-                      whole.raysY().data() + first + i, s.data() + i, count, pixels.data());
-        for (std::size_t k = 0; k < count; ++k)
-            if (pixels[k] < 0 || fine.seen[static_cast<std::size_t>(pixels[k])] == 0)
-                landing[i + k] = -1;
-    }
 }
 
 // Computes pixelsPerUnit_. A label is a step of s by 1 / pixelsPerUnit_, so no pixel moves by more

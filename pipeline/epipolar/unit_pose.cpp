@@ -1,5 +1,7 @@
 #include "pipeline/epipolar/unit_pose.h"
 
+#include <Eigen/Cholesky>
+
 #include <cmath>
 
 namespace mfar {
@@ -11,6 +13,9 @@ namespace {
 constexpr double kLeastTurn = 2.6e-3;
 constexpr double kLeastShift = 0.01;
 constexpr double kRounding = 1e-12;
+// Largest squared Mahalanobis distance (6 degrees of freedom) between two poses of a resting
+// camera.
+constexpr double kSamePose = 50;
 
 Matrix6 relativeCovariance(const Pose& other, const Pose& frame, double distance) {
     const RigidTransform T_frame_other = frame.T_world_video.inverse() * other.T_world_video;
@@ -39,6 +44,16 @@ UnitPose unitPose(const RigidTransform& T_camera_video, const Pose& other, const
         out.T_other_frame.rotation.conjugate() * out.T_other_frame.translation;
     out.lengthError = std::sqrt(along.dot(out.covariance.bottomRightCorner<3, 3>() * along));
     return out;
+}
+
+UnitPose restingPose(const RigidTransform& T_camera_video, const Pose& other, const Pose& frame) {
+    UnitPose moving = unitPose(T_camera_video, other, frame);
+    const RigidTransform T_other_frame = other.T_world_video.inverse() * frame.T_world_video;
+    const Vector6 apart = logarithm(T_other_frame);
+    const Matrix6 covariance = relativeCovariance(other, frame, T_camera_video.translation.norm());
+    if (!(apart.dot(covariance.ldlt().solve(apart)) < kSamePose)) return moving;
+    const Pose same{frame.time, {}};
+    return unitPose(T_camera_video, same, same);
 }
 
 }  // namespace mfar

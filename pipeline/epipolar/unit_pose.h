@@ -24,4 +24,10 @@ struct UnitPose {
 [[nodiscard]] UnitPose unitPose(const RigidTransform& T_camera_video, const Pose& other,
                                 const Pose& frame);
 
+/// As unitPose(), for a video camera that has not moved between the two pictures, as far as the
+/// pictures show. The relative pose is then T_camera_video, and the errors of both poses do not
+/// matter. If the poses differ by more than their covariances explain, returns unitPose().
+[[nodiscard]] UnitPose restingPose(const RigidTransform& T_camera_video, const Pose& other,
+                                   const Pose& frame);
+
 }  // namespace mfar

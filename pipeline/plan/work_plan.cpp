@@ -76,11 +76,15 @@ void WorkPlan::update(const RgbPlanes& now, const RgbPlanes& drawn, bool force) 
     work_.noise = noise_;
 }
 
+double WorkPlan::leastStructure() const {
+    const double ofMean = grain_ * (noise_ * noise_ + kRoundingVariance) / 4;
+    return kStructure * ofMean;
+}
+
 void WorkPlan::chooseMatched() {
     const bool everything = !(matchedShare_ > 0);
     const auto tiles = static_cast<double>(measured_.size());
-    const double ofMean = grain_ * (noise_ * noise_ + kRoundingVariance) / 4;
-    structured_.choose(measured_, work_.tiles.width, everything ? -1 : kStructure * ofMean,
+    structured_.choose(measured_, work_.tiles.width, everything ? -1 : leastStructure(),
                        static_cast<int>(std::ceil(everything ? tiles : matchedShare_ * tiles)));
     work_.detailTiles = mayList() ? structured_.bounds(work_.tiles.width)
                                   : PixelRect{0, 0, work_.tiles.width, work_.tiles.height};

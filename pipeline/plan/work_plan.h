@@ -65,6 +65,8 @@ public:
     /// tile is matched.
     [[nodiscard]] double structuredPerMatched() const;
     [[nodiscard]] const std::vector<TileMeasure>& measured() const { return measured_; }
+    /// Smallest TileMeasure::structure that is above the noise.
+    [[nodiscard]] double leastStructure() const;
     [[nodiscard]] Size tileCount() const { return work_.tiles; }
     /// Standard deviation of the video's noise [grey levels], measured in the quietest tiles of
     /// earlier frames. Before the first frame it is the standard deviation of 8-bit rounding.

@@ -113,6 +113,24 @@ TEST(Mended, EpipolarFlowAcceptsPicturesWithOneColumnOrRowOfCells) {
     }
 }
 
+// The error of a tracked pose is a quarter of the baseline or more if the baseline is that of the
+// rig alone. Real things then hid nothing.
+TEST(Mended, AtRestEpipolarFlowUsesTheRigAlone) {
+    const CameraModel camera = smallCamera({64, 48});
+    EpipolarFlow flow({camera, camera, {Eigen::Quaterniond::Identity(), {0.02, 0, 0}}},
+                      oneWorker());
+    const TestPicture picture = randomPicture({64, 48}, 1);
+    Pose still, frame;
+    still.covariance = frame.covariance = 1e-5 * Matrix6::Identity();
+    frame.T_world_video.translation.x() = 0.004;
+    flow.setStill(picture.view(), still);
+    for (const bool rests : {false, true}) {
+        flow.run(picture.view(), frame, {0, 0, 64, 48}, rests);
+        EXPECT_NEAR(flow.unit(), rests ? 0.02 : 0.024, 1e-9);
+        EXPECT_EQ(flow.lengthError() < 0.02, rests);
+    }
+}
+
 TEST(Mended, ANonFinitePredictionActsLikeAnExtremeFiniteOne) {
     const CameraModel camera = smallCamera({64, 48});
     const TestPicture picture = randomPicture({64, 48}, 1);

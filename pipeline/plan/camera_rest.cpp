@@ -1,0 +1,33 @@
+#include "pipeline/plan/camera_rest.h"
+
+namespace mfar {
+namespace {
+
+constexpr long kMemory = 64;  // number of frames for which a change of a tile is remembered
+constexpr long kNever = -kMemory;
+// Largest share of the tiles with structure that may change while the camera rests.
+constexpr double kMostChanged = 0.25;
+// Smallest share of tiles with structure with which a motion of the camera is noticed.
+constexpr double kLeastStructured = 0.1;
+
+}  // namespace
+
+void CameraRest::add(const std::vector<TileMeasure>& tiles, double leastStructure, Timestamp time) {
+    changed_.resize(tiles.size(), kNever);
+    ++frame_;
+    int structured = 0, changed = 0;
+    for (std::size_t i = 0; i < tiles.size(); ++i) {
+        if (tiles[i].changed) changed_[i] = frame_;
+        if (!(static_cast<double>(tiles[i].structure) > leastStructure)) continue;
+        ++structured;
+        changed += frame_ - changed_[i] < kMemory ? 1 : 0;
+    }
+    if (!(structured > kLeastStructured * static_cast<double>(tiles.size()))) {
+        since_.reset();
+    } else if (!since_ || changed > kMostChanged * structured) {
+        since_ = time;
+        changed_.assign(tiles.size(), kNever);
+    }
+}
+
+}  // namespace mfar

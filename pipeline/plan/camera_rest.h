@@ -1,0 +1,30 @@
+#pragma once
+
+#include "base/time.h"
+#include "pipeline/plan/tile_measure.h"
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace mfar {
+
+/// Finds out from the changes of the picture since when the camera has rested. Things may move in
+/// front of a resting camera: the camera counts as moving only if more than a quarter of the tiles
+/// with structure changed within the last 64 frames.
+class CameraRest {
+public:
+    /// Adds a frame. `tiles` are its measurements, see WorkPlan::measured(). A tile has structure
+    /// if its TileMeasure::structure exceeds `leastStructure`.
+    void add(const std::vector<TileMeasure>& tiles, double leastStructure, Timestamp time);
+    /// True if the camera has rested from time `t` to the last frame. False if the picture has too
+    /// little structure to show a motion.
+    [[nodiscard]] bool restedSince(Timestamp t) const { return since_ && *since_ <= t; }
+
+private:
+    long frame_ = 0;
+    std::vector<long> changed_;  // for each tile: the last frame in which it changed
+    std::optional<Timestamp> since_;
+};
+
+}  // namespace mfar
