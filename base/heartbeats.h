@@ -53,7 +53,7 @@ private:
         std::string thread;
         std::chrono::nanoseconds budget;
         ThreadRole role;
-        std::atomic<std::int64_t> at;  ///< time of the last beat, or of the start of a wait
+        std::atomic<std::int64_t> at;  ///< [ns]; time of the last beat, or of the start of a wait
         std::atomic<const char*> waitsFor{nullptr};  ///< null: the thread works
     };
 

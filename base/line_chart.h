@@ -16,8 +16,9 @@ struct LineChart {
     std::string title, xLabel;
     std::vector<double> x;  ///< in ascending order
     std::vector<ChartLine> lines{};
-    bool fills = false;             ///< shades the area between the first two lines
-    std::optional<double> mostY{};  ///< upper end of the vertical axis; not set: it fits the lines
+    bool fills = false;  ///< shades the area between the first two lines
+    /// Upper end of the vertical axis. Not set: the axis ends just above the lines and the rule.
+    std::optional<double> mostY{};
     std::optional<ChartLine> rule{};  ///< a dashed horizontal line at y[0]
 };
 

@@ -46,8 +46,8 @@ inline constexpr std::uint32_t kIsGloss = 1U << 24;  ///< bit of `look`: the sur
 struct MirrorLight {
     struct Table {
         float roughness = 0;
-        int edge = 0;  ///< texels per side, including the repeated border
-        std::uint32_t first = 0;
+        int edge = 0;             ///< texels per side, including the repeated border
+        std::uint32_t first = 0;  ///< index of the table's first texel in `texels`
     };
     std::vector<Table> tables;  ///< sorted by roughness; the first table has roughness 0
     std::vector<std::uint32_t> texels;

@@ -8,8 +8,8 @@
 
 namespace mfar {
 
-/// Shows on standard error what a long command does and how far it is. On a terminal, it rewrites
-/// one line at most ten times a second; otherwise it prints a line every ten seconds. Not
+/// Shows on `out` what a long command does and how far it is. On a terminal, it rewrites one line,
+/// at most ten times a second; otherwise it prints lines, at most one in ten seconds. Not
 /// thread-safe.
 class Progress {
 public:

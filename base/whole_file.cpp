@@ -60,7 +60,7 @@ int writePart(const std::filesystem::path& file, std::span<const std::uint8_t> b
     return error;
 }
 
-/// True if `file` exists and is neither a file nor a folder, for example /dev/stdout or a pipe.
+/// Returns true if `file` exists and is neither a regular file nor a folder, but e.g. a pipe.
 bool isDevice(const std::filesystem::path& file) {
     struct stat there{};
     return stat(file.c_str(), &there) == 0 && !S_ISREG(there.st_mode) && !S_ISDIR(there.st_mode);

@@ -13,8 +13,8 @@
 namespace mfar::plausible {
 namespace {
 
-// R counts as a rotation if no element of R R^T differs from that of the identity matrix by this or
-// more. Some files round R to four digits.
+// R counts as a rotation if its determinant is positive and no element of R R^T differs from that
+// of the identity matrix by this or more. Some files round R to four digits.
 constexpr double kRotationTolerance = 1e-3;
 // Largest error of project(unproject(pixel)) [px]. A larger error shows that the lens model folds
 // over inside the picture.
@@ -26,7 +26,8 @@ std::string text(const Range& range) {
                        hasUnit ? range.unit : "");
 }
 
-/// Returns true if the lens model folds over inside the picture: several rays map to one pixel.
+/// Returns true if the lens model folds over inside the picture, so that several rays map to one
+/// pixel. Examines only pixels on the border, because distortion is largest there.
 bool foldsInside(const CameraModel& c) {
     const double right = c.size.width - 1, bottom = c.size.height - 1;
     const std::array<Eigen::Vector2d, 8> border{{{0, c.cy},

@@ -57,7 +57,7 @@ RigCalibration readEuroc(const fs::path& video, const fs::path& still, const Wan
     return out;
 }
 
-// False, too, if the path may not be read. Then opening it fails, with the reason.
+// Returns false, too, if this user may not enter the folder of the path.
 bool isFile(const fs::path& path) {
     std::error_code ignored;
     return fs::is_regular_file(path, ignored);

@@ -30,9 +30,10 @@ struct WantedSizes {
 ///     camera_matrix1. There is one file, or one for the intrinsics and one for the extrinsics.
 ///     Camera 1 is the video camera. If no picture size is stated, the wanted size is used;
 ///   - two sensor.yaml of EuRoC (video, still), or the folder that contains cam0/ and cam1/.
-/// Throws CalibrationError ("file:line: fault") if a file is missing, the picture size differs from
-/// the wanted one, a value is NaN or implausible, a matrix is singular, or the lens model is not
-/// supported.
+/// Throws CalibrationError ("file:line: fault") if a file is missing or has another format, the
+/// picture size differs from the wanted one, a value is NaN or implausible, a matrix is singular,
+/// or the lens model is not supported. Throws CalibrationError, too, if there are no paths or more
+/// than two.
 [[nodiscard]] RigCalibration loadRig(std::span<const std::filesystem::path> paths,
                                      const WantedSizes& wanted = {});
 [[nodiscard]] RigCalibration loadRig(const std::filesystem::path& path,

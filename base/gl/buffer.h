@@ -9,8 +9,9 @@
 
 namespace mfar::gpu {
 
-/// A GL buffer object of fixed size in bytes, for shader storage, draw commands or vertex data.
-/// Move-only. Its GL context must be current whenever the object is used or destroyed.
+/// A GL buffer object of fixed size in bytes, for shader storage, uniforms, draw commands, vertices
+/// or indices. It is initially zero. Move-only. Its GL context must be current whenever the object
+/// is used or destroyed.
 class Buffer {
 public:
     Buffer() = default;

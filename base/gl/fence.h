@@ -8,7 +8,7 @@
 namespace mfar::gpu {
 
 /// Longest wait for the GPU. A GPU that does not finish in this time counts as hanging. The kernel
-/// normally resets a blocked GPU earlier.
+/// resets a blocked GPU, too, but after a time that depends on the driver.
 inline constexpr std::chrono::milliseconds kLongestGpuWait{500};
 
 /// Marks a point in the stream of GL commands. Move-only.

@@ -112,9 +112,10 @@ private:
 
 /// A list of tiles, for an instanced draw with one quad per tile. A compute pass writes the list.
 struct InstanceList {
-    const Buffer& commands;  ///< contains one DrawArraysIndirect command at `commandOffset`
+    const Buffer& commands;  ///< contains one DrawArraysIndirect command at `commandOffset` [bytes]
     std::size_t commandOffset;
-    const Buffer& instances;  ///< one uint per instance, read as vertex attribute 0
+    /// One uint per instance, read as vertex attribute 0. The first is at `instanceOffset` [bytes].
+    const Buffer& instances;
     std::size_t instanceOffset = 0;
 };
 

@@ -30,8 +30,9 @@ struct PassOutput {
     std::size_t count = 0;  ///< number of array elements; 0: as many as the buffer holds
 };
 
-/// Returns the outputs of a linked program; `text` is the source of its compute or fragment shader.
-/// Storage blocks that the shader declares readonly are excluded.
+/// Returns the outputs of a linked program that Validation can check: float and uint variables of
+/// storage blocks, float images and float colours. `text` is the source of the program's compute or
+/// fragment shader. Storage blocks that the shader declares readonly are excluded.
 [[nodiscard]] std::vector<PassOutput> outputsOf(GLuint program, std::string_view text);
 
 [[nodiscard]] std::vector<ValueRange> statedRanges(std::string_view text, std::string_view name);

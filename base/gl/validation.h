@@ -14,8 +14,8 @@ class Framebuffer;
 class Program;
 struct Binding;
 
-/// Reports that a pass wrote a wrong value: NaN, infinity, or a value outside the range that its
-/// shader states.
+/// Reports that a pass wrote a wrong value (NaN, infinity, or a value outside the range that its
+/// shader states) or wrote beyond the end of a buffer.
 struct ValidationFault {
     std::string pass;
     std::string output;  ///< variable in the shader; "guard": a write beyond the end of a buffer
@@ -29,15 +29,15 @@ struct ValidationFault {
 };
 [[nodiscard]] std::string describe(const ValidationFault& fault);
 
-/// While a Validation object exists, all outputs of its thread's passes are read back and checked.
-/// In a storage buffer, only the values that the pass changed are checked: the rest of the buffer
-/// may come from other passes, which have other ranges of values.
-/// A Buffer that is created while a Validation object exists is followed by guard bytes. They must
-/// not change; read as floats, they are NaN. A Texture of half floats that is created while a
-/// Validation object exists is filled with NaN, so that reading texels that no pass wrote becomes
-/// visible. Validation makes a pass ten times as slow. Without Validation, a pass only tests one
-/// pointer. The passes' GL context must be current. The state of that context is restored. A thread
-/// has at most one Validation.
+/// While a Validation object exists, the outputs of its thread's passes (outputsOf()) are read back
+/// and checked. Images and colours are checked only if their texture stores floats. In a storage
+/// buffer, only the values that the pass changed are checked: the rest of the buffer may come from
+/// other passes, which have other ranges of values. A Buffer that is created while a Validation
+/// object exists is followed by guard bytes. They must not change; read as floats, they are NaN. A
+/// Texture of half floats that is created while a Validation object exists is filled with NaN, so
+/// that reading texels that no pass wrote becomes visible. Validation makes a pass ten times as
+/// slow. Without Validation, a pass only tests one pointer. The passes' GL context must be current.
+/// The state of that context is restored. A thread has at most one Validation.
 ///
 ///     gpu::Validation validation;     // before the Pipeline is made
 ///     ... frames ...
