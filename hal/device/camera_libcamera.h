@@ -17,13 +17,13 @@ struct LibcameraOptions {
     CameraWish camera;
     Size size;
     /// Frame rate [Hz], requested if the camera has the control FrameDurationLimits. 0: the camera
-    /// takes pictures only when it is triggered, and drops are not counted.
+    /// takes pictures only when it is triggered, so drops are counted from frame numbers only.
     double rateHz = 30;
     /// A fixed exposure (ExposureTime), gain or focus ends its automatic mode.
     std::vector<std::pair<std::string, std::string>> controls;
     bool still = false;  ///< true: single pictures instead of video
     bool allowCrop = false;
-    unsigned buffers = 6;
+    unsigned buffers = 6;  ///< 2 to 64
 };
 
 struct LibcameraCounters {
@@ -45,16 +45,18 @@ struct LibcameraCounters {
 /// preference: NV12, YUV420, YUYV, XRGB8888, XBGR8888. For MJPEG, use CameraV4l2.
 ///
 /// Since libcamera 0.2, the sensor mode can be chosen. LibcameraCamera uses the smallest mode that
-/// shows the whole field of view, is at least as large as the picture and reaches the frame rate.
-/// If pictures show only a part of the field of view, the constructor or next() throws, unless
-/// LibcameraOptions::allowCrop is set.
+/// shows the whole field of view (not required if LibcameraOptions::allowCrop is set), is at least
+/// as large as the picture and reaches the frame rate. If there is none, libcamera chooses the
+/// mode. If pictures show only a part of the field of view, the constructor or next() throws,
+/// unless LibcameraOptions::allowCrop is set.
 ///
 /// The time of a frame is libcamera's SensorTimestamp (documented as the start of the first row's
 /// exposure) plus half the exposure. Drivers that take the timestamp at another moment cause a
 /// constant offset, which the calibration finds.
 class LibcameraCamera final : public Camera {
 public:
-    /// Throws std::runtime_error whose message lists the available cameras or formats.
+    /// Throws std::runtime_error. If the camera is not found or its formats are not supported, the
+    /// message lists the cameras or formats.
     explicit LibcameraCamera(const LibcameraOptions& options);
     LibcameraCamera(const LibcameraCamera&) = delete;
     LibcameraCamera& operator=(const LibcameraCamera&) = delete;

@@ -14,8 +14,9 @@ struct ListedCamera {
 };
 
 struct CameraWish {
-    std::string name{};    ///< id, location or model; empty: any camera
-    std::string except{};  ///< name of a camera that must not be chosen
+    std::string name{};  ///< id, location or model; empty: any camera
+    /// If `name` is empty: id, location or model of a camera that must not be chosen.
+    std::string except{};
     /// If `name` is empty: true chooses the camera with the largest pictures, false the one with
     /// the smallest.
     bool largest = false;
@@ -30,7 +31,8 @@ struct CameraWish {
 /// the smallest or largest pictures, see CameraWish::largest. The id decides among equal sizes.
 /// Throws std::runtime_error, whose message lists the cameras, in these cases: no camera or several
 /// cameras have the name; `except` is the only camera; `name` and `except` are empty, `largest` and
-/// `sharesDriver` are set, and there is only one camera.
+/// `sharesDriver` are set, and there is only one camera. Throws std::runtime_error, too, if
+/// `cameras` is empty.
 [[nodiscard]] std::size_t chooseCamera(const std::vector<ListedCamera>& cameras,
                                        const CameraWish& wish);
 

@@ -119,9 +119,10 @@ std::optional<Frame> CameraV4l2::next(std::chrono::milliseconds timeout) {
         const auto filled = stream_->take();
         if (filled) {
             if (auto frame = frameOf(*filled)) return frame;
-            // After a broken picture, the timeout does not end the wait, because whole pictures may
-            // be queued behind it. After as many broken pictures as there are buffers, the timeout
-            // does end the wait, because the driver may never deliver whole pictures.
+            // After a broken picture, further filled buffers are taken even if the timeout has
+            // passed, because they may hold whole pictures. After as many broken pictures as there
+            // are buffers, the timeout ends the search, because the driver may never deliver whole
+            // pictures.
             if (++broken >= stream_->buffers() && steady_clock::now() >= until) return std::nullopt;
         } else if (waited == Wait::Trouble) {
             // The device is not lost; otherwise take() would have thrown. Drivers also set POLLERR
@@ -220,8 +221,8 @@ std::optional<Timestamp> CameraV4l2::timeOf(const V4l2Filled& filled) {
     return out;
 }
 
-// Returns the exposure time that was set by hand, or 0 if it is automatic or unknown. V4L2's unit
-// is 100 us. Drivers use different names for the controls of the exposure.
+// Returns the exposure time, or 0 if it is automatic or unknown. V4L2's unit is 100 us. Drivers use
+// different names for the controls of the exposure.
 nanoseconds CameraV4l2::manualExposure() const {
     try {
         return readExposure();

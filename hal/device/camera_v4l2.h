@@ -21,7 +21,8 @@ namespace mfar {
 struct CameraV4l2Options {
     CameraWish device;  ///< path ("/dev/video0"), card name or bus
     V4l2Wish wish;
-    /// Number of driver buffers, 2 to 32. It must be larger than the number of pictures in use.
+    /// Number of driver buffers; values outside 2 to 32 are clamped. It must be larger than the
+    /// number of pictures in use.
     int buffers = 6;
     /// Added to the driver's timestamps. If the driver takes the timestamp at the end of a frame,
     /// set this to the sensor's readout time with a minus sign.
@@ -41,14 +42,14 @@ struct CameraV4l2Options {
 /// than requested and fewer than four. When the users of a frame have released it, the next call of
 /// next() gives its buffer back to the driver.
 ///
-/// Frame::time() is the middle of the exposure if the exposure is known (a manual
-/// exposure_time_absolute). It is computed from the driver's timestamp, which is at the start of
-/// the exposure or at the end of the frame, plus timeOffset. Broken or incomplete pictures and
-/// those with an implausible timestamp are counted and not delivered.
+/// Frame::time() is the middle of the exposure if the exposure is known: exposure_time_absolute or
+/// exposure_absolute, unless it is automatic. It is computed from the driver's timestamp, which is
+/// at the start of the exposure or at the end of the frame, plus timeOffset. Broken or incomplete
+/// pictures and those with an implausible timestamp are counted and not delivered.
 ///
-/// The constructor throws std::runtime_error if the camera is not found or busy, if it does not
-/// offer the size, or if a control is refused. next() throws DeviceLost if the device is lost; then
-/// a new CameraV4l2 must be created.
+/// The constructor throws std::runtime_error, e.g. if the camera is not found or busy, if it does
+/// not offer the size, or if a control is refused. next() throws DeviceLost if the device is lost;
+/// then a new CameraV4l2 must be created.
 class CameraV4l2 final : public Camera {
 public:
     explicit CameraV4l2(const CameraV4l2Options& options, V4l2Api& api = kernelV4l2());

@@ -85,8 +85,8 @@ void ScreenDisplay::lose(const std::string& why) {
     active_ = nullptr;
 }
 
-// True every few seconds if a preferred device could not be used before, e.g. because a boot screen
-// or a desktop controlled it. No event reports that such a program has ended.
+// Returns true every few seconds while the most preferred device is not in use, e.g. because a boot
+// screen or a desktop controls it. No event reports that such a program has ended.
 bool ScreenDisplay::retriesPreferred() {
     const Timestamp now = clock_();
     if (active_ == screens_.front().get() || (retriedAt_ && now - *retriedAt_ < kRetryPreferred))
@@ -95,8 +95,8 @@ bool ScreenDisplay::retriesPreferred() {
     return true;
 }
 
-// While a screen works and no device has changed, only that screen is checked, because checking
-// another screen opens its device.
+// While a screen works and no device has changed, only that screen is checked, except when
+// retriesPreferred() returns true: checking another screen opens its device.
 Screen* ScreenDisplay::look(bool changed) {
     if (active_ != nullptr && !changed && !retriesPreferred() &&
         active_->look(false) == Screen::Presence::Ready)

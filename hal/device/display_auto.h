@@ -28,8 +28,8 @@ public:
 
     /// `screens` are in order of preference; `scaler` draws the pictures of all of them. `changed`
     /// returns true if a device was added, removed or changed since its last call. If it always
-    /// returns false, two events are missed while a screen works: a change of the modes that its
-    /// monitor offers, and a more preferred screen that appears.
+    /// returns false, a change of the modes that the monitor of a working screen offers may be
+    /// missed, and a more preferred screen that appears is found up to about five seconds late.
     ScreenDisplay(std::unique_ptr<ScreenScaler> scaler,
                   std::vector<std::unique_ptr<Screen>> screens, Clock clock, Events changed);
     ScreenDisplay(const ScreenDisplay&) = delete;

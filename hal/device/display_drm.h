@@ -18,7 +18,7 @@
 namespace mfar {
 
 /// Returns the refresh rate [Hz] from the mode's timing, because the mode's `vrefresh` is rounded.
-/// Returns 0 if the mode has no rate.
+/// Returns `vrefresh` if the mode has no timing, and 0 if it has neither.
 [[nodiscard]] double refreshHz(const drmModeModeInfo& mode);
 
 /// Chooses a connector's mode. Among modes of the wanted size, progressive ones are preferred, then
@@ -60,10 +60,11 @@ public:
 
     [[nodiscard]] int fd() const { return fd_.get(); }
     [[nodiscard]] const std::string& path() const { return path_; }
-    /// Returns the connector that `spec` names, or the first connected one if `spec` names none.
-    /// Returns nothing if no monitor is connected there. With `probe`, the driver queries the
-    /// monitor, which may take tens of milliseconds; otherwise it reports the last known state.
-    /// Throws std::runtime_error if the device is lost.
+    /// Returns the connector that `spec` names, or the first connected one if `spec` names none. A
+    /// connector that cannot detect a monitor is returned only if no other is connected. Returns
+    /// nothing if no monitor is connected. With `probe`, the driver queries the monitor, which may
+    /// take tens of milliseconds; otherwise the driver reports the last known state. Throws
+    /// std::runtime_error if the device is lost.
     [[nodiscard]] std::optional<DrmOutput> findOutput(const ScreenSpec& spec, bool probe) const;
     [[nodiscard]] std::string connectors() const;
 

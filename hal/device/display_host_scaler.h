@@ -24,7 +24,7 @@ public:
 private:
     /// The rows (or columns) of the picture whose weighted mean is one row (or column) of the
     /// screen. All of them are inside the picture. `begin` is the index of their first weight in
-    /// `weights`.
+    /// Axis::weights and Axis::fixed.
     struct Footprint {
         int first = 0;
         int taps = 0;

@@ -191,7 +191,8 @@ void KmsScreen::waitForLastFlip() {
                     card_->path(), output_->connectorName));
 }
 
-// Otherwise the report of this flip would later be taken for that of another one.
+// Waits for the last flip and ignores errors. Without this wait, the report of the flip would later
+// be taken for that of another flip.
 void KmsScreen::waitForLostFlip() {
     try {
         waitForLastFlip();

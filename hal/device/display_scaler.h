@@ -42,8 +42,9 @@ public:
     /// Row 0 is the top row. Throws std::runtime_error for an empty picture.
     void draw(const Picture& picture, GLuint framebuffer, Size screen, Order order);
     void releaseGl();
-    /// Compiles the shaders that screens from 1280x720 to 1920x1080 will probably need, so that the
-    /// first picture is not delayed.
+    /// Compiles the shaders for pictures of this size on a screen of 1920x1080 pixels and on a
+    /// screen of the picture's size. Most screens need one of these shaders; then their first
+    /// picture is not delayed.
     void warmUp(const GlImage& picture);
 
 private:

@@ -20,7 +20,7 @@ public:
     virtual ~Screen() = default;
 
     /// Looks for the device, or checks whether an open device has changed. `thorough` includes slow
-    /// queries such as reading the monitor's data, so use it only after a change. Does not throw
+    /// queries such as reading the monitor's data, so do not use it in every call. Does not throw
     /// for a missing device.
     virtual Presence look(bool thorough) = 0;
     /// Returns the screen's size [px]. May be called only after look() returned Ready.

@@ -20,8 +20,8 @@ struct ScreenSpec {
     enum class Kind { Auto, Kms, Fbdev };
     Kind kind = Kind::Auto;
     std::string device;  ///< e.g. "/dev/dri/card0", "/dev/fb0"; empty: the first usable device
-    /// KMS only: name of the connector as in /sys/class/drm, e.g. "HDMI-A-1". Empty: the first
-    /// connector with a monitor.
+    /// KMS only: name of the connector, e.g. "HDMI-A-1" for card0-HDMI-A-1 in /sys/class/drm.
+    /// Empty: the first connector with a monitor.
     std::string connector;
     std::optional<ModeWish> mode;
     bool operator==(const ScreenSpec&) const = default;

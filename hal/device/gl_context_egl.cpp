@@ -78,9 +78,9 @@ EGLContext createContext(EGLDisplay display, EGLConfig config) {
     return context != EGL_NO_CONTEXT ? context : create(EGL_NONE, EGL_NONE);
 }
 
-// Opens the first EGL device that is a GPU, or if `software` is set, the one that is none
-// (EGL_MESA_device_software). If there is no such device, opens the surfaceless platform. That
-// platform may use a GPU, too.
+// Opens the first EGL device that is a GPU or, if `software` is set, the first that is a software
+// renderer (EGL_MESA_device_software). If no such device can be opened, opens the surfaceless
+// platform, which may use either.
 OpenedDisplay openDisplay(bool software) {
     const char* client = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
     const auto platformDisplay =

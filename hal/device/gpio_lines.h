@@ -55,8 +55,8 @@ public:
 };
 
 [[nodiscard]] std::vector<GpioChip> listGpioChips();
-/// Requests the line as an output at its inactive level. When the OutputLine is destroyed, the line
-/// keeps its level.
+/// Requests the line as an output at its inactive level. Most drivers keep the line's level when
+/// the OutputLine is destroyed, but the kernel does not guarantee it.
 [[nodiscard]] std::unique_ptr<OutputLine> requestOutput(const GpioAddress& line);
 [[nodiscard]] std::unique_ptr<EdgeInput> requestEdges(const GpioAddress& line);
 

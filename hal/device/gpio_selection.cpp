@@ -62,7 +62,7 @@ std::string listNames(const std::vector<const GpioChip*>& chips) {
 }
 
 std::vector<const GpioChip*> chipsFor(const std::vector<GpioChip>& chips, std::string_view wanted) {
-    // The device that a symbolic link names. An absolute `wanted` replaces the folder.
+    // `wanted` may be a symbolic link to a chip. An absolute `wanted` replaces the folder.
     std::error_code error;
     const auto device =
         std::filesystem::canonical(std::filesystem::path(kDeviceFolder) / wanted, error);

@@ -115,8 +115,8 @@ unsigned bitDepth(const std::string& format) {
     return depth;
 }
 
-/// Returns the sensor modes that are at least as large as `size`, smallest first. Returns none if
-/// this version of libcamera does not let its caller choose the mode.
+/// Returns the sensor modes that are at least as large as `size`, smallest first. Returns an empty
+/// list if this version of libcamera does not let its caller choose the mode.
 std::vector<SensorMode> sensorModes(libcamera::Camera& camera, Size size) {
     std::vector<SensorMode> modes;
     if constexpr (!libcamera_compat::hasSensorConfiguration()) return modes;

@@ -15,7 +15,7 @@ namespace mfar {
 /// these pictures, and counts the others. Only one thread at a time may use it.
 class PictureTimes {
 public:
-    /// What a driver reports about a picture.
+    /// A driver's report about a picture.
     struct Reported {
         bool isStartup = false;  ///< the sensor has just started; the picture is not to be used
         bool failed = false;

@@ -26,7 +26,7 @@ struct RestartLimits {
     /// Pause before the restart after two consecutive early ends. It doubles with each further
     /// early end.
     std::chrono::milliseconds firstPause{50};
-    int most = 5;
+    int most = 5;  ///< number of consecutive early ends after which the device counts as lost
 };
 
 /// A camera driver. It may complete requests in any order. Requests are identified by number.
@@ -68,7 +68,8 @@ public:
     void close();
 
     /// Returns the oldest picture, which the caller holds until giveBack(). Returns nothing if no
-    /// picture comes within `timeout` or after stop(). Throws DeviceLost.
+    /// picture comes within `timeout`, if this call restarted the stream, or after stop(). Throws
+    /// DeviceLost, and the errors of the driver if it cannot be started again.
     [[nodiscard]] std::optional<Done> next(std::chrono::milliseconds timeout);
     void giveBack(std::size_t request);
 

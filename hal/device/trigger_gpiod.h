@@ -21,8 +21,8 @@ struct TriggerOptions {
 
 /// Requests the trigger line at its inactive level. Also requests the loopback line, if there is
 /// one. Throws std::runtime_error. If a chip or line is not found, the message lists the available
-/// ones. If a line is in use, the message names the program that uses it. If permission is missing,
-/// the message names the group that the user must join.
+/// ones. If a line is in use, the message names the program that uses it, if that is known. If
+/// permission is missing, the message names the group that the user must join.
 [[nodiscard]] std::unique_ptr<PulseTrigger> openGpioTrigger(const TriggerOptions& options);
 
 }  // namespace mfar

@@ -29,8 +29,8 @@ struct V4l2Control {
 };
 
 /// Converts a control's name for the configuration: to lower case, with one underscore instead of
-/// each run of characters that are neither letters nor digits. "White Balance, Automatic" becomes
-/// white_balance_automatic.
+/// each run of characters that are neither letters nor digits. Such runs at the beginning and the
+/// end are removed. "White Balance, Automatic" becomes white_balance_automatic.
 [[nodiscard]] std::string foldedName(std::string_view name);
 
 [[nodiscard]] std::string describe(const V4l2Control& control);
@@ -38,10 +38,10 @@ struct V4l2Control {
 /// The controls of a device. They are found by foldedName(), because vendors use the same id for
 /// different controls: 0x981901 is one vendor's trigger mode and another vendor's flash.
 ///
-/// If a control is busy or the bus fails, setting it is tried three times at most. All calls throw
-/// std::runtime_error if the control is unknown, the value is out of range, or the control is
-/// read-only, busy or refuses the value. They throw DeviceLost if the device is lost. The device
-/// must outlive this object.
+/// If a control is busy or the bus fails, setting it is tried three times at most. get(), set() and
+/// press() throw std::runtime_error if the control is unknown, the value is out of range, or the
+/// control is read-only, busy or refuses the value. They throw DeviceLost if the device is lost.
+/// The device must outlive this object.
 class V4l2Controls {
 public:
     explicit V4l2Controls(const V4l2Device& device);

@@ -14,8 +14,9 @@
 
 namespace mfar {
 
-/// The system calls to a V4L2 driver. Tests replace them with a simulated driver. All functions
-/// return what the system calls return, and set errno.
+/// The system calls to a V4L2 driver. Tests replace them with a simulated driver. open(), ioctl()
+/// and map() return what the system calls return, and set errno. nodes() returns the paths of the
+/// video devices.
 class V4l2Api {
 public:
     virtual ~V4l2Api() = default;
@@ -28,8 +29,8 @@ public:
 
 [[nodiscard]] V4l2Api& kernelV4l2();
 
-/// Thrown if a system call to the device failed. The message names the device, the action and the
-/// reason.
+/// Thrown if a system call to the device failed. The message names the device, the reason and,
+/// unless the device could not be opened, the action.
 class V4l2Error : public std::runtime_error {
 public:
     V4l2Error(const std::string& message, int errorNumber)

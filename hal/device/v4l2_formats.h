@@ -28,8 +28,8 @@ struct V4l2PixelFormat {
 /// first), packed (smallest first), JPEG (decoding takes time), grey.
 [[nodiscard]] std::span<const V4l2PixelFormat> usableFormats();
 
-/// Returns the four characters of a format's number, e.g. "YUYV". Unprintable characters become
-/// dots.
+/// Returns the four characters of a format's number, without spaces at the end, e.g. "YUYV".
+/// Unprintable characters become dots.
 [[nodiscard]] std::string fourccText(std::uint32_t fourcc);
 
 struct V4l2Wish {
@@ -39,8 +39,9 @@ struct V4l2Wish {
 };
 
 /// Returns the first supported format that the driver offers in exactly the wanted size, preferably
-/// one that reaches the wanted frame rate. If no format has the size, throws std::runtime_error
-/// whose message lists the driver's formats and sizes.
+/// one that reaches the wanted frame rate. If the driver lists no sizes of a format, or no rates,
+/// all count as offered. If no format has the size, throws std::runtime_error whose message lists
+/// the driver's formats and sizes.
 [[nodiscard]] V4l2PixelFormat chooseFormat(const V4l2Device& device, const V4l2Wish& wish);
 
 struct V4l2Layout {
@@ -68,11 +69,11 @@ struct V4l2Layout {
 [[nodiscard]] V4l2Layout setFormat(const V4l2Device& device, const V4l2PixelFormat& format,
                                    Size size);
 
-/// Requests a frame rate. Returns the rate that the driver uses [Hz], or 0 if the driver does not
-/// report it.
+/// Requests a frame rate [Hz], unless `rateHz` is 0 or the driver's rate cannot be set. Returns the
+/// rate that the driver uses [Hz], or 0 if the driver does not report it.
 [[nodiscard]] double setRate(const V4l2Device& device, double rateHz);
 
-/// True if the device offers a format that CameraV4l2 can use.
+/// Returns true if the device offers a format that CameraV4l2 can use.
 [[nodiscard]] bool hasUsableFormat(const V4l2Device& device);
 
 /// Returns the number of pixels of the largest picture in a supported format, or 0 if the driver

@@ -49,8 +49,9 @@ bool isNamed(const V4l2Device& device, const std::string& name) {
            (name.starts_with("/") && std::filesystem::canonical(name, error) == device.path());
 }
 
-// False for a capture device that cannot be used, such as a sensor that gives only raw Bayer data,
-// and for the output of a chip that converts pictures, which has no input to capture from.
+// Returns false for a capture device that cannot be used, such as a sensor that gives only raw
+// Bayer data, and for the output of a chip that converts pictures, because it has no input to
+// capture from.
 bool looksLikeCamera(const V4l2Device& device) {
     v4l2_input input{};
     return device.tryCall(VIDIOC_ENUMINPUT, &input) != ENOTTY && hasUsableFormat(device);

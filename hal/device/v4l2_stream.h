@@ -47,7 +47,7 @@ public:
     /// Returns a filled buffer, which the caller holds until giveBack(). Returns nothing if no
     /// buffer is filled or the stream does not run. Throws DeviceLost if no more buffers will come.
     [[nodiscard]] std::optional<V4l2Filled> take();
-    /// Returns a buffer to this object. Only takeBack() returns it to the driver.
+    /// Returns a buffer to this object. The next takeBack() or start() returns it to the driver.
     void giveBack(int index) noexcept;
     void takeBack() noexcept;
     /// Returns a file descriptor for poll(). It is readable while takeBack() has buffers to return.
