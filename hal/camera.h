@@ -22,11 +22,11 @@ struct CameraInfo {
 /// All other frames are counted once.
 struct CameraCounters {
     std::uint64_t delivered = 0;
-    /// Frames that the driver lost because it had no free buffer. Not set if the driver does not
-    /// report them.
+    /// Frames that were not captured or not delivered, e.g. because the driver had no free buffer.
+    /// Not set if the camera does not count them.
     std::optional<std::uint64_t> missed{};
-    /// Frames that were not delivered, because they are incomplete or marked as broken by the
-    /// driver.
+    /// Frames that were not delivered, because they are incomplete, marked as broken by the driver,
+    /// or cannot be decoded.
     std::uint64_t broken = 0;
     /// Frames that were not delivered, because their timestamp is in the future, too old or out of
     /// order.
@@ -73,7 +73,7 @@ public:
     /// Returns true if a recording has ended, so that no further frame will come.
     [[nodiscard]] virtual bool ended() const = 0;
 
-    /// Thread-safe. All counters are zero for a camera that cannot lose frames.
+    /// Thread-safe. All counters are zero for a camera that does not count its frames.
     [[nodiscard]] virtual CameraCounters cameraCounters() const { return {}; }
     /// Returns the warnings since the last call. Thread-safe.
     [[nodiscard]] virtual std::vector<std::string> takeWarnings() { return {}; }

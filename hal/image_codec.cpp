@@ -123,7 +123,7 @@ void decodePng(std::span<const std::uint8_t> file, const TargetOf& targetOf, Ima
 }
 
 /// Returns true if a JPEG is progressive (ITU T.81, frame SOF2 and others). The decoder keeps all
-/// coefficients of a progressive JPEG in memory, six bytes per pixel.
+/// coefficients of a progressive JPEG in memory, up to six bytes per pixel.
 bool isProgressive(std::span<const std::uint8_t> file) {
     constexpr std::uint8_t kStartOfScan = 0xda;
     for (std::size_t at = 2; at + 4 <= file.size() && file[at] == 0xff;) {

@@ -19,16 +19,16 @@ struct PixelTarget {
 using TargetOf = std::function<PixelTarget(Size size)>;
 
 enum class ImageAlpha : std::uint8_t {
-    Opaque,
-    Kept,  ///< alpha comes from the file; 255 if the file has no alpha
+    Opaque,  ///< alpha is 255
+    Kept,    ///< alpha comes from the file; 255 if the file has no alpha
 };
 
 /// Returns true if a file begins like a PNG or a JPEG.
 [[nodiscard]] bool isPngOrJpeg(std::span<const std::uint8_t> file);
 
-/// Decodes a PNG or JPEG of any colour type to RGBA. 16-bit values are reduced to their upper 8
-/// bits. Throws std::runtime_error if the file is damaged, or if it is a progressive JPEG of more
-/// than 2^24 pixels.
+/// Decodes a PNG or JPEG to RGBA. 16-bit values are reduced to their upper 8 bits. Throws
+/// std::runtime_error if the file is damaged, is neither a PNG nor a JPEG, is a JPEG with CMYK
+/// colours, or is a progressive JPEG of more than 2^24 pixels.
 void decodeImage(std::span<const std::uint8_t> file, const TargetOf& targetOf,
                  ImageAlpha alpha = ImageAlpha::Opaque);
 

@@ -17,7 +17,7 @@ struct GlImage {
 
 /// A finished picture: either a texture (GLES engine), or rows in host memory with bytes R G B A
 /// (SIMD engine). Row 0 is the top row. Alpha is undefined. The engine owns the pixels; they are
-/// valid until it makes the next picture.
+/// valid until the engine makes the next picture.
 class Picture {
 public:
     Picture() = default;

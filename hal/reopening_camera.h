@@ -20,7 +20,8 @@ struct ReopeningOptions {
     /// If the camera sends no frame for this time, it is reported as silent. 0: the camera is
     /// triggered and may be silent.
     std::chrono::milliseconds silent{150};
-    /// If the camera sends no frame for this time, it is closed and opened again.
+    /// If the camera sends no frame for this time, it is closed and opened again, unless `silent`
+    /// is 0.
     std::chrono::milliseconds stalled{2000};
     /// Pause between two attempts to open the device. It doubles with each attempt, from firstPause
     /// to longestPause. A camera must work within 3 s after it is plugged in, although some
@@ -28,7 +29,7 @@ struct ReopeningOptions {
     std::chrono::milliseconds firstPause{100}, longestPause{500};
     /// Returns true while frames may be late for a reason outside this device. Then `excused` is
     /// used instead of `stalled`. Example: libcamera probes a new device in the thread that
-    /// delivers all frames. May be empty. Any thread may call it.
+    /// delivers all frames. May be empty. The thread of next() calls this function.
     std::function<bool()> busyElsewhere{};
     std::chrono::milliseconds excused{6000};
     WatchedThread opener{};
@@ -55,8 +56,8 @@ public:
     void stop() override;
     [[nodiscard]] bool ended() const override { return false; }
 
-    /// Closes the device if it is open. Then opens it again. `reason` becomes the fault. Any thread
-    /// may call it.
+    /// Makes the opener's thread close the device if it is open, and open it again. Does not wait.
+    /// `reason` becomes the fault.
     void reopen(const std::string& reason);
 
     [[nodiscard]] std::optional<std::string> fault() const;

@@ -22,7 +22,8 @@ struct StillMatcherOptions {
     /// cameras report arrival times, which need a larger window.
     std::chrono::nanoseconds window{std::chrono::milliseconds(1)};
     int learnFrom = 20;
-    /// If a still does not arrive within this time after its exposure, its pulse counts as lost.
+    /// If a still does not arrive within this time after the expected start of its exposure, its
+    /// pulse counts as lost.
     std::chrono::nanoseconds timeout{std::chrono::milliseconds(500)};
     bool repeat = true;
 };
@@ -33,7 +34,7 @@ struct StillCounters {
     /// Stills that match no pulse, or a pulse that already has a still.
     std::uint64_t unmatched = 0;
     std::uint64_t lost = 0;  ///< pulses whose still did not arrive before the timeout
-    std::uint64_t late = 0;
+    std::uint64_t late = 0;  ///< matched stills whose pulse was already counted as lost
     std::uint64_t repeated = 0;
     std::uint64_t relearned = 0;
     /// Matched stills that were skipped because a newer still came first.
@@ -61,9 +62,9 @@ public:
     };
 
     struct Due {
-        int lost = 0;
+        int lost = 0;  ///< number of pulses that this call of poll() counted as lost
         /// True if a pulse must be fired now to repeat a lost one. Stays true until pulseFired(...,
-        /// Repetition).
+        /// Repetition), or until the still of the lost pulse arrives.
         bool repeat = false;
     };
 
@@ -73,7 +74,8 @@ public:
 
     void pulseFired(Timestamp edge, Pulse kind = Pulse::Asked);
     /// Returns the pulse that a still matches. `exposed` is the start of the exposure as the camera
-    /// reports it. If no pulse matches, returns nothing, and the still must not be used.
+    /// reports it. If no pulse matches, or the pulse already has a still, returns nothing, and the
+    /// still must not be used.
     [[nodiscard]] std::optional<Match> stillArrived(Timestamp exposed);
     /// Counts pulses as lost if their stills are overdue. A pulse is repeated at most once.
     [[nodiscard]] Due poll(Timestamp now);

@@ -23,11 +23,12 @@ struct TriggeredStillOptions {
 };
 
 /// Combines the still camera and its trigger. Delivers only stills that match a pulse, in the order
-/// of their times. If a still does not arrive, its pulse is repeated once. fire() and counters()
-/// are thread-safe.
+/// of their times. If a still does not arrive, its pulse is repeated once, unless
+/// StillMatcherOptions::repeat is false. fire(), stop() and counters() are thread-safe.
 ///
 /// A still's time is the time of its pulse + the learned delay + half the exposure. The delay is a
-/// median over twenty pulses, which removes the jitter of the camera's timestamps.
+/// median over StillMatcherOptions::learnFrom stills, which removes the jitter of the camera's
+/// timestamps.
 class TriggeredStillCamera final : public Camera, public Trigger {
 public:
     TriggeredStillCamera(std::unique_ptr<Camera> camera, std::unique_ptr<Trigger> trigger,
@@ -38,7 +39,8 @@ public:
     /// Returns the next still. Also repeats lost pulses, so it must be called regularly. Throws the
     /// errors of the camera, and those of the trigger when a pulse is repeated.
     [[nodiscard]] std::optional<Frame> next(std::chrono::milliseconds timeout) override;
-    /// Ends an active pulse, then stops the camera. Until start(), fire() throws TriggerBusy.
+    /// Ends an active pulse, then stops the camera. Until the next start(), fire() throws
+    /// TriggerBusy.
     void stop() override;
     [[nodiscard]] bool ended() const override { return camera_->ended(); }
 

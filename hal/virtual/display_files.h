@@ -13,8 +13,9 @@ namespace mfar {
 
 /// Behaviour of a file display if pictures come faster than it writes them.
 struct FileDisplayPolicy {
-    /// True for a live source: show() never waits, and the oldest pictures are skipped and counted,
-    /// see Display::leftOut(). False: every picture is written, and show() waits.
+    /// True for a live source: show() never waits for a write; the oldest picture that waits to be
+    /// written (or the new one, if none waits) is skipped and counted, see Display::leftOut().
+    /// False: every picture is written, and show() waits.
     bool isLive = false;
     /// Called at the start of a wait with the name of the slow device or program, e.g. "the disk",
     /// and at the end of the wait with null.
@@ -36,8 +37,8 @@ struct FileDisplayPolicy {
 /// Unless policy.isLive is set, every picture is written, and show() waits while all buffers are in
 /// use. After a write has failed, show() and finish() throw std::runtime_error. A write also fails
 /// if a pipe's reader closes the pipe, or if a stop is requested through `cancel` while the write
-/// waits for a pipe's reader. Throws std::runtime_error if `spec` is unknown, or if the folder,
-/// file or pipe cannot be written.
+/// waits for a pipe's reader. Throws std::runtime_error if `spec` is unknown, if the folder, file
+/// or pipe cannot be written, or if `rateHz` of a Y4M video is outside 0.001 to 1000000 Hz.
 [[nodiscard]] std::unique_ptr<Display> openFileDisplay(std::string_view spec, double rateHz,
                                                        std::stop_token cancel = {},
                                                        const FileDisplayPolicy& policy = {});

@@ -67,7 +67,7 @@ bool Recorder::accepts(const Stream& stream, Timestamp time) const {
     return time.ns >= 0 && (!stream.last || *stream.last < time) && !error();
 }
 
-// After a write error, no buffer may ever become free, so the wait ends.
+// The wait also ends after a write error, because the picture would not be written.
 std::optional<FramePool::Slot> Recorder::bufferOf(PictureStream& stream) const {
     constexpr std::chrono::milliseconds kPoll{20};
     const auto end = std::chrono::steady_clock::now() + options_.patience;
@@ -179,7 +179,8 @@ void Recorder::checkSpace(std::uintmax_t bytes) {
 
 void Recorder::writePose(const Pose& pose) {
     if (poses_.written == 0) {
-        // Both are written at once, because a recording with the folder alone cannot be read.
+        // The folder and the file are created together, because a recording with the folder alone
+        // cannot be read.
         fs::create_directories(poses_.folder);
         appendToFile(poses_.folder / "data.csv", kPoseHeader);
     }

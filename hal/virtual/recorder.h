@@ -25,7 +25,9 @@ struct RecorderOptions {
     std::chrono::milliseconds patience{0};
     /// Disk space that must stay free [bytes]. If less is free, the recording ends with an error.
     std::uint64_t leastFreeBytes = 64U << 20;
-    std::uint64_t mostBytes = 0;  ///< largest size of a recording [bytes]; 0: no limit
+    /// If the pictures have become larger than this [bytes], the recording ends with an error. 0:
+    /// no limit.
+    std::uint64_t mostBytes = 0;
     /// This time was added to the times of the stills [s]. It is written to cam1/sensor.yaml,
     /// because a calibration from this recording must add it to its result.
     double stillTimeOffset = 0;
@@ -45,9 +47,10 @@ struct RecorderOptions {
 /// pictures after the last synchronisation.
 ///
 /// video(), still() and pose() may be called from three different threads, but each of them from
-/// one thread only. They return false if all buffers are in use, the time is not later than the
-/// previous one, the size differs from the rig's, a pose is not finite, or a write has failed
-/// before. An invalid view (requireSound()) throws std::invalid_argument.
+/// one thread only. They return false if all buffers are in use, the time is negative or not later
+/// than the previous one, the size differs from the rig's, a pose is not finite or its quaternion
+/// is not a unit quaternion, or a write has failed before. A picture of the rig's size whose view
+/// is invalid (requireSound()) throws std::invalid_argument.
 class Recorder {
 public:
     struct Counts {
@@ -56,7 +59,8 @@ public:
     };
 
     /// Creates the folder, or uses an empty one, and writes the calibration. Throws
-    /// std::runtime_error if the folder is not empty or cannot be written.
+    /// std::runtime_error if the folder is not empty or cannot be written, or if `videoRateHz` is
+    /// not above 0.
     Recorder(const std::filesystem::path& root, const StereoRig& rig, double videoRateHz,
              const RecorderOptions& options = {});
     ~Recorder();

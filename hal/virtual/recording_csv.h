@@ -40,7 +40,8 @@ private:
 };
 
 /// Visits the rows of data in a CSV file. Skips blank lines, lines that begin with '#', a byte
-/// order mark and carriage returns. Throws RecordingError if the file cannot be read.
+/// order mark and carriage returns. Throws RecordingError if the file cannot be read or has a line
+/// of more than 4096 characters.
 void forEachCsvRow(const std::filesystem::path& file,
                    const std::function<void(const CsvRow&)>& visit);
 

@@ -62,8 +62,9 @@ private:
 /// still comes first. After the end of the video, any still is returned.
 ///
 /// With `asksVideoFirst`, a still is returned only if its time is not later than that of the last
-/// frame that video().next() returned. This suits a thread that requests a frame and then the
-/// stills up to it.
+/// frame that video().next() returned (before the first frame: not later than that of the first
+/// frame). This suits a thread that requests a frame and then the stills up to that frame. After
+/// the end of the video, any still is returned.
 ///
 /// With Pace::Consumer, next() waits for the decoder without a limit. Its timeout applies only
 /// while the consumer holds all buffers, or while the next still must not be returned yet.
@@ -84,7 +85,8 @@ public:
     /// the time of the delivered frame is later.
     [[nodiscard]] Timestamp recordedTime(Timestamp played) const;
     /// Returns the current time of the cameras. With Pace::Realtime, it is the time of their clock;
-    /// otherwise it is the time of the last delivered video frame.
+    /// otherwise it is the time of the last delivered video frame, or of the first frame if none
+    /// was delivered yet.
     [[nodiscard]] Timestamp now() const;
     [[nodiscard]] std::uint64_t skipped() const;
 
