@@ -154,7 +154,7 @@ void App::onReady() {
         if (!ready_) return;
         running_ = std::exchange(ready_, std::nullopt);
     }
-    // A reload during the start has changed the mode already.
+    // A reload during the start may have changed the mode already.
     running_->description.mode = name(config_.superres.mode);
     log_.notice(running_->startLine, {message::kStarted});
     service_.ready(running_->startLine);

@@ -44,11 +44,12 @@ namespace mfar {
 /// A second signal ends the process at once. If the main thread itself hangs during the shutdown,
 /// LastResort ends the process 2.5 s after the first signal.
 ///
-/// If a run ends without a signal, it waits without a limit until its output is written. After
-/// that, it waits at most 2.5 s for its devices.
+/// If a run ends without a signal, it waits without a limit until its output is written, unless the
+/// picture thread hangs after --seconds. After that, it waits at most 2.5 s for its devices.
 class App {
 public:
-    /// Throws ConfigError, Failure.
+    /// Throws Failure, e.g. ConfigError, and std::system_error if the kernel has no free
+    /// descriptor.
     App(const Options& options, Log& log);
 
     /// Runs until the end. Writes the summary and the report, even if the run fails. Throws the
@@ -91,8 +92,8 @@ private:
     [[noreturn]] void leaveFailed(const std::exception_ptr& error);
     void onHangUp();
     /// Starts a reload of the configuration. The returned future becomes ready when the file has
-    /// been read; it then has the answer for the user. Throws std::runtime_error if mfard has no
-    /// configuration file.
+    /// been read. It then has the answer for the user, or the error if the configuration is refused
+    /// or mfard ends before. Throws std::runtime_error if mfard has no configuration file.
     std::shared_future<std::string> reload();
     void readAgain();
     [[nodiscard]] bool isReading() const;
@@ -104,7 +105,7 @@ private:
     std::filesystem::path startRecording(const std::string& name);
     [[nodiscard]] nlohmann::ordered_json stopRecording();
     void onTick();
-    /// Warns about each part of the virtual objects' models that mfard does not show.
+    /// Logs the warnings about the configuration, see notesOf().
     void logNotes();
     void setTicks();
     [[nodiscard]] Health health(const Counted& counted);

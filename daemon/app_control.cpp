@@ -14,8 +14,8 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// Longest wait for the answer to a command of mfarctl. Even on the slowest board, one picture
-/// takes less time.
+/// Longest wait of a command of mfarctl for another thread. A command may wait several times. Even
+/// on the slowest board, one picture takes less time.
 constexpr std::chrono::milliseconds kAnswerTime{10'000};
 
 }  // namespace

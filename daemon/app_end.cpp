@@ -26,9 +26,9 @@ namespace {
 
 using Seconds = std::chrono::duration<double>;
 
-// Time limits after a signal. If no pictures are being written, the process ends kLeaveTime after
-// the signal. Otherwise, writing is cancelled kFlushTime after the signal, and the process ends
-// kCancelTime later.
+// Time limits after a signal. If no pictures are being written, the process ends at most kLeaveTime
+// after the signal. Otherwise, writing is cancelled kFlushTime after the signal, and the process
+// ends at most kCancelTime later.
 constexpr Seconds kLeaveTime{0.2};
 constexpr Seconds kFlushTime{0.4};
 constexpr Seconds kCancelTime{0.5};
@@ -73,8 +73,9 @@ void App::onOver() {
     if (!stopSignal_) events_.deadlineIn(kLastResort);
 }
 
-// Ends the process if the run is ending and the picture thread hangs, e.g. in a driver of the GPU.
-// A picture thread that waits for a slow output does not count as hanging.
+// Ends the process if --seconds is ending the run and the picture thread hangs, e.g. in a driver of
+// the GPU. A picture thread that waits for a slow output does not count as hanging. After a signal,
+// onDeadline() ends the process.
 void App::leaveIfHanging() {
     if (!stopReason_ || stopSignal_ || ended_) return;
     for (const Heartbeats::Late& late : stats_.heartbeats().late(isProven_ ? 1 : kFirstPatience))

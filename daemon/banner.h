@@ -11,7 +11,7 @@ namespace mfar {
 
 /// Draws a message about a fault over a picture. Only one thread may use it. For pictures in
 /// textures, the GL context must be current on this thread. Memory is allocated when the first
-/// fault is drawn. Throws GlError.
+/// message is drawn, and for the text of each new message. Throws GlError.
 class Banner {
 public:
     explicit Banner(Size size) : size_(size) {}

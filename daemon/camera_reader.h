@@ -18,7 +18,7 @@ namespace mfar {
 inline constexpr std::chrono::milliseconds kFrameWait{50};
 
 /// Fetches the frames of one camera of a rig, refuses frames of a wrong size, and reports the
-/// camera's state to `stats`. Only one thread may use it.
+/// camera's state to `stats`. Except for isWaiting(), only one thread may use it.
 class CameraReader {
 public:
     /// `rig` and `stats` must outlive this object.
@@ -29,6 +29,7 @@ public:
     [[nodiscard]] std::optional<Frame> next(std::chrono::milliseconds timeout);
     [[nodiscard]] bool ended() const { return camera_.ended(); }
 
+    /// Returns true while next() waits for the camera. Thread-safe.
     [[nodiscard]] bool isWaiting() const { return waiting_; }
 
 private:

@@ -25,8 +25,8 @@ struct CameraState {
     /// Time of the last picture that differed from the one before it. Not set if repeated pictures
     /// are not detected.
     std::optional<Timestamp> lastDistinct{};
-    std::optional<double> distinctAgeS{};
-    bool repeats = false;  ///< true: the camera has repeated a picture for more than kRepeatTime
+    std::optional<double> distinctAgeS{};  ///< age of that picture [s], set by Stats::count()
+    bool repeats = false;  ///< true: the camera has repeated a picture for at least kRepeatTime
 };
 
 /// The type of a camera, which decides which checks apply to its frames.
@@ -41,11 +41,11 @@ enum class CameraKind {
 class CameraWatch {
 public:
     /// The user is warned if the frame rate differs from the configured one by more than
-    /// kRateTolerance (0.1: 10 %) for longer than kRateTime.
+    /// kRateTolerance (0.1: 10 %) for at least kRateTime. This warning comes only once.
     static constexpr double kRateTolerance = 0.1;
     static constexpr std::chrono::seconds kRateTime{3};
-    /// The user is warned if the camera repeats a picture at least kRepeats times and for longer
-    /// than kRepeatTime.
+    /// The user is warned if the camera repeats a picture at least kRepeats times and for at least
+    /// kRepeatTime.
     static constexpr std::chrono::seconds kRepeatTime{2};
     static constexpr int kRepeats = 3;
 
@@ -55,7 +55,7 @@ public:
     void add(const CameraCounters& counters);
 
     [[nodiscard]] const CameraState& state() const { return state_; }
-    /// Returns the new warnings about the camera, each only once.
+    /// Returns the warnings since the last call.
     [[nodiscard]] std::vector<std::string> takeWarnings();
 
 private:

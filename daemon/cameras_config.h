@@ -19,8 +19,8 @@ enum class CameraDriver {
 
 struct CameraConfig {
     CameraDriver driver = CameraDriver::Libcamera;
-    /// With libcamera: id, model or location of the camera. With V4L2: path of the device or name
-    /// of the card. Empty: any camera, except the one configured for the other sensor.
+    /// With libcamera: id, model or location of the camera. With V4L2: path or bus of the device,
+    /// or name of the card. Empty: any camera, except the one configured for the other sensor.
     std::string camera{};
     Size size{};
     double rateHz = 0;            ///< 0: the camera is triggered

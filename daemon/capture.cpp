@@ -111,8 +111,8 @@ bool CaptureThread::captureOne(FramePairer& pairer, Heartbeat& heart) {
     // Predicted poses and poses of stills are not recorded. When the recording is played,
     // Recording::poseAt() interpolates between the recorded poses.
     if (captured.pose && poses_.isRecordable(*captured.pose)) rig_.recordPose(*captured.pose);
-    // With a lossless source, put() waits until the previous picture has been processed. This wait
-    // must not count as a hanging thread.
+    // With a lossless source, put() waits until this frame has been processed. This wait must not
+    // count as a hanging thread.
     if (rig_.handOver() == HandOver::Lossless) heart.rest();
     const auto put = out_.put(std::move(captured));
     if (put == Mailbox<CapturedFrame>::Put::Replaced) stats_.mailboxDropped(out_.dropped());

@@ -19,8 +19,8 @@
 
 namespace mfar {
 
-/// A video frame. `still` is the newest still that was exposed before the frame; it is not set if
-/// an earlier frame already has this still.
+/// A video frame. `still` is the newest still whose time is not later than the frame's; it is not
+/// set if an earlier frame already has this still.
 struct CapturedFrame {
     Frame video;
     std::optional<CapturedStill> still;

@@ -113,8 +113,8 @@ public:
 /// Failure(NoInput) if it cannot be read.
 [[nodiscard]] std::string readConfigText(const std::filesystem::path& file);
 
-/// Returns the keys that have different values in the two configurations and take effect only after
-/// a restart, e.g. "source, display". Returns an empty text if there are none.
+/// Returns the keys and sections that differ between the two configurations and take effect only
+/// after a restart, e.g. "source, cameras". Returns an empty text if there are none.
 [[nodiscard]] std::string needRestart(const Config& running, const Config& wanted);
 
 /// These functions convert between a value and its word in the configuration and on the command

@@ -137,7 +137,8 @@ void ControlSocket::startAnswers(std::vector<Client>& clients) {
 // Returns false when this object is destroyed.
 bool ControlSocket::waitFor(std::vector<Client>& clients) {
     std::vector<pollfd> waiting{{stop_.get(), POLLIN, 0}, {answered_.get(), POLLIN, 0}};
-    // While kMostClients clients are connected, further clients wait in the socket's queue.
+    // While kMostClients clients send a request or wait for an answer thread, further clients wait
+    // in the socket's queue.
     waiting.push_back({clients.size() < kMostClients ? listening_.get() : -1, POLLIN, 0});
     int timeout = -1;
     for (const Client& client : clients) {

@@ -34,7 +34,7 @@ void readEngine(TomlReader& file, EngineConfig& engine);
 [[nodiscard]] EngineChoice withWishes(const EngineConfig& engine, EngineChoice decided);
 
 /// Returns "simd" or "gles" if all steps run on one engine. Otherwise, returns the engine of each
-/// step, e.g. "still gles, flow simd" and so on.
+/// step, e.g. "still gles, pyramid simd, flow simd, weigh simd, detail gles, occlusion gles".
 [[nodiscard]] std::string describe(const EngineChoice& choice);
 [[nodiscard]] std::optional<EngineChoice> parseEngineChoice(std::string_view text);
 

@@ -17,8 +17,8 @@ namespace mfar {
 /// Returns nothing if no choice is stored or the file is damaged.
 [[nodiscard]] std::optional<EngineChoice> rememberedEngines(const std::filesystem::path& file,
                                                             const std::string& key);
-/// Stores the choice for `key` and keeps the choices for other keys. Returns false if the file
-/// cannot be written.
+/// Stores the choice for `key` and keeps the choices for other keys. Returns false if `file` is
+/// empty or cannot be written.
 bool rememberEngines(const std::filesystem::path& file, const std::string& key,
                      const EngineChoice& choice);
 

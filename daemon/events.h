@@ -18,8 +18,8 @@ struct Event {
 };
 
 /// Reports the events for which the main thread waits. The constructor blocks SIGINT, SIGTERM and
-/// SIGHUP in the calling thread and in all threads that it starts later. So these signals are
-/// reported by this class only.
+/// SIGHUP in the calling thread and in all threads that this thread starts later. So these signals
+/// are reported by this class only.
 class Events {
 public:
     /// Throws std::system_error.

@@ -19,7 +19,8 @@ enum class ExitCode {
     BadConfig = 78,
 };
 
-/// An error that ends the program. It has an exit code and a message, usually of one line.
+/// An error with an exit code and a message, usually of one line. Unless it is caught before
+/// main(), it ends the program.
 class Failure : public std::runtime_error {
 public:
     Failure(ExitCode exitCode, const std::string& message)

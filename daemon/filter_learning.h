@@ -39,8 +39,8 @@ struct FilterLearningOptions {
 /// learned, at most once a minute. stop() stores the rest.
 class FilterLearning final : public MatchListener {
 public:
-    /// Reads the learned state from the file. If that fails, queues a warning and learns from the
-    /// beginning.
+    /// Reads the learned state from the file, if the file exists. If that fails, queues a warning
+    /// and learns from the beginning.
     explicit FilterLearning(FilterLearningOptions options);
     FilterLearning(const FilterLearning&) = delete;
     FilterLearning& operator=(const FilterLearning&) = delete;
@@ -62,7 +62,8 @@ public:
     void finish();
 
     // The following functions are thread-safe.
-    /// Deletes all that was learned, and the file.
+    /// Requests that the learning thread deletes all that was learned, and the file. Does not wait
+    /// for this.
     void reset();
     [[nodiscard]] LearningCounts counts() const;
     [[nodiscard]] std::vector<std::string> takeWarnings();

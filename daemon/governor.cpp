@@ -9,7 +9,8 @@ namespace mfar {
 namespace {
 
 // The governor changes to a level only if the level's expected time is at most this share of the
-// deadline: kRoom for a change to a better level, kDownRoom for a change to a faster one.
+// deadline: kRoom for a change to a better level, kDownRoom for a change to a faster one. The
+// fastest level needs no room.
 constexpr double kRoom = 0.85;
 constexpr double kDownRoom = 0.95;
 // A faster level is chosen when more than kMostLate of the last kLateWindow counted frames are
@@ -24,8 +25,9 @@ constexpr std::uint64_t kSettle = 8;
 // doubles with each further failure of the level, up to kLongestWait.
 constexpr std::uint64_t kFirstWait = 20, kLongestWait = 960;
 // If a level misses the deadline only after at least kHeld counted frames, the scene has changed.
-// The level is then not used for the next kFirstWait frames, as after its first failure. If a level
-// has kept the deadline for kHeld counted frames, the next better level may be tried.
+// The level is then not used for the next kFirstWait frames, as after its first failure. After
+// kHeld counted frames at a level, the next better level may be tried, if none of the last
+// kLateWindow frames was late.
 constexpr std::uint64_t kHeld = 100;
 constexpr int kAtRest = 3;
 constexpr std::uint64_t kStillEvery = 40;
@@ -110,7 +112,8 @@ void Governor::goTo(std::size_t level) {
     ++changes_;
 }
 
-// Returns the best level that may be used now and whose expected time is at most `ms`.
+// Returns the best level that may be used now and whose expected time is at most `ms`. Returns the
+// fastest level if there is none.
 std::size_t Governor::bestWithin(double ms) const {
     std::size_t best = 0;
     for (std::size_t i = 1; i < levels_.size(); ++i)

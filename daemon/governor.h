@@ -19,9 +19,10 @@ namespace mfar {
 /// ten.
 ///
 /// If two of 40 counted frames are late, the governor changes to the best faster level that is
-/// expected to keep the deadline. If better levels are expected to need at most 85 % of the
-/// deadline, it changes to the best of them. After a level missed the deadline, the governor does
-/// not change to it from a faster level for some counted frames. Their number doubles each time.
+/// expected to need at most 95 % of the deadline, or to the fastest level. If better levels are
+/// expected to need at most 85 % of the deadline, it changes to the best of them. After a level
+/// missed the deadline, the governor does not change to it from a faster level for some counted
+/// frames. Their number doubles each time.
 ///
 /// If a part of the time is the same at all levels, the expected time of a better level is too
 /// long. So after 100 counted frames at a level, of which none of the last 40 was late, another
@@ -31,8 +32,8 @@ namespace mfar {
 ///
 /// Three types of frames are not counted: frames in which nothing was drawn, frames with a new
 /// still, unless the frame before had one, too, and frames without a still at a level that uses
-/// one. When the picture comes to rest, it is drawn once more at the best level. That frame may be
-/// late, because nothing moves in it.
+/// one. When the picture comes to rest, it is drawn once more at the best level. That frame is not
+/// counted, either. It may be late, because nothing moves in it.
 class Governor {
 public:
     /// `levels` must not be empty and must be sorted by time. `deadlineMs` must be greater than

@@ -44,7 +44,8 @@ bool isFresh(std::optional<Timestamp> shown, const Observed& seen) {
 }
 
 // Returns the state Stalled if neither a new picture nor a banner about a faulty device was shown
-// recently. Otherwise returns nothing. Must be called only if no vital thread hangs.
+// recently, although mfard became ready long enough ago. Otherwise returns nothing. Must be called
+// only if no vital thread hangs.
 std::optional<Judged> standingStill(const Observed& seen) {
     // The last banner counts even if the device has just returned, because its first picture is not
     // shown at once.

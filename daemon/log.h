@@ -23,7 +23,8 @@ class Log {
 public:
     enum class Style { Terminal, Journal, Plain };
 
-    /// Returns Journal if the environment's JOURNAL_STREAM names the file of this descriptor.
+    /// Returns Terminal if the descriptor is a terminal, and Journal if the environment's
+    /// JOURNAL_STREAM names its file.
     [[nodiscard]] static Style styleOf(int fd);
 
     using Clock = std::function<Timestamp()>;

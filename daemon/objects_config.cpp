@@ -70,10 +70,10 @@ private:
     void countParts(const Model& model) {
         parts_ += model.paths.size() + 1;
         if (parts_ > kMostSceneObjects)
-            throw ModelError(
-                fmt::format("the moving nodes of all models, and one more part for each model, are "
-                            "more than {}",
-                            kMostSceneObjects));
+            throw ModelError(fmt::format(
+                "the moving nodes of all objects' models, and one more part for each of "
+                "these objects, are more than {}",
+                kMostSceneObjects));
     }
 
     [[nodiscard]] std::filesystem::path identity(std::string_view name) const {

@@ -12,8 +12,8 @@ namespace mfar {
 /// Returns e.g. "0.001 to 10000 ms", or an empty text if the option has no range.
 [[nodiscard]] std::string rangeText(const Option& option);
 
-/// Describes an option in one paragraph: its meaning, its range, and the allowed words that the
-/// meaning does not mention. Returns an empty text if the option has no meaning of its own.
+/// Describes an option in one paragraph: its meaning, the allowed words unless the meaning mentions
+/// all of them, and its range. Returns an empty text if the option has no meaning of its own.
 [[nodiscard]] std::string describe(const Option& option);
 
 /// Breaks a text into lines of at most `width` characters. A longer word gets its own line.

@@ -48,8 +48,8 @@ struct CommandLine {
 [[nodiscard]] CommandLine parseCommandLine(int argc, const char* const* argv);
 
 /// Returns the configuration of a run: the file of --config or the defaults, overridden by the
-/// command line. Throws ConfigError or Failure: NoInput if the configuration file or the tag map is
-/// missing, BadData if the tag map is invalid, BadConfig if options contradict each other.
+/// command line. Throws ConfigError or Failure: NoInput if the configuration file cannot be read,
+/// BadConfig if pose.source is "recorded" without a recording.
 [[nodiscard]] Config effectiveConfig(const Options& options);
 
 /// Returns effectiveConfig() after a check of the files that it names, see requireFiles(). With

@@ -39,16 +39,17 @@ void readPose(TomlReader& file, PoseConfig& pose);
 
 [[nodiscard]] std::optional<PoseOrigin> poseOrigin(std::string_view word);
 
-/// Returns the configured tag map. It is empty if no map is configured or poses do not come from
-/// tags. Throws like readTagMap(), and Failure(BadData) for the map of apriltag_ros if `families`
-/// does not have exactly one family.
+/// Returns the configured tag map. It is empty if no map is configured or pose.source is "none".
+/// With recorded poses, the map is read, too. Throws like readTagMap(), and Failure(BadData) for
+/// the map of apriltag_ros if `families` does not have exactly one family.
 [[nodiscard]] TagMap configuredTags(const PoseConfig& pose);
 
 /// Throws Failure(NoInput) if the file does not exist, Failure(BadData) if it is invalid.
+/// `ofRosMap`: family of the tags in a map of apriltag_ros, which does not name it.
 [[nodiscard]] TagMap readTagMap(const std::filesystem::path& file,
                                 TagFamily ofRosMap = TagFamily::Tag36h11);
 
-/// `rateHz`: frames per second of the video.
+/// `rateHz`: frames per second of the video; 0: unknown.
 [[nodiscard]] TrackerOptions trackerOptions(const PoseConfig& pose, TagMap map, double rateHz);
 
 }  // namespace mfar

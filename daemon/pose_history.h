@@ -21,7 +21,7 @@ public:
     /// velocity. The error of this assumption is estimated and added to the covariance: the
     /// velocity between these two poses is compared with the velocity in the interval before or
     /// after them. Pose::tags is 0. Returns nothing if t is not between two poses at most
-    /// kLongestGap apart, or if there is no third pose for the comparison.
+    /// kLongestGap apart, or if no third pose for the comparison is within kLongestGap of them.
     [[nodiscard]] std::optional<Pose> at(Timestamp t) const;
 
     static constexpr std::chrono::milliseconds kLongestGap{100};

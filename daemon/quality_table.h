@@ -23,7 +23,8 @@ struct QualityLevel {
 [[nodiscard]] const std::vector<QualityLevel>& builtInQualityLevels();
 
 /// Parses a TOML text with sections [[level]], whose keys levelOptions() lists. Returns the levels,
-/// sorted by time. `file` names the file in messages. Throws ConfigError with all faults.
+/// sorted by time. `file` names the file in messages. Throws ConfigError with all faults of the
+/// keys, or with the first level that lacks a key or has the name of another one.
 [[nodiscard]] std::vector<QualityLevel> parseQualityLevels(std::string_view toml,
                                                            const std::string& file);
 

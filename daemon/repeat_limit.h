@@ -30,12 +30,13 @@ public:
         std::uint64_t count = 1;
     };
 
-    /// Returns true if the message must be logged now. Otherwise keeps it for due(), instead of an
-    /// older message about the same event.
+    /// Returns true if the message must be logged now. Otherwise keeps it for due() or rest(),
+    /// instead of an older message about the same event.
     [[nodiscard]] bool mayPass(std::string_view event, const Message& message, Timestamp now);
     /// Returns the kept messages that may be logged now, in the order of their last events. Each
     /// ends with the number of repetitions: "... (repeated 7 times in 28 s)".
     [[nodiscard]] std::vector<Message> due(Timestamp now);
+    /// Like due(), but returns all kept messages.
     [[nodiscard]] std::vector<Message> rest(Timestamp now);
 
 private:

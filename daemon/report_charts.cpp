@@ -40,7 +40,8 @@ public:
         return out;
     }
 
-    /// `value` computes a bin's value from the totals of the previous bin and of the bin itself.
+    /// `value` computes a bin's value from the totals of the previous bin with pictures and of the
+    /// bin itself.
     using Change = std::function<double(const RunTotals& before, const RunTotals& now)>;
     [[nodiscard]] std::vector<double> changes(const Change& value) const {
         RunTotals before;

@@ -57,7 +57,7 @@ std::filesystem::path RestartPause::defaultFile() {
 }
 
 // Returns the number of consecutive failures before this process. The file contains this number and
-// the end time of the last process, on the clock that starts at boot.
+// the end time of the last failed process, on the clock that starts at boot.
 int RestartPause::failuresBefore(Timestamp started) const {
     std::istringstream in(textOf(file_));
     int count = 0;

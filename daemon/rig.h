@@ -38,7 +38,8 @@ struct Recorded {
     std::uint64_t dropped = 0;
 };
 
-/// The devices of one run. Only this class chooses the implementations of the devices.
+/// The cameras, trigger line and recording of one run. Only the files rig* choose the
+/// implementations of cameras, trigger and display.
 class Rig {
 public:
     /// Opens the configured source. Its threads register at `hearts`, which must outlive this
@@ -57,10 +58,11 @@ public:
     /// clock.
     [[nodiscard]] std::chrono::nanoseconds stillTimeOffset() const;
     [[nodiscard]] std::optional<std::uint64_t> videoFrames() const;
-    /// Returns the tags and poses that the source has: those of a recording, or the tags of the
-    /// simulated board. The result is valid as long as the rig exists.
+    /// Returns the source's geometry and frame rate, and the tags and poses that it has: those of a
+    /// recording, or the tags of the simulated board. The result is valid as long as the rig
+    /// exists.
     [[nodiscard]] PoseInputs poseInputs() const;
-    /// Returns e.g. "synthetic office: video 640x480 at 30 Hz, still 2304x1728".
+    /// Returns e.g. "synthetic:office: video 640x480 at 30 Hz, still 2304x1728".
     [[nodiscard]] std::string description() const;
     [[nodiscard]] std::optional<StillCounters> matching() const;
     [[nodiscard]] std::optional<std::string> fault() const;

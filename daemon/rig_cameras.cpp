@@ -24,8 +24,9 @@ namespace {
 
 constexpr double kNominalView = std::numbers::pi / 3;
 constexpr double kNominalBaseline = 0.014;
-// After kSilentPeriods frame periods without a frame, a camera is reported as silent. After
-// kStalledPeriods, it is reopened.
+// After kSilentPeriods frame periods without a frame, but not earlier than
+// ReopeningOptions::silent, a camera is reported as silent. After kStalledPeriods, but not earlier
+// than ReopeningOptions::stalled, it is reopened.
 constexpr double kSilentPeriods = 4.5, kStalledPeriods = 20;
 constexpr double kUnknownPeriodMs = 500;
 
@@ -229,7 +230,7 @@ std::unique_ptr<Camera> CamerasSource::openVideo() {
 }
 
 // If the camera with the larger pictures is connected first, it is used for the video. When the
-// other camera is connected, the video gives it up.
+// other camera is connected, the video changes to that one and leaves the larger one to the stills.
 std::unique_ptr<Camera> CamerasSource::openStill() {
     if (choosesBoth() && !video_->absent()) {
         const std::string smallest =

@@ -11,9 +11,9 @@ enum class RecordingCheck {
 };
 
 /// Checks the files, apart from models and pictures, that a run with this configuration reads
-/// before its first frame: calibration, quality levels and recording. Also checks the memory for
-/// the pictures of the source. Throws Failure with all faults; each begins with the place of its
-/// key, see Config::places. The exit code of the Failure is that of the first fault.
+/// before its first frame: calibration, tag map, quality levels and recording. Also checks the
+/// memory for the pictures of the source. Throws Failure with all faults; each begins with the
+/// place of its key, see Config::places. The exit code of the Failure is that of the first fault.
 void requireFiles(const Config& config, RecordingCheck check);
 
 /// Throws Failure if pictures of the cameras or of the simulated board need more memory than

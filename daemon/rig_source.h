@@ -29,8 +29,9 @@ public:
     bool hasSensors = false;  ///< true: the cameras are real sensors, see CameraKind::Sensor
     ExitCode failure = ExitCode::Unavailable;
     std::optional<std::uint64_t> videoFrames{};
-    std::chrono::nanoseconds stillTimeOffset{0};  ///< is to be added to the times of the stills
-    /// Was already added to the times of the stills, when they were recorded.
+    /// Offset that must be added to the times of the stills.
+    std::chrono::nanoseconds stillTimeOffset{0};
+    /// Offset that was already added to the times of the stills when they were recorded.
     std::chrono::nanoseconds recordedTimeOffset{0};
     TagMap tags{};
     /// Returns the recorded pose at a point in time. Not set without recorded poses.

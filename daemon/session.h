@@ -65,9 +65,9 @@ public:
 
     using Over = std::function<void(const std::string& reason, const std::exception_ptr& error)>;
     /// Processes frames until the source ends, a stop is requested or `maxFrames` frames are shown.
-    /// Waits until their pictures are written, then calls `over`. What remains after that call may
-    /// hang: ending the learning and closing the devices. Returns the reason of the end. Throws
-    /// Failure.
+    /// Waits until their pictures are written, then calls `over` with the reason of the end. If the
+    /// run fails, calls `over` with the error. The work that remains after that call may hang:
+    /// ending the learning and closing the devices. Returns the reason of the end. Throws Failure.
     [[nodiscard]] std::string run(std::optional<std::uint64_t> maxFrames, const Over& over);
 
     // Other threads must not call the following functions directly, but through the CallQueue. The
@@ -112,8 +112,9 @@ private:
     /// Creates drawing_, with the open GL context or without GL. Gives it all settings and the
     /// stills in use.
     void makeDrawing();
-    /// After a loss of the GPU, creates drawing_ in a new GL context. `why` is the reason of the
-    /// loss. Throws Failure.
+    /// After a loss of the GPU, creates drawing_ in a new GL context, or for the CPU if the GPU was
+    /// lost too often. `why` is the reason of the loss. Throws Failure or std::runtime_error if
+    /// that fails, too.
     void makeDrawingAnew(std::string why);
     [[nodiscard]] std::optional<std::string> gpuFault();
     [[nodiscard]] std::string bannerText();
@@ -151,8 +152,8 @@ private:
     StopTokens stop_;
     Config config_;
     Rig rig_;
-    /// The first recording, which beginRecording() requests. Valid until its folder has been
-    /// created and the recording has started.
+    /// The first recording, which beginRecording() requests. Valid until the recording has started
+    /// or its folder could not be created.
     std::future<std::shared_ptr<Recorder>> firstRecording_;
     PoseFinder poses_;
     GlDevice device_ = GlDevice::Preferred;
@@ -169,7 +170,7 @@ private:
     std::optional<CapturedStill> newestStill_;
     // Copies of three stills. usedStill_ is in use, secondStill_ is the pipeline's second still,
     // and formerStill_ was in use before usedStill_. The copies are needed for the report, and to
-    // go on after a loss of the GPU. They are not set if no step runs on GLES and no report is
+    // go on after a loss of the GPU. They are not set if there is no GL context and no report is
     // written. formerStill_ may become the second still. Otherwise, its memory is reused for the
     // next still.
     std::optional<UsedStill> usedStill_, secondStill_, formerStill_;
@@ -178,7 +179,7 @@ private:
     std::optional<Governor> governor_;
     Governor::Choice choice_{};
     std::vector<StageTime> stages_;
-    /// Time of the frame to which the pipeline's statistics belong.
+    /// Time of the last processed frame. FrameStats::explained of the next one may belong to it.
     std::optional<Timestamp> previous_;
     std::optional<Timestamp> stillTime_;
     std::optional<Timestamp> shownAt_;  ///< time at which the display got its last picture

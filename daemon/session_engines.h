@@ -24,8 +24,11 @@ struct OpenedGl {
 /// other steps ("auto"), these rules apply, in this order:
 ///   - If shader outputs are validated, GLES is used.
 ///   - Without GL, or with a software renderer, SIMD is used.
+///   - If the pictures are too large for the GPU's textures, SIMD is used. Throws
+///     Failure(Unavailable) if the step "detail" is configured to run on GLES.
 ///   - Otherwise, the engine that was faster on this GPU is used, measured now or at an earlier
-///     start. Nothing is measured if promisingEngines() returns only one choice.
+///     start. If promisingEngines() returns only one choice, this choice is used and nothing is
+///     measured.
 [[nodiscard]] EngineChoice chooseEngines(const Config& config, const GlContext* gl,
                                          const StereoRig& rig, Size output);
 

@@ -79,7 +79,7 @@ struct Counted {
     std::uint64_t refinedFrames = 0;
     /// Mean of FrameStats::epipolarError over the frames whose posePatches is not 0 [video px].
     double meanEpipolarError = 0;
-    std::uint64_t depthTiles = 0;  ///< tiles with measured depth, summed over all frames
+    std::uint64_t depthTiles = 0;  ///< sum of FrameStats::depthTiles over all frames
     /// Tiles that show a virtual object, and whose depth was not measured, because the real surface
     /// is known to lie behind the object.
     std::uint64_t depthTilesSkipped = 0;
@@ -195,9 +195,9 @@ public:
     [[nodiscard]] RunPictures pictures();
 
 private:
+    /// The caller of these four functions must have locked mutex_.
     void total(Timestamp now);
     void age(Timestamp now);
-    /// The caller of these two functions must have locked mutex_.
     void objects(const FrameStats& frame);
     void remember(const FinishedPicture& picture);
 

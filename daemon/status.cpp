@@ -44,8 +44,8 @@ std::array<double, kTileClasses> shares(const Tiles& tiles) {
     return out;
 }
 
-// Returns e.g. ", tracked 98% (6 tags, 0.12 px, 2.1 ms)", or an empty text if no poses are
-// searched.
+// Returns e.g. ", tracked 98% (6 tags, 0.12 px, 2.1 ms)", or an empty text if no pose was
+// requested.
 std::string tracking(const PoseCounts& poses) {
     if (poses.frames == 0) return "";
     std::string out = fmt::format(", tracked {:.0f}%", poses.trackedShare() * 100);
@@ -57,7 +57,8 @@ std::string tracking(const PoseCounts& poses) {
     return out + fmt::format(", {:.1f} ms)", poses.tracker.lastMs);
 }
 
-// Returns e.g. ", quality lines-2 (3% late)", or an empty text without a governor.
+// Returns e.g. ", quality lines-2 (3% late)", or an empty text without a governor and a pinned
+// level.
 std::string quality(const QualityCounts& counts) {
     if (counts.level.empty()) return "";
     std::string out = ", quality " + counts.level;
@@ -136,8 +137,8 @@ nlohmann::ordered_json virtualSummary(const Counted& counted) {
     return out;
 }
 
-// Returns ", path tracing 83% at 1.20 M samples/s, 120 pixels missing", or an empty text without
-// path tracing.
+// Returns e.g. ", path tracing 83% at 1.20 M samples/s, 120 pixels missing", or an empty text if no
+// path-traced object is in view.
 std::string tracing(const Counted& counted) {
     if (!counted.traced || !counted.last.objectsInView) return "";
     if (counted.last.objectsHidden) return ", objects hidden";

@@ -9,7 +9,8 @@ namespace {
 /// a smaller share.
 constexpr double kMovedShare = 0.05;
 
-/// Longest pause after two lost stills. The cause may be a camera that is plugged in again.
+/// Longest pause after two lost stills. The cause may be an unplugged camera; when it is plugged in
+/// again, the next still must not come much later.
 constexpr double kLongestPauseS = 10;
 
 /// Pause after a trigger that could not fire.

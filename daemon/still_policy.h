@@ -48,7 +48,7 @@ public:
     [[nodiscard]] bool decide(Timestamp now, Timestamp before, const FrameStats& stats,
                               bool mayDemand = true);
 
-    /// Requests a still at the next call of decide(), in every mode.
+    /// Requests a still at the next call of decide() at which no still is pending, in every mode.
     void ask() { asked_ = true; }
 
     /// Must be called if the trigger could not fire, because the previous pulse had not ended. The

@@ -35,6 +35,7 @@ class StillBox {
 public:
     static constexpr std::size_t kCapacity = 2;
 
+    /// Stores a still. If the queue is full, drops its oldest still and returns false.
     bool put(CapturedStill still);
     [[nodiscard]] std::optional<CapturedStill> take();
 

@@ -31,7 +31,7 @@ public:
 
     /// `table` contains the types and ranges of all keys. Reading a key that is not in `table`
     /// throws std::logic_error. `file` names the file in messages. Throws ConfigError if the syntax
-    /// is invalid.
+    /// is invalid or the text exceeds the limits of toml_bounds.h.
     TomlReader(std::string_view text, std::string file, std::span<const OptionSection> table);
 
     /// The following functions read the value of a key: "name", "section.name" or, in a list of
@@ -46,8 +46,8 @@ public:
     /// Reads a list of at least one text. `check` checks each text.
     void texts(std::string_view key, std::vector<std::string>& out, const Check& check = nullptr);
     void numbers(std::string_view key, std::span<double> out, const NumbersCheck& check = nullptr);
-    /// Reads a table with any keys, whose values are texts, numbers and booleans. The values are
-    /// returned as text: "1", "0.5", "true", in the order of the file.
+    /// Reads a table with any keys, whose values are texts, numbers and booleans. Appends the keys
+    /// and values to `out`, the values as text: "1", "0.5", "true", in the order of the file.
     void values(std::string_view key, std::vector<std::pair<std::string, std::string>>& out);
     template <class E>
     void choice(std::string_view key, E& out,
@@ -60,8 +60,8 @@ public:
     /// nothing if the key is absent.
     [[nodiscard]] std::optional<std::string> placeOf(std::string_view key) const;
 
-    /// Must be called after all keys have been read. Throws ConfigError with all faults, in the
-    /// order of the file, if there are any.
+    /// Must be called after all keys have been read. Throws ConfigError with all faults, but at
+    /// most 50, in the order of the file, if there are any.
     void finish();
 
 private:

@@ -14,8 +14,8 @@ public:
         std::uint64_t missedEdges = 0;
         bool repeats = false;
     };
-    /// Returns one sentence for each fault (lost stills, missed edges) since the last call.
-    /// Allocates memory only if there is such a fault.
+    /// Returns one sentence for each type of fault (lost stills, missed edges) that has occurred
+    /// since the last call. Allocates memory only if there is such a fault.
     [[nodiscard]] std::vector<std::string_view> newSince(const Seen& seen);
 
 private:

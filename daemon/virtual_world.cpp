@@ -13,9 +13,9 @@
 namespace mfar {
 namespace {
 
-// Largest brightness of caustics, which is light that shiny objects focus on other surfaces.
-// Brighter caustics are clamped, because they would need very many samples. 1 is white in the shown
-// picture.
+// Upper limit of the indirect light that each surface on a path adds to a pixel; 1 is white in the
+// shown picture. Brighter light is clamped, because it would need very many samples. It comes
+// mostly from caustics: shiny objects focus light on other surfaces.
 constexpr float kBrightestCaustic = 1;
 
 std::shared_ptr<const Environment> environmentOf(const LightOptions& light) {

@@ -27,9 +27,9 @@ struct Reply {
     std::vector<std::uint8_t> data;
 };
 
-/// Sends a request to the mfard that listens at this socket. Waits up to 15 s for the answer,
-/// or up to 10 minutes for the end of a recording, which waits for the disk. Throws NotReachable,
-/// Refused.
+/// Sends a request to the mfard that listens at this socket. Waits up to 15 s for each part of the
+/// answer, or up to 10 minutes for the end of a recording, which waits for the disk. Throws
+/// NotReachable, Refused.
 [[nodiscard]] Reply ask(const std::filesystem::path& socket, const nlohmann::json& request);
 
 }  // namespace mfar

@@ -14,7 +14,7 @@ using nlohmann::ordered_json;
 // The counters of a camera, in the order in which they are shown: the key that status.cpp gives to
 // the counter, and its text.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 8> kCounters{{
-    {"missed", "missed by the driver"},
+    {"missed", "missed"},
     {"broken", "broken"},
     {"bad_times", "with impossible times"},
     {"untimed", "without times"},

@@ -39,8 +39,8 @@ TEST(StatusText, EachCameraHasALineWithTheCountersThatAreNotZero) {
                                 {"distinct_age_s", 0.03}};
     const ordered_json still = {{"configured_hz", 0.0}, {"measured_hz", 0.0}, {"delivered", 0}};
     EXPECT_EQ(statusText({{"cameras", {{"video", video}, {"still", still}}}}),
-              "cameras    video: 512 pictures, 29.5 of 30.0 per second, 1 missed by the driver, 3 "
-              "broken, last new picture 0.0 s ago\n"
+              "cameras    video: 512 pictures, 29.5 of 30.0 per second, 1 missed, 3 broken, last "
+              "new picture 0.0 s ago\n"
               "           still: 0 pictures\n");
 }
 

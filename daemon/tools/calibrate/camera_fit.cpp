@@ -19,7 +19,7 @@ constexpr double kLeastSigma = 0.01;
 // not show the target.
 constexpr double kMaxViewError = 0.03;
 // Focal lengths of the first estimate, as multiples of the picture's width. They correspond to
-// horizontal fields of view from 106 to 18 degrees.
+// horizontal fields of view from 106 to 19 degrees.
 constexpr std::array kFocalLengths{0.38, 0.54, 0.76, 1.07, 1.5, 2.1, 3.0};
 
 struct Points {

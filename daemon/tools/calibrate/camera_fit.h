@@ -17,7 +17,8 @@ class Unsuitable : public std::runtime_error {
 };
 
 /// Returns the pose T_camera_target of the target in one view. Returns nothing if the view has
-/// fewer than six corners, or if its RMS error exceeds 3 % of the picture's width.
+/// fewer than six corners, if no pose in front of the camera is found, or if the RMS error is 3 %
+/// of the picture's width or more.
 [[nodiscard]] std::optional<RigidTransform> targetPose(const Target& target, const TargetView& view,
                                                        const CameraModel& camera);
 
@@ -42,8 +43,8 @@ struct CameraFit {
     CameraModel camera;
     /// T_camera_target of each view. Not set: the view does not fit the other views.
     std::vector<std::optional<RigidTransform>> poses;
-    std::vector<int> chosen;
-    double sigma = 0;  ///< robust standard deviation of a corner's coordinate [px]
+    std::vector<int> chosen;  ///< indices of the views to which the camera was fitted
+    double sigma = 0;         ///< robust standard deviation of a corner's coordinate [px]
 };
 
 /// Fits intrinsics and distortion (k3 stays 0) to at most `most` views. The views are chosen so

@@ -10,7 +10,8 @@ namespace mfar::calibration {
 /// that are still empty.
 class OutputFolder {
 public:
-    /// Throws std::runtime_error ("folder: cannot be created: reason").
+    /// Throws std::runtime_error ("folder: cannot be created: reason" or "folder: cannot be written
+    /// to: reason").
     explicit OutputFolder(const std::filesystem::path& folder);
     OutputFolder(const OutputFolder&) = delete;
     OutputFolder& operator=(const OutputFolder&) = delete;

@@ -23,8 +23,8 @@ public:
     [[nodiscard]] int size() const { return static_cast<int>(times_.size()); }
 
     /// Returns the indices of four consecutive poses, two before and two after t. Returns nothing
-    /// if a frame between them is missing, or after allowMissingFrames(), if two are missing in a
-    /// row.
+    /// if there are no such poses, or if a frame between them is missing; after
+    /// allowMissingFrames(), only if two frames in a row are missing.
     [[nodiscard]] std::optional<std::array<int, 4>> around(Timestamp t) const;
     [[nodiscard]] Timestamp time(int index) const { return times_[index]; }
     [[nodiscard]] const RigidTransform& pose(int index) const { return poses_[index]; }
@@ -33,8 +33,8 @@ public:
     /// the lower quartile of the gaps between poses, because many frames may be missing.
     [[nodiscard]] double interval() const;
 
-    /// The error of between() grows where frames are missing, but a recording that has lost many
-    /// frames has too few stills otherwise.
+    /// Lets around() and at() accept single missing frames. The error of between() grows there, but
+    /// a recording that has lost many frames has too few stills otherwise.
     void allowMissingFrames();
 
 private:

@@ -18,11 +18,11 @@ inline constexpr int kStillAt = 9, kExtrinsicAt = 18, kOffsetAt = 24, kShared = 
 
 /// Adjusts all parameters together, so that they fit the corners in all views of both sensors. The
 /// parameters are both cameras, the extrinsics, the offset of the still camera's clock, and the
-/// target's pose in each video frame. The method is Levenberg-Marquardt with a robust cost.
+/// poses of addPose(). The method is Levenberg-Marquardt with a robust cost.
 ///
-/// A still's pose is interpolated between the poses of the four video frames around it. So stills
-/// determine the baseline and the clock offset, although no video frame was taken at exactly the
-/// same time.
+/// The pose of a still that addTied() adds is interpolated between the poses of the four video
+/// frames around the still. So these stills determine the baseline and the clock offset, although
+/// no video frame was taken at exactly the same time.
 class RigBundle {
 public:
     RigBundle(const Target& target, const StereoRig& rig, double offset);

@@ -26,8 +26,8 @@ constexpr double kLeastMotion = 1;
 constexpr int kLeastMoving = 3;
 constexpr double kMaxFocalDeviation = 0.005;
 constexpr double kMaxBaselineDeviation = 0.002;
-// The cameras disagree if the residual of both together exceeds this [px] and this multiple of the
-// residual of one alone.
+// The cameras disagree if the RMS residual of one of them, fitted together with the other, exceeds
+// both kMostResidual [px] and kMostGrowth times its residual when it is fitted alone.
 constexpr double kMostResidual = 1, kMostGrowth = 4;
 
 struct Member {

@@ -39,7 +39,7 @@ double shortestEdge(const TagDetection& tag) {
 
 /// Returns half the side of the window in which a tag's corner is refined [px]. The window contains
 /// only parts of the tag's border and of the square in the gap between tags. The border is at least
-/// one of the tag's eight cells wide. The factor 0.9 allows for slanted edges.
+/// an eighth of the tag's edge wide. The factor 0.9 allows for slanted edges.
 int windowFor(const TagDetection& tag, const Target& target) {
     const double clear = shortestEdge(tag) * std::min(1. / 8, target.spacing);
     return std::min(kLargestWindow, static_cast<int>(0.9 * clear));
