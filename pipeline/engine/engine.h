@@ -30,8 +30,8 @@ struct EngineChoice {
         return {kind, kind, kind, kind, kind, kind};
     }
     /// Returns a choice with the same engine for all steps: Simd if the environment variable
-    /// MFAR_ENGINE is "simd", otherwise Gles. Benchmarks and tests that do not choose an engine use
-    /// it.
+    /// MFAR_ENGINE is "simd", otherwise Gles. Benchmarks and tests use this choice unless they
+    /// choose an engine themselves.
     [[nodiscard]] static EngineChoice fromEnvironment();
     [[nodiscard]] bool uses(EngineKind kind) const {
         return still == kind || pyramid == kind || flow == kind || weigh == kind ||
@@ -64,8 +64,8 @@ public:
     [[nodiscard]] virtual std::unique_ptr<WarpStep> warp(const CameraModel& layer,
                                                          const WarpOptions& options) = 0;
 
-    /// Prepares a new still for the weigh and detail steps, so that they allocate nothing while
-    /// they process frames.
+    /// Prepares a new still for the flow, weigh and detail steps, so that they allocate nothing
+    /// while they process frames.
     virtual void take(const StillPictures&) {}
     /// Submits all work of the steps to the GPU, without waiting.
     virtual void flush() {}

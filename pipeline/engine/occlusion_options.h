@@ -6,7 +6,8 @@ namespace mfar {
 
 /// Options that decide when a real surface hides a virtual one. The difference of their inverse
 /// depths is measured in sigmas. One sigma is the standard deviation of this difference. It follows
-/// from the measured standard deviation of the real depth and from virtualSigma.
+/// from the measured standard deviation of the real depth and from virtualSigma. No option may be
+/// negative or above 1000.
 struct CompositeOptions {
     /// A real surface that is nearer than the virtual one by less than this [sigmas] hides nothing.
     /// This prevents, for example, that a table hides the bottom of an object that stands on it.

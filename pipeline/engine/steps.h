@@ -20,7 +20,8 @@
 #include <vector>
 
 // Interfaces of the steps that process a frame. Both engines implement them. Steps allocate memory
-// only in their constructors. The result of run() is valid until the next run() of the same step.
+// in their constructors, for a new still, and when an option or a Field's copy is first needed, but
+// not in every frame. The result of run() is valid until the next run() of the same step.
 
 namespace mfar {
 
@@ -115,24 +116,25 @@ public:
     /// std::invalid_argument if an option is out of range.
     virtual void setOptions(const Flow2dOptions& options) = 0;
     /// Searches the flow from video to still (forward) and from still to video (backward). If
-    /// `usePrior` is true, the last frame's flow vectors are candidates in all cells. Finally, the
-    /// forward flow is corrected by comparison with the still at its full resolution, see
-    /// params::kSubpixelReach. `luma` must contain the pyramids of `pictures`.
+    /// `usePrior` is true, the last frame's forward flow vectors are candidates for the forward
+    /// flow in all cells. Finally, the forward flow is corrected by comparison with the still at
+    /// its full resolution, see params::kSubpixelReach. `luma` must contain the pyramids of
+    /// `pictures`. Without matched tiles, the last result stays.
     virtual const FlowCells& run(const Pictures& pictures, const LumaPyramid& luma,
                                  const TileWork& work, bool usePrior) = 0;
-    /// Refines `along`, the flow along epipolar lines. Its errors must be below a pixel. First,
-    /// tiles in which the flow does not fit the pictures are searched in two dimensions. Then,
-    /// doubtful cells are compared with the still at its full resolution, see
-    /// params::kPatchSamples. Finally, the flow is corrected as by run(). `luma` must contain the
-    /// pyramids of `pictures`.
+    /// Refines `along`, the flow along epipolar lines. On static surfaces, its vectors must be
+    /// right to within a pixel. First, tiles in which the flow does not fit the pictures are
+    /// searched in two dimensions. Then, doubtful cells are compared with the still at its full
+    /// resolution, see params::kPatchSamples. Finally, the flow is corrected as by run(). `luma`
+    /// must contain the pyramids of `pictures`. Without matched tiles, the last result stays.
     virtual const FlowCells& refine(const Pictures& pictures, const LumaPyramid& luma,
                                     const TileWork& work, const AlongLines& along) = 0;
     /// Returns a flag for each tile, row-major: true if the last call was refine() and it searched
     /// the tile in two dimensions. After run(), all flags are false. Waits for the GPU if needed.
     [[nodiscard]] virtual std::vector<bool> searchedTiles() const = 0;
     [[nodiscard]] virtual int searchedCount() const = 0;
-    /// Returns a searchedCount() without waiting for the GPU. With the SIMD engine, it is that of
-    /// the last frame. With the GLES engine, it is that of the frame before the last one.
+    /// Returns searchedCount() of a recent frame, without waiting for the GPU. With the SIMD
+    /// engine, this is the last frame. With the GLES engine, it is the frame before the last one.
     [[nodiscard]] virtual int finishedSearchedCount() const { return searchedCount(); }
 };
 
@@ -154,7 +156,7 @@ struct TileSummary {
     /// Share of tiles that do not lack a match, [0, 1]. Tiles without structure and tiles that were
     /// not matched count as explained, unless the frame was drawn without a still.
     double explained = 0;
-    int second = 0;  ///< number of tiles that show the second still
+    int second = 0;  ///< number of tiles that show some of the second still
 };
 
 struct DetailOptions {
@@ -171,8 +173,8 @@ public:
     struct Matched {
         const StillPictures& still;
         const CellWeights& weights;
-        /// A second still, or null. It is shown where its weight is larger than that of `still`. It
-        /// is used only in mode Detail with learned filters.
+        /// A second still, or null. It is shown where its weight exceeds the weight of `still` by
+        /// more than params::kSecondFrom. It is used only in mode Detail with learned filters.
         const Matched* second = nullptr;
     };
 
@@ -181,8 +183,10 @@ public:
     /// null, the video is only enlarged.
     virtual void draw(const VideoFrame& frame, const Matched* matched, const TileWork& work,
                       const DetailOptions& options) = 0;
-    /// The output picture: RGBA8, row 0 on top, alpha 255. If other code changes its pixels, they
-    /// stay changed until draw() draws their tiles again.
+    /// The output picture: RGBA8, row 0 on top, alpha 255. If other code changes its pixels in the
+    /// memory of this step's engine, they stay changed until draw() draws their tiles again. If
+    /// other code changes a copy in the other memory (CPU or GPU), draw() discards all of these
+    /// changes as soon as any tile changed.
     [[nodiscard]] virtual Field<std::uint32_t>& output() = 0;
     /// Summary of the last frame. Waits for the GPU if necessary.
     [[nodiscard]] virtual TileSummary summary() const = 0;
@@ -199,7 +203,7 @@ using params::kShadowLift;
 struct LayerPicture {
     Field<std::uint32_t> colour;  ///< RGBA8, premultiplied by coverage
     Field<float> depth;           ///< z along the camera's axis [m]; 0 where there is no object
-    PixelRect bounds;
+    PixelRect bounds;             ///< bounds of the covered layer pixels; empty: nothing is drawn
 };
 
 class OcclusionStep {
@@ -210,8 +214,8 @@ public:
     virtual void draw(const LayerPicture& layer, const InverseDepthField& real,
                       const PixelRect& where, const VideoFrame& frame,
                       Field<std::uint32_t>& picture) = 0;
-    /// Returns the visibility of the layer after the last draw(), [0, 1], for each output pixel
-    /// within the layer's bounds. Waits for the GPU if necessary.
+    /// Returns the visibility of the layer after the last draw(), [0, 1], one entry per output
+    /// pixel. Only entries within the layer's bounds are valid. Waits for the GPU if necessary.
     [[nodiscard]] virtual std::vector<float> visibility() const = 0;
 };
 

@@ -35,8 +35,9 @@ inline constexpr int kPatchSide = 8;
 }
 
 /// Returns the change of the flow per pixel. `before` and `after` are the flow two cells before and
-/// after the cell. The result is the one-sided difference that is smaller in magnitude. It is 0 if
-/// the differences have different signs or if one is NaN. GLSL: slopeAt() in flow_cells.glsl.
+/// after the cell. The result is the one-sided difference that is smaller in magnitude, clamped to
+/// +-params::kSteepestFlow. It is 0 if the differences have different signs or if one is NaN. GLSL:
+/// slopeAt() in flow_cells.glsl.
 [[nodiscard]] inline float slopeOf(float before, float here, float after) {
     const float a = here - before, b = after - here;
     if (!(a * b > 0)) return 0;

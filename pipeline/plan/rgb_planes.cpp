@@ -75,8 +75,9 @@ public:
 private:
     static constexpr float kOne = 8192;
 
-    /// Reads chroma as (value - 128) * 128. Chroma samples lie between the pixels. Along each axis,
-    /// a pixel gets 3/4 of the nearer sample and 1/4 of the farther one.
+    /// Reads chroma as (value - 128) * 128. Chroma samples lie between the pixels that share them.
+    /// Along each axis on which pixels share samples, a pixel gets 3/4 of the nearer sample and 1/4
+    /// of the farther one.
     void readChroma(const Samples& plane, int y, std::int16_t* to) {
         const int width = size_.width / 2;
         const int row = sharedRows_ ? y / 2 : y;

@@ -22,8 +22,8 @@ public:
     static constexpr float kLack = 0.1F;
     /// Smallest gain in mean weight that is worth the time of matching with the second still.
     static constexpr float kGain = 0.05F;
-    /// If the second still does not show a tile, the tile is not matched with it again for this
-    /// number of frames.
+    /// If the second still does not show a tile, the tile is not matched with it in the next frames
+    /// in which it would be a candidate. This is the number of these frames.
     static constexpr int kRest = 8;
 
     struct Match {
@@ -34,11 +34,13 @@ public:
     explicit SecondTiles(Size tiles);
 
     /// Candidates are the tiles that are drawn and matched in this frame, but that the newest still
-    /// does not show. Chooses at most `most` of them. Tiles with much structure, and tiles that the
-    /// second still showed before, are preferred. `measured` must belong to the same frame. The
-    /// result is valid until the next call.
+    /// does not show. Chooses at most `most` of them. Preferred are tiles of which the newest still
+    /// shows little, tiles with much structure, and tiles that the second still showed before.
+    /// `measured` must belong to the same frame. The result is valid until the next call.
     const TileWork& choose(const TileWork& work, std::span<const TileMeasure> measured,
                            const Match& newest, int most);
+    /// Finds which of the tiles that choose() returned the second still improves. `newest`,
+    /// `second`: results of matching this frame with both stills.
     void judge(const Match& newest, Rows<const WeighedCell> second);
     /// Must be called when the second still or the newest still is replaced.
     void forget();
@@ -58,8 +60,8 @@ private:
     TileWork work_;
     std::vector<Candidate> candidates_;
     std::vector<bool> showed_;
-    // For each tile: number of frames, from now on, in which it is not matched with the second
-    // still.
+    // For each tile: number of the next frames in which it is not matched with the second still
+    // although it would be a candidate.
     std::vector<std::uint8_t> rest_;
     int matched_ = 0, shownByNewest_ = 0, gained_ = 0;
 };

@@ -22,7 +22,8 @@ struct TileMeasure {
     float noise = 0;  ///< standard deviation of the video's noise [grey levels]
     /// Structure of the luma that a match can use. The luma is averaged over 2x2 pixels,
     /// and a plane fitted to 8x8 pixels is subtracted, because a plane cannot be matched. The
-    /// result is the sum of squares of the rest, averaged over 9 positions in the tile.
+    /// result is the sum of squares of the rest, averaged over 9 positions in the tile [grey
+    /// levels^2].
     float structure = 0;
     /// Three mean squares, computed from the change of luma since the tile was last drawn. They are
     /// scaled so that white noise makes them equal. `pixels`: of the twists of 2x2 pixels. `means`:

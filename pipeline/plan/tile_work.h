@@ -9,27 +9,31 @@
 
 namespace mfar {
 
-/// Work that each tile needs to draw a frame. WorkPlan writes it; all steps read it.
+/// Work that each tile needs to draw a frame. WorkPlan and SecondTiles write it; all steps read it.
 struct TileWork {
     enum class Draw : std::uint8_t {
-        Tiles,  ///< only changed tiles are drawn
+        Tiles,  ///< only tiles with the flag `changed` are drawn
         /// The whole frame is drawn at once, with detail only in the rectangle detailTiles.
         Whole,
         /// The whole frame is enlarged at once. Detail is drawn only in matched tiles.
         WholeEnlarged
     };
     struct Tile {
-        std::uint8_t changed = 0;  ///< the video differs from the video of the last drawing
-        std::uint8_t matched = 0;  ///< the tile has structure and is matched with the still
+        /// 1 if the tile must be drawn again, because its video or an overlay changed or because
+        /// the whole frame is drawn again on request.
+        std::uint8_t changed = 0;
+        std::uint8_t matched = 0;  ///< 1 if the tile has structure and is matched with the still
     };
 
     Size tiles;
     std::vector<Tile> flags;
-    int changed = 0;
-    int matched = 0;
+    int changed = 0;  ///< number of changed tiles
+    int matched = 0;  ///< number of tiles that are changed and matched
     Draw draw = Draw::Whole;
-    PixelRect detailTiles;  ///< the smallest rectangle around all matched tiles [tiles]
-    double noise = 0;
+    /// A rectangle around all matched tiles [tiles]. It is the smallest one if WorkPlan may choose
+    /// Draw::WholeEnlarged; otherwise it contains all tiles.
+    PixelRect detailTiles;
+    double noise = 0;  ///< standard deviation of the video's noise [grey levels]
 
     [[nodiscard]] static TileWork everything(Size tiles) {
         const int count = tiles.width * tiles.height;

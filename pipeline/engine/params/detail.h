@@ -2,9 +2,9 @@
 
 #include <cstdint>
 
-// Parameters for classifying and drawing tiles, in the shaders superres_classify.comp,
-// superres_sharpen.frag, superres_vertical.frag, composite_*.frag and tile_rect.vert and in the
-// SIMD code. params_to_glsl.cmake translates this header to GLSL.
+// Parameters for classifying and drawing tiles, in the shader superres_classify.comp, in all
+// shaders that include tile_params.glsl, and in the SIMD code. params_to_glsl.cmake translates this
+// header to GLSL.
 namespace mfar::params {
 
 inline constexpr std::uint32_t kTileUnchanged = 0U;
@@ -43,9 +43,9 @@ inline constexpr float kSharpenFar = 0.0385F;
 /// the square with 4x4 samples. (A width of 1.08 is as good on photographs, but worse for reduced
 /// stills.)
 ///
-/// A sensor averages light, and its grey levels are roughly the square root of light. So the mean
-/// that the video shows is brighter than the mean m of the still's grey levels, where these differ:
-/// it is about r, the root of the mean of their squares. But if the video was reduced from a larger
+/// A sensor averages light, and its grey levels are roughly the square root of light. So where the
+/// still's grey levels in the square differ, the video is brighter than their mean m: it shows
+/// about r, the root of the mean of their squares. But if the video was reduced from a larger
 /// picture, it shows m. The mean used is m + light * (r - m), with the learned factor
 /// Guidance::light. With a factor of 1, printed text and leaves gain 0.2 to 0.5 dB on synthetic
 /// scenes.

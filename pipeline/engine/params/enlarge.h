@@ -3,8 +3,8 @@
 #include <cstdint>
 
 // Parameters of the learned enlarger (see filter_layout.h) in the shaders superres_enlarge.comp,
-// superres_vertical.frag and learned.glsl and in the SIMD code. params_to_glsl.cmake translates
-// this header to GLSL.
+// superres_seen.frag, superres_vertical.frag, enlarge_classes.glsl and learned.glsl and in the SIMD
+// code. params_to_glsl.cmake translates this header to GLSL.
 namespace mfar::params {
 
 inline constexpr int kGrid = 4;  ///< number of sub-pixels of a pixel along each axis

@@ -12,10 +12,10 @@ namespace mfar::params {
 /// Search radius at the coarsest pyramid level [px] if the last frame's flow is known. A small
 /// radius suffices, because the last flow is tried first and fails only on moving objects.
 inline constexpr int kTrackingRadius = 3;
-/// Search radius at the coarsest pyramid level [px] in tiles without a reliable match along
-/// epipolar lines. For video of 640x480, 5 px at this level are 80 px at full size. Twice the
-/// radius would find objects that have moved farther since the still, but would take four times as
-/// long.
+/// Largest search radius at the coarsest pyramid level [px] in tiles without a reliable match along
+/// epipolar lines. (The radius is Flow2dOptions::searchRadius if that is smaller.) For video of
+/// 640x480, 5 px at this level are 80 px at full size. Twice the radius would find objects that
+/// have moved farther since the still, but would take four times as long.
 inline constexpr int kListedRadius = 5;
 /// A cell tries the flow vectors of its neighbours. If the best of them has a lower cost than the
 /// cell's own vector, the cell adopts it, and this number of Gauss-Newton steps improves it.
@@ -34,14 +34,15 @@ inline constexpr int kBackwardPropagations = 1;
 /// times (noise variance + 1) [grey levels^2]. The variance of its pixels is then more than 8 times
 /// that of the noise.
 inline constexpr float kTexturePerVariance = 8.0F * kPatchPixels;
+/// A cell has no reliable match along its epipolar line if its cost is meaningful and above this.
 inline constexpr float kUnexplainedCost = 0.4F;
-/// A cell with at least this two-way error [px] is outside the still and is not searched in two
-/// dimensions. A cell that seems to be occluded has a smaller error and is searched, because it may
-/// belong to a moving object: for such an object, depth from epipolar lines is wrong, and so is the
-/// test for occlusion.
+/// A cell with at least this two-way error [px] is outside the still and does not count for
+/// kLeastUnexplained. A cell that seems to be occluded has a smaller error and counts, because it
+/// may belong to a moving object: for such an object, depth from epipolar lines is wrong, and so is
+/// the test for occlusion.
 inline constexpr float kNotShown = 100.0F;
 /// A tile is searched in two dimensions if at least this number of its 16 cells has no reliable
-/// match along epipolar lines.
+/// match along epipolar lines, or if two of its four neighbours have so many such cells.
 inline constexpr int kLeastUnexplained = 3;
 
 /// A match is doubtful if its cost is above kGoodCost or its two-way error is above 0 (see
@@ -53,9 +54,9 @@ inline constexpr float kErrorPerCost = 5.0F;
 /// A flow vector whose end is within this distance [px] of the match along the epipolar line counts
 /// as the same match.
 inline constexpr float kOnLine = 1.0F;
-/// A cell gets a flow vector off its epipolar line only if the vector's cost is below this fraction
-/// of the cost on the line. A weaker condition would accept vectors that fit noise by chance,
-/// because many vectors are tried.
+/// A cell gets a flow vector off its epipolar line only if the vector's cost is at most this
+/// fraction of the cost on the line. A weaker condition would accept vectors that fit noise by
+/// chance, because many vectors are tried.
 inline constexpr float kClearlyLess = 0.5F;
 
 /// The pyramids contain the still reduced to the video's resolution. Very fine structure, such as
@@ -110,8 +111,8 @@ inline constexpr float kLeastSubpixelGain = 0.2F;
 /// A plane is fitted to the flow of cells within this distance along each axis [cells].
 inline constexpr int kCleanUpRadius = 2;
 /// A plane is fitted to the flow around a cell. A neighbour whose flow differs from the plane by
-/// more than kPlaneReach [px] belongs to another surface. For the first fit, the limit is
-/// kFirstPlaneReach, because the slope of the plane is not known yet.
+/// kPlaneReach [px] or more belongs to another surface and does not count. For the first fit, the
+/// limit is kFirstPlaneReach, because the slope of the plane is not known yet.
 inline constexpr float kFirstPlaneReach = 1.2F;
 inline constexpr float kPlaneReach = 0.5F;
 /// Cells with more texture (see FlowCell) have more weight in the fit. With this texture [grey
@@ -126,7 +127,8 @@ inline constexpr float kSlopeDampingPerWeight = 0.05F;
 
 /// Parameters of flow_search.comp. All flow fields are parts of the array cells[]. The members
 /// target, coarser, lastFrame and errors say at which index of cells[] a field begins. -1: there is
-/// no such field.
+/// no such field. With LISTED, lastFrame is not the last frame's field, but the field of the flow
+/// along epipolar lines.
 struct alignas(16) SearchFlow {
     /// Pyramid levels of the patches and of the searched picture.
     LumaLevel from, to;
@@ -159,8 +161,8 @@ struct alignas(16) FilterFlow {
     std::int32_t columns, rows;
     std::int32_t target, source;
     std::int32_t planeFits;
-    /// 1: each workgroup processes one tile, and tiles that are not matched are skipped (finest
-    /// pyramid level). 0: all cells are filtered.
+    /// 1: each workgroup processes one tile, and cells of tiles that are not matched keep their
+    /// flow (finest pyramid level). 0: all cells are filtered.
     std::int32_t byTile;
 };
 

@@ -22,13 +22,14 @@ inline constexpr float kLumaRed = 0.299F;
 inline constexpr float kLumaGreen = 0.587F;
 inline constexpr float kLumaBlue = 0.114F;
 
-/// The finest pyramid level is smoothed with a three-tap filter along each axis. This is the weight
-/// of each of the two neighbours. Compared with no smoothing, 0.18 gains 0.3 dB on printed text and
+/// The video's finest pyramid level is smoothed with a three-tap filter along each axis. This is
+/// the weight of each of the two neighbours. For the still, a larger area is averaged instead, see
+/// LumaFromStill::footprint. Compared with no smoothing, 0.18 gains 0.3 dB on printed text and
 /// costs 0.05 dB on photographs.
 inline constexpr float kLumaSmoothing = 0.18F;
 
-/// Each video pixel is the mean of this number of bilinear samples of the still along each axis.
-/// The samples suffice for video pixels of up to 8 still pixels along each axis.
+/// Each pixel of the still's finest pyramid level is the mean of this number of bilinear samples of
+/// the still along each axis. The samples suffice for a LumaFromStill::footprint of up to 8 px.
 inline constexpr int kFootprintTaps = 4;
 
 /// A video pixel's ray (x, y, 1) is rotated into still camera coordinates. If the rotated z is
@@ -56,7 +57,7 @@ struct alignas(16) LumaFromStill {
     Rig rig;
     LumaLevel target;
     float texelX, texelY;
-    float footprint;  ///< size of a video pixel [still px]
+    float footprint;  ///< size of a video pixel [still px] * lumaBoxWidening()
     float light;      ///< Guidance::light
 };
 

@@ -11,8 +11,9 @@ inline constexpr float kPatchNoise = 128.0F;
 /// This value is added to the diagonal of the Hessian. It limits the length of Gauss-Newton steps
 /// in patches without gradient.
 inline constexpr float kPatchDamping = 64.0F;
-/// The refinement ends after a Gauss-Newton step whose squared length is below kShortestStep
-/// [px^2]. Candidates whose squared distance is below kSameCandidate [px^2] count as equal.
+/// The refinement ends without the next Gauss-Newton step if the squared length of this step is at
+/// most kShortestStep [px^2]. Candidates whose squared distance is below kSameCandidate [px^2]
+/// count as equal.
 inline constexpr float kShortestStep = 2.5e-5F;
 inline constexpr float kSameCandidate = 0.25F;
 

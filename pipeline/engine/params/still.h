@@ -21,7 +21,7 @@ struct alignas(16) QuietStill {
 };
 
 struct alignas(16) RaiseStill {
-    float neighbours;
+    float neighbours;  ///< kLinearLoss, or 0 for a reduced still
 };
 
 }  // namespace mfar::params

@@ -6,8 +6,8 @@
 #include <cstdint>
 
 // Parameters for weighing the still at each cell, in the shaders superres_assess.comp,
-// superres_gain.comp and superres_weigh.comp and in the SIMD code. params_to_glsl.cmake translates
-// this header to GLSL.
+// superres_gain.comp, superres_weigh.comp, superres_fine.comp, superres_confirm.comp and
+// flow_*.comp and in the SIMD code. params_to_glsl.cmake translates this header to GLSL.
 namespace mfar::params {
 
 /// Where the two-way error exceeds this [video px], the confidence is zero. It is alpha in eq. 2 of
