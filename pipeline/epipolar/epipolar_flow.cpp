@@ -13,9 +13,9 @@ namespace mfar {
 namespace {
 
 constexpr float kNowhere = 1e4F;
-// Near the epipole, a change of s hardly moves a pixel, and its epipolar line counts as a point. To
-// find out, s is changed by the step that moves the fastest pixel of the picture by 1 px. A pixel
-// that moves by at most kLeastWay [px] is near the epipole.
+// Near the epipole, a change of s hardly moves a pixel, and its epipolar line counts as a point. A
+// pixel is near the epipole if it moves by at most kLeastWay [px] when s is changed by the step
+// that moves the fastest pixel of the picture by 1 px.
 constexpr float kLeastWay = 0.05F;
 // Several cells can match the same cell of the still. A cell counts as part of the same slanted
 // surface as the nearest of them if their parallaxes differ by at most this distance [px].

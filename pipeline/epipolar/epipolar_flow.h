@@ -21,8 +21,10 @@ public:
     EpipolarFlow(const StereoRig& rig, std::shared_ptr<Workers> workers,
                  const EpipolarOptions& options = {});
 
+    /// See EpipolarSearch::setOptions().
     void setOptions(const EpipolarOptions& options);
 
+    /// Sets the still, at full size. `pose` is the pose of the video camera at the still's time.
     void setStill(const ImageView& still, const Pose& pose);
     void setStill(const Rows<const std::uint8_t>& still, const Pose& pose);
     void dropStill();
@@ -32,9 +34,10 @@ public:
     }
 
     /// Refines the relative pose and matches the frame with the still. May be called only while
-    /// there is a still. Pixels in `where` [video px] and in a margin around it are matched. All
-    /// other pixels get the s of the nearest matched pixel. `where` must not be empty. `rests`:
-    /// true if the camera has not moved since the still was taken, see restingPose().
+    /// there is a still. Pixels in `where` [video px] and in a margin around it are matched, and in
+    /// a frame with a predicted search also the other pixels of the last frame's area. All other
+    /// pixels get the s of the nearest matched pixel. `where` must not be empty. `rests`: true if
+    /// the camera has not moved since the still was taken, see restingPose().
     void run(const ImageView& video, const Pose& pose, const PixelRect& where, bool rests = false);
     void run(const ImageView& video, const Pose& pose) {
         run(video, pose, {0, 0, rig_.video.size.width, rig_.video.size.height});
@@ -48,27 +51,30 @@ public:
     /// Two-way error [px], one entry per cell: the error (eq. 2 of the paper, see docs/paper.md),
     /// and three zeros. Several surfaces can match the same cell of the still. The error of a cell
     /// is the difference between its parallax and that of the nearest of these surfaces, minus 1 px
-    /// for slanted surfaces, and at least 0. If the flow ends outside the still, the error is 1e4.
+    /// for slanted surfaces, and at least 0. If the flow ends outside the picture of the still
+    /// after resampling, which has the video's size, the error is 1e4.
     [[nodiscard]] const Cells& occlusion() const { return hidden_; }
     /// Converts flow vectors to inverse depths. For every cell, finds the point on its epipolar
     /// line that is nearest to the end of its vector in `flow`, and returns the s of this point.
-    /// `flow` is usually forward() after a refinement in both dimensions.
+    /// Near the epipole and without parallax, a cell keeps its s. `flow` is usually forward() after
+    /// FlowStep::refine().
     [[nodiscard]] const std::vector<float>& sOf(const Cells& flow);
     /// Returns the flow at every video pixel [px], x and y interleaved. The flow of a point that
     /// the still camera cannot see ends far outside the picture.
     [[nodiscard]] std::vector<float> flow() const;
-    /// Returns the distance of a flow vector's end from the pixel's epipolar line [px]. Without
-    /// parallax, the line is a point.
+    /// Returns the distance of a flow vector's end from the pixel's epipolar line [px]. Near the
+    /// epipole and without parallax, the line counts as a point.
     [[nodiscard]] float offLine(int x, int y, float flowX, float flowY) const;
     /// The epipolar search with its results. Its unit of length is the distance between the
     /// position of the video camera at the frame's time and that of the still camera at the still's
     /// time.
     [[nodiscard]] const EpipolarSearch& search() const { return search_; }
+    /// See UnitPose::unit and UnitPose::lengthError.
     [[nodiscard]] double unit() const { return unit_; }
     [[nodiscard]] double lengthError() const { return lengthError_; }
     /// Rotates rays of the frame into the video camera's orientation at the time of the still.
     [[nodiscard]] const Eigen::Matrix3f& rotation() const { return rotation_; }
-    /// Luma of the frame. Valid as long as the input of run() is valid.
+    /// Luma of the frame. Valid until the next run(), but not longer than the input of run().
     [[nodiscard]] const Rows<const std::uint8_t>& luma() const { return frame_; }
     /// True if the last frame was searched only around the values of s that were predicted from the
     /// frame before.

@@ -54,8 +54,8 @@ public:
     /// pose is first refined from the pictures. Without it, the pose counts as exact. `predicted`
     /// is empty or contains an approximate s of every cell in the area, row-major. With it, the
     /// coarser pyramid levels are not searched.
-    /// Returns false and sets s() to zero if the pose is invalid (soundMotion()) or if no part of
-    /// the still can show the area.
+    /// Returns false and sets s() to zero if the pose is invalid (soundMotion()) or if the area, as
+    /// far as the still can show it, is less than 16 px wide or high.
     bool run(const Rows<const std::uint8_t>& video, const RigidTransform& T_still_video,
              const std::optional<Matrix6>& covariance = std::nullopt,
              std::span<const float> predicted = {});
@@ -82,8 +82,8 @@ public:
     /// Adding this translation to a point's coordinates in the frame's camera gives those in the
     /// still camera, if the still camera is rotated into the frame's orientation.
     [[nodiscard]] const Eigen::Vector3f& translation() const { return translation_; }
-    /// Number of labels (candidates of s) per pixel at the finest pyramid level. If nothing was
-    /// searched, it is zero.
+    /// Largest searched label (candidate of s, counted in steps) at full size. It is equal to the
+    /// longest searched parallax [px]. If nothing was searched, it is zero.
     [[nodiscard]] int labels() const { return labels_; }
 
 private:

@@ -16,14 +16,14 @@ constexpr int kBlock = kPatch / 2;
 // consists of at least two by two blocks.
 constexpr int kPlaces = 300;
 constexpr int kPixels = kPatch * kPatch;
-// A match is valid if its correlation is at least kLeastScore. It is ambiguous if a position that
-// is more than kRivalDistance [px] away has a correlation that is lower by less than kRival.
+// A match is valid if its correlation is above kLeastScore. It is ambiguous if a position that is
+// more than kRivalDistance [px] away has a correlation that is lower by less than kRival.
 constexpr double kLeastScore = 0.75;
 constexpr double kRival = 0.06;
 constexpr double kRivalDistance = 2.5;
 // Limits of the refinement of a match by inverse-compositional steps. There are at most kMatchSteps
-// steps. They end after a step that is shorter than kShortStep [px]. They must not lead farther
-// than kLongestWay [px] away from the start along any axis.
+// steps. They end after a step that is shorter than kShortStep [px]. They must lead less than
+// kLongestWay [px] away from the start along each axis.
 constexpr int kMatchSteps = 6;
 constexpr float kLongestWay = 1.5F, kShortStep = 0.01F;
 constexpr double kFar = 1e6;

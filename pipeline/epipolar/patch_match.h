@@ -50,7 +50,8 @@ public:
                                                       const PatchWindow& window) const;
 
     /// Refines the match `near` to a fraction of a pixel by inverse-compositional steps. The result
-    /// is empty if the steps lead too far away from `near`. Source: Baker and Matthews, IJCV 2004.
+    /// is empty if the steps lead too far away from `near`, to invalid pixels, or to a patch that
+    /// is uniform. Source: Baker and Matthews, IJCV 2004.
     [[nodiscard]] std::optional<Eigen::Vector2d> polish(PatchPlace place,
                                                         const Eigen::Vector2d& near) const;
 

@@ -47,8 +47,8 @@ private:
         return ((pixel.array() + 0.5) * scale_ - 0.5).matrix();
     }
 
-    /// Returns the ray of the pixel that contains the point. The point is a position in the picture
-    /// of half size and must be inside it.
+    /// Returns the ray of a pixel at most one pixel away from the point, along each axis. The point
+    /// is a position in the picture of half size and must be inside it.
     [[nodiscard]] Eigen::Vector2d rayNear(const Eigen::Vector2d& point) const {
         const auto pixel = static_cast<std::size_t>(point.y()) * half_.lens.size().width +
                            static_cast<std::size_t>(point.x());

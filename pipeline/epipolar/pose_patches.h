@@ -22,7 +22,7 @@ struct TurnedPair {
 struct PatchPrior {
     const CameraModel& camera;
     const PosePrior& pose;
-    /// Standard deviation of a pixel's noise in frame and still [grey levels].
+    /// Standard deviation of a pixel's noise [grey levels], the larger one of frame and still.
     double noise;
     double pixelsPerUnit;  ///< largest motion of a pixel per unit of s [px]; 0: no parallax
     /// Returns s at a pixel of the frame. The error of s must move the pixel by at most kAlongSlack
@@ -34,8 +34,9 @@ inline constexpr int kAlongSlack = 6;
 /// Matches the textured patches of a frame with the still. Each patch is first searched in `half`,
 /// around the place that its s and the prior pose predict. Along the epipolar line, the search goes
 /// as far as the error of s requires; across the line, it covers three standard deviations of the
-/// prior pose, but at most 8 px. Then the match is refined in `full`. `half` is usually half as
-/// large as `full`; both may be the same pyramid level.
+/// prior pose, but at least 1 px and at most 8 px of `half`. Near the epipole, it covers these
+/// along the line, too. Then the match is refined in `full`. `half` is usually half as large as
+/// `full`; both may be the same pyramid level.
 [[nodiscard]] std::vector<RayMatch> matchPatches(const TurnedPair& full, const TurnedPair& half,
                                                  const PatchPrior& prior, Workers& workers);
 

@@ -49,7 +49,7 @@ struct PoseRefinement {
 [[nodiscard]] PoseRefinement refineRelativePose(std::span<const RayMatch> matches,
                                                 const PosePrior& prior, double focal);
 
-/// A refinement that removes an error of less than this [px] is rejected, because the errors of the
+/// A refinement that removes an error of at most this [px] is rejected, because the errors of the
 /// matches would add about as much.
 inline constexpr double kExactEnough = 0.2;
 

@@ -18,9 +18,10 @@ namespace mfar {
 class TurnedPicture {
 public:
     /// Sets the position and the size of the canvas. The picture of `camera` is extended on each
-    /// side by `beyond` times its width. The canvas is the part of this extended picture that shows
-    /// the source's picture. If there is no such part, its size is 0x0. `R_source_camera` rotates
-    /// rays from `camera` to `source`. The picture of `camera` is that of `whole` or a part of it.
+    /// side by `beyond` times its width. The canvas is a rectangle around the part of this extended
+    /// picture that shows the source's picture. If there is no such part, its size is 0x0.
+    /// `R_source_camera` rotates rays from `camera` to `source`. The picture of `camera` is that of
+    /// `whole` or a part of it.
     void place(const CameraModel& camera, const CameraModel& whole, const CameraModel& source,
                const Eigen::Matrix3d& R_source_camera, double beyond);
 

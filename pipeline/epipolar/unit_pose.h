@@ -6,12 +6,13 @@
 namespace mfar {
 
 /// Relative pose between another picture and a frame. The unit of length is the distance between
-/// the two cameras. A search with this pose does not depend on the unit of the tracked poses
-/// (metres or millimetres).
+/// the two cameras, or that of the tracked poses if the distance is 0. A search with this pose does
+/// not depend on the unit of the tracked poses (metres or millimetres).
 struct UnitPose {
     RigidTransform T_other_frame;
     Matrix6 covariance;  ///< covariance of a small motion x in T_other_frame * exp(x)
-    double unit = 1;     ///< distance between the cameras [unit of length of the poses]
+    /// Distance between the cameras [unit of length of the tracked poses], or 1 if it is 0.
+    double unit = 1;
     /// Relative standard deviation of the distance between the cameras. Refining the pose does not
     /// reduce it, because matches do not determine this distance.
     double lengthError = 0;
