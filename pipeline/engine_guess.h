@@ -7,8 +7,9 @@
 
 namespace mfar {
 
-/// An assignment of steps to engines is discarded if a frame takes more than kHopelessFrame times
-/// as long as with the fastest assignment.
+/// An assignment of steps to engines is hopeless if a frame takes more than kHopelessFrame times as
+/// long as with the fastest assignment. It is not tried if this was predicted; otherwise its trial
+/// is cut short.
 inline constexpr double kHopelessFrame = 2;
 
 /// Returns the assignments of steps to engines that may be the fastest while the camera moves, the

@@ -31,7 +31,7 @@ std::uint8_t greyAt(int x, int y) {
 }
 
 /// Returns an RGBA picture of the texture. A pixel is `scale` texels wide, and the first pixel is
-/// at column `shift` [texels].
+/// in column 1000 + `shift` and row 1000 [texels].
 std::vector<std::uint8_t> pictureOf(Size size, double scale, int shift) {
     std::vector<std::uint8_t> rgba;
     rgba.reserve(4UL * size.width * size.height);

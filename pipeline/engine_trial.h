@@ -9,14 +9,16 @@ namespace mfar {
 /// An assignment of steps to engines, and the time of a frame with it during camera motion.
 struct EngineTrial {
     EngineChoice engines;
-    double frameMs = 0;  ///< median; includes transfers between CPU and GPU
+    /// Median time, or if the measurement was cut short, the time of one frame. It includes
+    /// transfers between CPU and GPU.
+    double frameMs = 0;
 };
 
 /// Measures the time of a frame with each of the assignments of steps to engines, on generated
 /// moving pictures. Returns the assignments with their times, the fastest first. The measurement of
-/// an assignment is cut short if a frame takes more than kHopelessFrame times as long as with the
-/// fastest assignment so far. `shownFrom`: the display reads the picture from GPU memory (Gles) or
-/// from CPU memory (Simd).
+/// an assignment is cut short if its first measured frame takes more than kHopelessFrame times as
+/// long as a frame with the fastest assignment so far. `shownFrom`: the display reads the picture
+/// from GPU memory (Gles) or from CPU memory (Simd).
 ///
 /// Needs a current GL context. Four assignments take about a second, mostly for compiling shaders.
 /// Throws like Pipeline.

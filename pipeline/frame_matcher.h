@@ -11,7 +11,7 @@ namespace mfar {
 
 /// Matches a video frame with a still. It uses neither the state of the pipeline that processes
 /// frames nor predictions from earlier frames. It searches in both dimensions on the CPU, in the
-/// caller's thread. Memory is allocated only in the constructor.
+/// caller's thread. Almost all memory is allocated in the constructor and in the first match().
 class FrameMatcher {
 public:
     explicit FrameMatcher(const StereoRig& rig);

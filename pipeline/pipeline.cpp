@@ -349,7 +349,8 @@ void Pipeline::State::publish(const TileWork& work, bool usedStill) {
         result.picture = picture.host();
     keepDrawn(work);
     redraw = false;
-    if (gles) gles->finishReading();  // does not wait, because the GPU has read the frame long ago
+    // Hardly waits, because the GPU reads the frame's memory before it does all other work.
+    if (gles) gles->finishReading();
 }
 
 void Pipeline::State::publishTiles(const TileSummary& tiles, FrameStats& stats) const {

@@ -48,7 +48,7 @@ struct PipelineOptions {
 /// Makes a high-resolution picture from each video frame and the still. The constructor allocates
 /// the memory that every frame needs. The first object causes the allocation of memory for the
 /// depth measurement. The first frame or still with a pose starts a thread that creates the
-/// epipolar search.
+/// epipolar search; setStill() with a pose waits for this thread.
 ///
 /// All calls must come from one thread. If a step runs on GLES, the GL context must be current in
 /// this thread. Only functions that set something up throw GlError, or std::invalid_argument for
@@ -62,9 +62,10 @@ public:
 
     /// Makes this still the reference of the following frames, and does the work that a new still
     /// causes. The still may have any format. `pose` is the pose of the video camera at the time of
-    /// the still. If the still and a frame have poses, their flow is searched along epipolar lines,
-    /// otherwise in both dimensions. Throws std::invalid_argument if the still is invalid
-    /// (requireSound()) or does not have the size of the rig's still camera.
+    /// the still. If the still and a frame have poses in the same world (Pose::world) and
+    /// Quality::alongLines is true, their flow is searched along epipolar lines, otherwise in both
+    /// dimensions. Throws std::invalid_argument if the still is invalid (requireSound()) or does
+    /// not have the size of the rig's still camera.
     void setStill(const ImageView& still, Timestamp time, const std::optional<Pose>& pose = {});
     /// Time of the second still, or empty if there is none. The second still is older than the
     /// newest one and is shown in areas that the newest still does not show.
@@ -82,31 +83,37 @@ public:
     /// are used from the next still on, because a new still changes the picture anyway. If there is
     /// no still, they are used at once.
     void setFilters(std::shared_ptr<const FilterBank> filters);
-    /// Sets the object that receives every still after it was matched, as long as learned filters
-    /// enlarge the video. Null: no listener. The listener must outlive the pipeline.
+    /// Sets the object that receives every still when it was first matched and when a new still
+    /// replaces it, as long as learned filters enlarge the video. Null: no listener. The listener
+    /// must outlive the pipeline.
     void setMatchListener(MatchListener* listener);
     /// Sets the importer that lets the GPU read camera memory without a copy. Null: every picture
     /// is uploaded. The importer must outlive the pipeline.
     void setImporter(PlaneImporter* importer);
+    /// See Engine::takeImportFault().
     [[nodiscard]] std::optional<std::string> takeImportFault();
-    /// Takes effect with the next run and allocates nothing. Throws std::invalid_argument if a
-    /// setting is out of range.
+    /// Takes effect with the next run, in the tiles that are drawn. Allocates nothing, except for a
+    /// change to mode Blend. Throws std::invalid_argument if a setting is out of range.
     void setQuality(const Quality& quality);
+    /// Makes the next run draw every tile again.
     void redraw();
-    /// Sets the virtual objects. They are shown in frames with a pose, and nearer real surfaces
-    /// hide them. The first call with an object allocates memory.
+    /// Sets the virtual objects, and removes a scene of setScene(). The objects are shown in frames
+    /// with a pose, and nearer real surfaces hide them. The first call with an object and the first
+    /// call after setScene() allocate memory.
     void setObjects(std::vector<VirtualObject> objects);
-    /// Sets a path-traced scene. After each frame, the scene is adapted to the real surroundings:
-    /// shadows fall onto the measured surface. With `light`, the light is also estimated from the
-    /// video. Memory is allocated by the first call with an object, and by calls with changed
-    /// options. Throws like TracedLayer.
+    /// Sets a path-traced scene, and removes the objects of setObjects(). After each frame with a
+    /// pose in which an object is in view, the scene is adapted to the real surroundings: shadows
+    /// fall onto the measured surface. With `light`, the light is also estimated from the video. A
+    /// scene without objects removes the last scene. Memory is allocated by a call with an object
+    /// if there was no path-traced scene before or if the options changed. Throws like TracedLayer.
     void setScene(Scene scene, const TracedLayerOptions& options,
                   std::optional<LightFollower> light = {});
     /// Returns a rectangle of video pixels that contains the virtual objects and their shadows in
     /// the last frame, with a margin. It is empty if no object is in view.
     [[nodiscard]] PixelRect objectsRegion() const;
-    /// Counters of the path tracer and the warp. Empty if no path-traced scene was set.
+    /// Counters of the path tracer and the warp. Empty if there is no path-traced scene.
     [[nodiscard]] std::optional<TracedLayerCounters> tracedCounters() const;
+    /// See TracedLayer::takeError(). Empty if there is no path-traced scene.
     [[nodiscard]] std::optional<std::string> takeSceneError();
     /// Waits until the path tracer has finished the work that the last run() allowed, but at most
     /// this long. For frames that do not arrive in real time.
@@ -129,16 +136,16 @@ public:
     [[nodiscard]] const InverseDepthField& inverseDepth() const;
 
     // The functions below read results back, for tests, evaluation and the preview. They wait for
-    // the GPU. On a GPU, FrameResult::stats belong to the run before the last one; readStats()
-    // returns the statistics of the last run.
+    // the GPU. With the GLES engine, the first group of numbers in FrameResult::stats belongs to
+    // the run before the last one; readStats() returns the numbers of the last run.
     [[nodiscard]] FrameStats readStats() const;
     /// Flow of every video pixel (x, y interleaved), interpolated between cells. If the flow was
     /// searched along epipolar lines, each pixel also has its own vector from this search.
     /// This vector replaces the interpolated one if the two differ by at least half a pixel, unless
-    /// a moving object is at the pixel. Without a still, the result is empty.
+    /// a moving object is at the pixel. The result is empty if there is no match with a still.
     [[nodiscard]] std::vector<float> readFlow() const;
-    /// Confidence of every video pixel (eq. 2 of the paper, see docs/paper.md), [0, 1]. Without a
-    /// still, the result is empty.
+    /// Confidence of every video pixel (eq. 2 of the paper, see docs/paper.md), [0, 1]. The result
+    /// is empty if there is no match with a still.
     [[nodiscard]] std::vector<float> readConfidence() const;
     [[nodiscard]] std::vector<TileClass> readTileClasses() const;
     [[nodiscard]] std::vector<bool> readSearchedTiles() const;
@@ -154,8 +161,9 @@ private:
 };
 
 /// Returns the dense 2-D flow from picture a to picture b, for evaluation and tests. The pictures
-/// must have the same size and may have any format. Each pixel p of a has two successive numbers, x
-/// and y: b shows at p + (x, y) what a shows at p.
+/// must have the same size, at least 16x16 pixels, and may have any format; otherwise throws
+/// std::invalid_argument. Each pixel p of a has two successive numbers, x and y: b shows at
+/// p + (x, y) what a shows at p. Needs a current GL context.
 [[nodiscard]] std::vector<float> flowBetween(const ImageView& a, const ImageView& b);
 
 }  // namespace mfar

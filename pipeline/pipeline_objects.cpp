@@ -109,8 +109,8 @@ PixelRect Pipeline::State::placeObjects(const std::optional<Pose>& pose, Timesta
         where = objects->place(pose ? std::optional(pose->T_world_video) : std::nullopt, time,
                                depth->stage.field());
         // If detail and occlusion run on different engines, each engine has its own copy of the
-        // picture. When the detail step draws a tile, the tile is copied to the other engine, where
-        // it overwrites objects that were drawn there before.
+        // picture. When the detail step draws a tile, the whole picture is copied to the other
+        // engine, where it overwrites all objects that were drawn there before.
         const bool apart = options.engines.detail != options.engines.occlusion;
         const WorkPlan::Redraw redrawn = objects->redraw();
         plan.drawnOver(objects->staleTiles(), apart && redrawn == WorkPlan::Redraw::WithThem

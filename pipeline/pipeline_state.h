@@ -67,19 +67,20 @@ struct Pipeline::State {
     void needDepth();
     PixelRect placeObjects(const std::optional<Pose>& pose, Timestamp time);
     const TileWork& planFrame(const VideoFrame& frame);
-    /// Matches the frame with the newest still. If both have poses, the search is along epipolar
-    /// lines, otherwise in both dimensions. In the area `forDepth` [video px], the depth
-    /// measurement needs the results of the epipolar search.
+    /// Matches the frame with the newest still: along epipolar lines if `pose` is set, otherwise in
+    /// both dimensions. `pose` may be set only if EpipolarFlow::matches() is true for it. In the
+    /// area `forDepth` [video px], the depth measurement needs the results of the epipolar search.
     Match matchStill(const VideoFrame& frame, const TileWork& work, const std::optional<Pose>& pose,
                      const PixelRect& forDepth);
     const CellWeights& weighed(const Reference& still, const VideoFrame& frame,
                                const LumaPyramid& pyramids, const FlowCells& flow,
                                const TileWork& work);
     /// Must be called before a new still is stored. Makes the newest still the second one, unless
-    /// keepsOlder() prefers the present second still.
+    /// keepsOlder() prefers the present second still. If keepsSecond() is false, there is no second
+    /// still afterwards.
     void retireNewest();
-    /// Matches the second still in the tiles that the newest still does not show. Returns null if
-    /// there are none. Must be called after matchStill().
+    /// Matches the second still in tiles that the newest still does not show. Returns null if there
+    /// is no such tile or no second still. Must be called after matchStill().
     const CellWeights* matchSecond(const VideoFrame& frame, const TileWork& work);
     /// Decides if depth is measured, and copies the flow results that the measurement needs. Must
     /// be called before the frame is drawn, because a later copy would have to wait until the GPU
@@ -87,8 +88,8 @@ struct Pipeline::State {
     /// null.
     DepthTask prepareDepth(const PixelRect& where, bool hasPose, const FlowCells* alongLines);
     void listen(const CellWeights& weights);
-    /// Tells the listener how the newest still was matched in the last frame. Must be called before
-    /// a new still replaces it.
+    /// Reports to the listener how the newest still was matched in the last frame. Must be called
+    /// before a new still replaces the newest one.
     void tellReplaced();
     [[nodiscard]] MatchedPictures::LookedUp lookedUp() const;
     void drawDetail(const VideoFrame& frame, const TileWork& work, const Match* match);
@@ -141,9 +142,10 @@ struct Pipeline::State {
     Quality quality;
     std::shared_ptr<const FilterBank> filters, nextFilters;  // null means the built-in filters
     MatchListener* matchListener = nullptr;
-    bool isNewStill = false;  // true if no frame was matched with the newest still yet
+    // True if no frame was matched with the newest still in mode Detail yet.
+    bool isNewStill = false;
     bool redraw = true;
-    int depthAge = 0;
+    int depthAge = 0;  // number of frames that needed depth since depth was last measured
     std::uint64_t frames = 0;
     StageClock clock;
     FrameResult result;

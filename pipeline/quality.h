@@ -13,8 +13,8 @@ enum class SuperResMode {
     Detail,
 };
 
-/// Settings that trade time per frame for accuracy. The defaults are the most accurate. They can be
-/// changed between frames without additional time.
+/// Settings that trade time per frame for accuracy. The defaults are the most accurate. The
+/// settings can be changed between frames without additional time, except to mode Blend.
 struct Quality {
     SuperResMode mode = SuperResMode::Detail;
     /// How the video is enlarged in mode Off. True: with Keys' cubic (4x4 pixels). False: with

@@ -34,14 +34,16 @@ struct Reference {
     void count(int tiles, int shown);
     void keepFirst();
     /// Mean change of the cells' flow since the first frame that was matched with the still [video
-    /// px]. It is 0 if no frame was matched yet, and infinite if no cell is matched any more.
+    /// px]. Only cells with a weight above 0 in both frames count. The result is 0 if `first` is
+    /// empty, and otherwise infinite if no cell counts or if the last frame was not matched.
     [[nodiscard]] double moved() const;
 };
 
 /// When a third still arrives, only one of the two stills before it is kept as the second still.
-/// Returns true if `older` is kept, and false if `newest` is kept. The still that was shown in the
-/// larger share of its matched tiles is preferred. `older` is also preferred if the camera has
-/// hardly moved since `newest`, because `newest` then misses the same areas as the third still.
+/// Returns true if `older` is kept, and false if `newest` is kept or if `older` has no still. The
+/// still that was shown in the larger share of its matched tiles is preferred. `older` is also
+/// preferred if the camera has hardly moved since `newest`, because `newest` then misses the same
+/// areas as the third still.
 [[nodiscard]] bool keepsOlder(const Reference& older, const Reference& newest);
 
 }  // namespace mfar

@@ -23,8 +23,8 @@ struct FrameStats {
     /// showSecond: number of tiles that show some of the second still. It includes neighbours of
     /// the tiles in matchedSecond. searched2d: number of tiles whose match along epipolar lines was
     /// wrong, because an object moves or a pose is wrong. These tiles were then searched in both
-    /// dimensions. Without poses, all changed tiles are searched in both dimensions, and this
-    /// number is 0.
+    /// dimensions. Without poses, all changed and matched tiles are searched in both dimensions,
+    /// and this number is 0.
     int showSecond = 0, searched2d = 0;
 
     // These numbers are those of the frame itself.

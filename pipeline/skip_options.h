@@ -10,10 +10,11 @@ namespace mfar {
 struct SkipOptions {
     bool upscaledTiles = true;  ///< a tile to which the still adds nothing is only enlarged
     bool smoothTiles = true;    ///< a tile without structure is not matched but only enlarged
-    /// A tile with nearly constant flow and weight is drawn as one quad.
+    /// A tile with a nearly affine flow and a nearly uniform weight is drawn as one rectangle.
     bool plainTiles = true;
-    bool tileLists = true;      ///< only changed tiles are drawn, unless most tiles changed
-    bool knownFlow = true;      ///< the 2-D search starts from the last frame's flow
+    /// Only changed tiles are drawn, unless almost half of all tiles changed.
+    bool tileLists = true;
+    bool knownFlow = true;      ///< the 2-D search also tries the last frame's flow
     bool knownBehind = true;    ///< real depth that is known to lie behind objects is not measured
     bool objectsAtRest = true;  ///< objects over unchanged tiles are not drawn again
     bool hiddenObjects = true;  ///< objects and shadows that real things occlude are not drawn

@@ -27,7 +27,7 @@ struct TracedLayerCounters {
     std::uint64_t warped = 0;
     std::uint64_t unmoved = 0;    ///< frames that showed a traced picture without warping it
     std::uint64_t requested = 0;  ///< pixels requested to be traced individually
-    std::uint64_t answered = 0;
+    std::uint64_t answered = 0;   ///< requested pixels that were traced
     /// Number of objects' pixels that no picture shows. They are not counted in every frame; this
     /// is the last count.
     int openHoles = 0;
@@ -35,11 +35,12 @@ struct TracedLayerCounters {
 
 /// The virtual layer, drawn by path tracing. Threads of low priority trace pictures over the time
 /// of many frames. In each frame, the last finished picture is warped to the frame's pose, and
-/// pixels of objects that no picture shows are traced individually. No function waits for the
-/// threads.
+/// pixels of objects that no picture shows are traced individually. Only the destructor waits for
+/// the threads; rests() may wait for a lock.
 class TracedLayer {
 public:
-    /// False in builds for 32-bit ARM, which have no path tracer.
+    /// False in builds without the library Embree, such as those for 32-bit ARM. They have no path
+    /// tracer.
     [[nodiscard]] static bool isAvailable();
 
     /// `video` is the video camera at any resolution. `warps` creates the warp step and must
@@ -69,6 +70,7 @@ public:
     [[nodiscard]] bool rests() const;
 
     [[nodiscard]] TracedLayerCounters counters() const;
+    /// Returns why a scene was rejected; empty if none was rejected since the last call.
     [[nodiscard]] std::optional<std::string> takeError();
 
 private:
