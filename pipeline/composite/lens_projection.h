@@ -19,8 +19,8 @@ struct LensProjection {
     [[nodiscard]] Eigen::Vector3d operator()(const Eigen::Vector3d& p) const;
 
     CameraModel camera;
-    double rim;  ///< radius of the outermost ray (x/z, y/z) for which the lens model is valid
-    double rimRadial;
+    double rim;        ///< radius of the rays (x/z, y/z) up to which the lens model is used
+    double rimRadial;  ///< factor by which radial distortion lengthens a ray at the rim
 };
 
 }  // namespace mfar

@@ -17,8 +17,8 @@ struct SurfaceExtent {
     double nearest = std::numeric_limits<double>::max();
     double farthest = 0;
 
-    /// Extends the bounds so that they contain a point. The point lies beyond the near plane and is
-    /// given as (w u, w v, w), see LensProjection.
+    /// Extends the bounds so that they contain a point. The point must not lie in front of the near
+    /// plane and is given as (w u, w v, w), see LensProjection.
     void extend(const Eigen::Vector3d& point);
     /// Extends the bounds so that they contain the part of the line from a to b that lies beyond
     /// the near plane. Both ends are given as (w u, w v, w).
@@ -33,7 +33,8 @@ public:
 
     /// Returns the extents of all triangles that lie at least partly beyond the near plane.
     /// Triangles outside the picture are included. The depth ranges allow for a GPU that rounds
-    /// corners to 1/256 px. Returns no extents if pose or size is not finite or exceeds 100 km, or
+    /// corners to 1/256 px. Returns no extents if the object's position relative to the camera or
+    /// its size is not finite or is 100 km or more along an axis, if the rotation is not finite, or
     /// if a size is negative. The result is valid until the next call.
     const std::vector<SurfaceExtent>& operator()(const VirtualObject& object,
                                                  const RigidTransform& T_world_video);

@@ -18,8 +18,8 @@ struct PreviewLight {
 };
 
 /// Draws the fast preview: rasterises virtual objects as the video camera would see them. The lens
-/// distortion is applied to the vertices. Only pixels that an object covers now or covered in the
-/// last picture are processed. The constructor throws GlError if OpenGL cannot draw into R32F
+/// distortion is applied to the vertices. Only pixels in the bounds of the objects, in this and in
+/// the last picture, are processed. The constructor throws GlError if OpenGL cannot draw into R32F
 /// textures.
 class PreviewRenderer {
 public:

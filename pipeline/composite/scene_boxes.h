@@ -26,7 +26,7 @@ public:
     const std::vector<SurfaceExtent>& extents(const LensProjection& lens,
                                               const RigidTransform& T_world_video);
 
-    /// The boxes of objects that do not move.
+    /// The boxes of objects that do not move, in world coordinates.
     [[nodiscard]] const std::vector<Eigen::AlignedBox3d>& world() const { return boxes_; }
 
 private:

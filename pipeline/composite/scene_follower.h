@@ -13,11 +13,11 @@ namespace mfar {
 
 /// Decides when the shadow catcher (the invisible surface that receives the shadows of virtual
 /// objects) is measured. At first, the catcher consists of the plane of the tag map and of the
-/// planes of other tags on which objects stand. After `settling` frames, a measured surface
-/// replaces these planes as soon as depth is known at a share of at least `leastKnown` of the
-/// pixels around the objects. Outside of the view, the planes stay. The surface is measured again
-/// if at least `leastInterval` [s] have passed and the camera has moved around the objects by the
-/// angle `turn` [rad].
+/// planes of other tags on which objects stand. After `settling` - 1 frames with objects in view, a
+/// measured surface replaces these planes as soon as depth is known at a share of at least
+/// `leastKnown` of the pixels in the rectangle around the objects. Outside of the view, the planes
+/// stay. With as much known depth, the surface is measured again if at least `leastInterval` [s]
+/// have passed and the camera has moved around the objects by at least the angle `turn` [rad].
 struct CatcherRule {
     int settling = 12;
     double leastKnown = 0.7;
@@ -48,8 +48,9 @@ public:
         Timestamp time;
     };
     /// Must be called after each frame. `region` is the rectangle around the objects [video px].
-    /// The surface is measured only if the depth's rectangle contains it. Returns the scene that
-    /// must be shown if the shadow catcher has changed, otherwise null.
+    /// The surface is measured only if `depth.where` contains the part of `region` inside the
+    /// picture. Returns the scene that must be shown if the shadow catcher has changed, otherwise
+    /// null.
     std::shared_ptr<const Scene> follow(const RealDepth& depth, const PixelRect& region);
 
 private:

@@ -17,8 +17,8 @@ inline constexpr double kShadowReach = 1;
 inline constexpr int kPlaneCells = 8;
 
 /// Returns the part of the tag map's plane (z = 0 in the world) below and around the objects'
-/// bounding box. It extends beyond the box by `reach` times half of the box's diagonal. Empty if
-/// all objects are below the plane, or farther above it than this distance.
+/// bounding box. This part extends beyond the box by `reach` times half of the box's diagonal. The
+/// result is empty if all objects are below the plane, or farther above it than this distance.
 [[nodiscard]] ShadowCatcher planeCatcher(const Eigen::AlignedBox3d& objects,
                                          double reach = kShadowReach, int cells = kPlaneCells);
 
@@ -38,11 +38,11 @@ struct GroundPlane {
 [[nodiscard]] ShadowCatcher planeCatcher(std::span<const GroundPlane> planes,
                                          int cells = kPlaneCells);
 
-/// Returns the measured surface of the real scene around the objects. Its vertices are video pixels
-/// of `where` with known depth, a few pixels apart. Four neighbours are joined by two triangles
-/// unless depth jumps between them. Vertices that cannot be distinguished from one of the planes
-/// are moved onto it. planes[0] must be the plane of the tag map with the bounds of all objects, as
-/// groundPlanes() returns it.
+/// Returns the measured surface of the real scene near the objects, up to the distance
+/// planes[0].reach from their bounds. Its vertices are video pixels of `where` with known depth, a
+/// few pixels apart. Four neighbours are joined by two triangles unless depth jumps between them.
+/// Vertices that cannot be distinguished from one of the planes are moved onto it. planes[0] must
+/// be the plane of the tag map with the bounds of all objects, as groundPlanes() returns it.
 [[nodiscard]] ShadowCatcher depthCatcher(const InverseDepthField& field, const CameraModel& video,
                                          const RigidTransform& T_world_video,
                                          const PixelRect& where,

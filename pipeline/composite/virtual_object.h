@@ -27,7 +27,7 @@ struct VirtualObject {
     /// colours give a uniform side.
     std::array<Eigen::Vector3f, 2> colours{Eigen::Vector3f{0.9F, 0.9F, 0.9F},
                                            Eigen::Vector3f{0.8F, 0.2F, 0.1F}};
-    int squares = 4;
+    int squares = 4;  ///< squares of the checkerboard along each axis of a side, at least 1
 
     bool operator==(const VirtualObject&) const = default;
 };

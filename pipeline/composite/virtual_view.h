@@ -30,8 +30,8 @@ public:
 
     void setObjects(std::vector<VirtualObject> objects);
     void setSkips(const SkipOptions& skips) { skips_ = skips; }
-    /// Sets the scene for path tracing. It becomes visible when its first traced picture is
-    /// finished.
+    /// Sets the scene of a view whose objects the path tracer draws. The scene becomes visible when
+    /// its first traced picture is finished.
     void setScene(std::shared_ptr<const Scene> scene);
     [[nodiscard]] TracedLayer* traced() { return traced_.get(); }
 
@@ -48,10 +48,10 @@ public:
     /// cast shadows or light.
     [[nodiscard]] bool isHidden() const { return hidden_; }
     /// Returns which changes of the video require that the objects are drawn again. Always: they
-    /// are drawn even if the video did not change, because objects changed, appeared or
-    /// disappeared, or because SkipOptions::objectsAtRest is off. WithOthers: they are drawn if any
-    /// tile changed, because the camera has moved. WithThem: they are drawn only if a tile near
-    /// them changed.
+    /// are drawn even if the video did not change, because objects changed, appeared, disappeared
+    /// or move, because the traced picture changes, or because SkipOptions::objectsAtRest is off.
+    /// WithOthers: they are drawn if any tile changed, because the camera has moved. WithThem: they
+    /// are drawn only if a tile near them changed.
     [[nodiscard]] WorkPlan::Redraw redraw() const;
     /// Tiles of the video that must be drawn again before draw().
     [[nodiscard]] PixelRect staleTiles() const;

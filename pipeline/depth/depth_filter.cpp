@@ -12,7 +12,7 @@
 namespace mfar {
 namespace {
 
-// If a camera motion reduces the depth of a point to less than this fraction of its old depth, the
+// If a camera motion reduces the depth of a point to at most this fraction of its old depth, the
 // point is dropped.
 constexpr float kNearestShare = 0.05F;
 // Each second of camera motion adds kDrift^2 to the relative variance of inverse depth.

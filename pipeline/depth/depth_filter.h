@@ -43,11 +43,12 @@ public:
               std::span<const std::uint8_t> fixed = {});
     void forget(const PixelRect& where);
     /// Deletes the known depths that `measured` contradicts inside `where`, but only in blocks in
-    /// which most measurements contradict the known depth. Single false measurements thus delete
-    /// nothing.
+    /// which most measurements contradict the known depth. Thus, a few false measurements among
+    /// many correct ones delete nothing.
     void forgetContradicted(const InverseDepthField& measured, const PixelRect& where);
 
     [[nodiscard]] const InverseDepthField& field() const { return field_; }
+    /// A rectangle that contains all pixels with known depth. It may be too large.
     [[nodiscard]] const PixelRect& known() const { return known_; }
 
 private:
@@ -76,7 +77,7 @@ private:
     float focal_, pixelX_, pixelY_;
     std::shared_ptr<Workers> workers_;
     std::optional<RigidTransform> fieldPose_;
-    // Duration of the camera's motion since the points were last moved [s].
+    // Time since the points were last moved, but at most kMostMoving [s].
     double moving_ = 0;
     // field_: the current depths. carried_: memory into which the points are moved. Before and
     // after a move, all depths in carried_ are unknown.

@@ -15,7 +15,8 @@ constexpr float kMatchError = 0.3F;
 // slanted surface if their displacements between the pictures differ by at most this distance [px].
 // Otherwise, the nearer point occludes the other.
 constexpr float kSlope = 1.5F;
-// A cell and a pixel in it show the same surface if their matches differ by at most this [px].
+// Cells and a pixel show the same surface if the match interpolated between the cells differs from
+// the pixel's own match by less than this [px].
 constexpr double kSameSurface = 0.5;
 constexpr float kLeastDepth = 0.05F;
 constexpr float kNothing = -1e9F;
@@ -34,8 +35,8 @@ DepthMeasurement::DepthMeasurement(const CameraModel& video, EpipolarLens lens,
 
 // Sets s_ to the more accurate s of the cells where possible. Matches of cells are accurate to a
 // fraction of a pixel, but do not show on which side of a depth edge a pixel lies. Matches of
-// single pixels show this. Therefore, a pixel takes its cell's value if this value agrees with the
-// pixel's own match, and keeps its own value otherwise.
+// single pixels show this. Therefore, a pixel takes the value interpolated between the cells if
+// this value agrees with the pixel's own match, and keeps its own value otherwise.
 void DepthMeasurement::takeField(const EpipolarSearch& search, std::span<const float> cells,
                                  const PixelRect& where) {
     const int width = lens_.size().width;
@@ -71,7 +72,8 @@ void DepthMeasurement::land(const EpipolarSearch& search, const Eigen::Matrix3f&
             const auto count = static_cast<std::size_t>(where.x1 - where.x0);
             simd::landRow(lens_.lens(), lens_.size(), motion, lens_.raysX().data() + i,
                           lens_.raysY().data() + i, s_.data() + i, count, landing_.data() + i);
-            // The other picture may show less than the video's rectangle in its geometry.
+            // landRow() treats the other picture as being as large as the video. The picture may
+            // cover less.
             search.dropUnseen(where.x0, y, std::span(s_).subspan(i, count),
                               std::span(landing_).subspan(i, count));
         }

@@ -28,8 +28,9 @@ public:
     /// the still or a keyframe, in the video's geometry. A pixel becomes unknown if the other
     /// picture does not show its point, because the point is outside it or occluded in it (z-test).
     /// `R_other_video` rotates rays of the video camera into coordinates of the other camera. The
-    /// search's unit of length is `unit` metres. `cells` is empty or contains, for every cell, a
-    /// more accurate s (see EpipolarLens). It is used where it agrees with the pixel's own s.
+    /// search's unit of length is `unit` metres. `cells` is empty or contains, for every cell of
+    /// the video, a more accurate s (see EpipolarLens). The values are interpolated between cells,
+    /// and used where they agree with the pixel's own s.
     void run(const EpipolarSearch& search, const Eigen::Matrix3f& R_other_video, double unit,
              std::span<const float> cells, const PixelRect& where, InverseDepthField& out);
 

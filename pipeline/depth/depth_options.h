@@ -29,16 +29,18 @@ struct KeyframeOptions {
 struct DepthOptions {
     KeyframeOptions keyframes{};
     EpipolarOptions search{};
-    /// In a part of the picture in which the relative standard deviation of the known inverse depth
-    /// is at most this, depth is not measured with a keyframe. The option's range is [0.001, 1].
+    /// A part of the picture needs no keyframe if the median relative standard deviation of its
+    /// known inverse depths is at most this, [0.001, 1].
     double enough = 0.01;
 };
 
-/// Where a frame's depth comes from. None: there is no depth. Carried: earlier frames only. Still,
+/// Where a frame's depth comes from. None: no depth is known in the measured rectangle, or the
+/// median of its relative standard deviation is at least 1. Carried: earlier frames only. Still,
 /// Keyframe, Both: a match of the frame with the still, with a keyframe, or with both.
 enum class DepthSource { None, Carried, Still, Keyframe, Both };
 
-/// These functions throw std::invalid_argument that names the first option that is out of range.
+/// These functions throw std::invalid_argument. Its message names the first option that is out of
+/// range.
 void validate(const KeyframeOptions& options);
 void validate(const DepthOptions& options);
 

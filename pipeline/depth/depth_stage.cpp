@@ -19,8 +19,8 @@ constexpr double kNearest = 0.01;  // smallest distance that is assumed for the 
 // A keyframe is used only if its parallax exceeds this multiple of the parallax between frame and
 // still.
 constexpr double kWorth = 2;
-// Depth is measured only if the relative error of the baseline (the distance between the two
-// cameras) is below this. Depth has the same relative error as the baseline.
+// Depth is measured only if the relative error of the baseline (the distance between the two camera
+// positions) is below this. Depth has the same relative error as the baseline.
 constexpr double kMostLengthError = 0.15;
 // If at least this share of the pixels has a known depth, a search starts from the known depths.
 constexpr double kMostlyKnown = 0.97;
@@ -136,8 +136,8 @@ void DepthStage::findNeeds(const Pose& pose, double brightness, double stillBase
     }
 }
 
-// Finds the part with the largest uncertainty. Measures this part, and all other parts for which
-// the same keyframe was chosen.
+// Finds the part with the largest uncertainty. Measures the rectangle around this part and around
+// all other parts for which the same keyframe was chosen.
 void DepthStage::searchKeyframe(const Rows<const std::uint8_t>& luma, const Pose& pose) {
     if (needs_.empty()) return;
     const auto knowsMore = [](const Need& a, const Need& b) { return a.share < b.share; };

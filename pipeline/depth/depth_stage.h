@@ -51,7 +51,8 @@ public:
 private:
     struct Summary {
         double inverseDepth = 0;
-        /// Median of the relative standard deviations of inverse depth, or 1 if no depth is known.
+        /// Median of the relative standard deviations of inverse depth, at most 1; 1 if no depth is
+        /// known.
         double share = 1;
     };
     struct Need {
@@ -82,7 +83,7 @@ private:
     // isLost_: forget(where) was called after the last measurement.
     bool isRenewed_ = false, isLost_ = false;
     PixelRect measuredWhere_;
-    // Empty, or a flag for each pixel: the current frame must not change its depth.
+    // Empty, or for each pixel: 1 if the current frame must not change the pixel's depth, else 0.
     std::vector<std::uint8_t> fixed_;
     std::optional<Timestamp> last_;
     int world_ = 0;  ///< world frame of the known depth and of the keyframes, see Pose::world

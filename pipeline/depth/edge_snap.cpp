@@ -14,15 +14,16 @@ namespace {
 // Width of the band on each side of a depth edge in which depths are replaced [px]. In this band, a
 // pixel gets the depth of surrounding pixels of similar colour.
 constexpr int kBand = 4;
-// Pixels within this distance of a pixel vote on its depth [px].
+// Pixels that are at most this far away along each axis vote on a pixel's depth [px].
 constexpr int kVoteRadius = 10;
 constexpr int kVoters = simd::kVoterStep;
 // A depth edge is where the inverse depth changes within 2 kBand + 1 pixels by more than kJump *
 // (larger inverse depth) + kSigmas * (standard deviation).
 constexpr float kJump = 0.08F, kSigmas = 3;
 constexpr float kLikeness = 12;  // colour distance that halves the weight of a vote [grey levels]
-// The votes on a pixel's depth are valid only if the sum of their weights is at least this. The
-// weight of a vote is at most 1.
+// The voters are divided into a near and a far group. A pixel gets the depth of the group with the
+// larger total weight, but only if this weight is at least kLeastWeight. The weight of a vote is at
+// most 1.
 constexpr float kLeastWeight = 0.75F;
 
 static_assert(kBand <= simd::kMostRange);

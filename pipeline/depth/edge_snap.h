@@ -43,7 +43,7 @@ private:
     PixelRect where_;
     // Per pixel: 1 if its depth is taken from pixels of similar colour, else 0.
     std::vector<std::uint8_t> open_;
-    // low_, high_: the smallest and the largest inverse depth around each pixel.
+    // low_, high_: for each pixel, the smallest and the largest inverse depth near it in its row.
     std::vector<float> low_, high_;
     struct {
         AlignedRows<float> inverseDepth, variance, red, green, blue;

@@ -17,7 +17,7 @@ struct InverseDepthField {
     /// 1 / z along the video camera's axis [1/m]. 0 is infinitely far.
     std::vector<float> inverseDepth;
     std::vector<float> variance;  ///< variance of the inverse depth [1/m^2], or kUnknown
-    /// 1 if the depth comes from nearby pixels, 0 if it was measured.
+    /// 1 if the depth comes from nearby pixels, 0 if it was measured or is unknown.
     std::vector<std::uint8_t> filled;
 
     InverseDepthField() = default;
@@ -26,8 +26,8 @@ struct InverseDepthField {
           variance(inverseDepth.size(), kUnknown), filled(inverseDepth.size()) {}
 
     [[nodiscard]] bool isKnown(std::size_t pixel) const { return variance[pixel] < kUnknown; }
-    /// True if these values are valid for a pixel with known depth. The limits keep products of
-    /// values and sums over a picture finite in single precision.
+    /// True if these values are valid for a pixel with known depth. The limits keep products of two
+    /// inverse depths, and sums of variances over a picture, finite in single precision.
     [[nodiscard]] static bool isSound(float inverseDepth, float variance) {
         return inverseDepth >= 0 && inverseDepth < 1e15F && variance > 1e-30F && variance < 1e30F;
     }

@@ -10,12 +10,12 @@
 namespace mfar {
 namespace {
 
-// Two successive keyframes see a typical point of the scene from directions that differ by at least
-// this angle [rad].
+// Between two successive keyframes, the rotation of the camera plus the parallax of a typical point
+// of the scene is at least this angle [rad].
 constexpr double kLeastStep = 0.002;
 // The score of a keyframe is the expected error, so lower is better. It is doubled at age kAge
-// [frames], and multiplied by 1 + kExposure if the exposures of keyframe and frame differ by a
-// factor of e.
+// [frames], and multiplied by 1 + kExposure if the mean lumas of keyframe and frame differ by a
+// factor of e, which shows a different exposure.
 constexpr double kAge = 60;
 constexpr double kExposure = 2;
 constexpr int kGrid = 4;  // number of sample points along each axis of a part of the picture

@@ -26,7 +26,8 @@ public:
 
     void forget();
     /// Stores a frame if the camera has moved noticeably since the newest keyframe. `inverseDepth`
-    /// is the inverse depth of a typical point of the scene [1/m]. `brightness` is the mean luma.
+    /// is the inverse depth of a typical point of the scene [1/m]. `brightness` is the mean luma,
+    /// [0, 255].
     void add(const Rows<const std::uint8_t>& luma, const Pose& pose, double brightness,
              double inverseDepth);
 
@@ -34,11 +35,12 @@ public:
         const Keyframe* frame;
         double angle;  ///< mean parallax [rad]
     };
-    /// Chooses a keyframe for the rectangle `part` [px] of a frame at this pose. Empty if no
-    /// keyframe shows this part with enough parallax. With KeyframeRule::Score, the keyframe with
-    /// the lowest score is chosen. The score is proportional to the expected error of inverse
-    /// depth, 1 / sin(parallax), and is increased for old keyframes and for a different exposure.
-    /// The result is valid until the next add().
+    /// Chooses a keyframe for the rectangle `part` [px] of a frame at this pose. `inverseDepth` is
+    /// the inverse depth of a typical point of this part [1/m]. The result is empty if no keyframe
+    /// shows the part with enough parallax. With KeyframeRule::Score, the keyframe with the lowest
+    /// score is chosen. The score is proportional to the expected error of inverse depth,
+    /// 1 / sin(parallax), and is increased for old keyframes and for a different brightness. The
+    /// result is valid until the next add() or forget().
     [[nodiscard]] std::optional<Choice> choose(const Pose& pose, double brightness,
                                                const PixelRect& part, double inverseDepth) const;
 
@@ -59,6 +61,7 @@ private:
     long count_ = 0;
 };
 
+/// Returns the mean luma, [0, 255]; 0 for an empty picture.
 [[nodiscard]] double brightnessOf(const Rows<const std::uint8_t>& luma);
 
 }  // namespace mfar
