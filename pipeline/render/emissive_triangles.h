@@ -36,7 +36,8 @@ public:
     [[nodiscard]] Sample sample(const Eigen::Vector3f& from, const Eigen::Vector2f& u,
                                 float fine) const;
     /// Probability density [1/sr] with which sample() gives the direction of `ray` and a point of
-    /// the hit triangle. `ray` must have a direction of unit length and `hit` must be its hit.
+    /// the hit triangle. `ray` must have a direction of unit length and `hit` must be its hit. Does
+    /// not check that the hit side of the triangle emits light.
     [[nodiscard]] float density(const Ray& ray, const RayHit& hit) const;
 
 private:

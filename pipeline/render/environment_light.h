@@ -23,6 +23,7 @@ public:
     [[nodiscard]] bool sampled() const { return sampled_; }
     [[nodiscard]] LightSample sample(const Eigen::Vector2f& u) const;
     [[nodiscard]] Eigen::Vector3f radiance(const Eigen::Vector3f& direction) const;
+    /// Returns the probability density [1/sr] with which sample() gives `direction`.
     [[nodiscard]] float density(const Eigen::Vector3f& direction) const;
     struct Seen {
         Eigen::Vector3f radiance{0, 0, 0};

@@ -23,7 +23,7 @@ constexpr int kIntegrated = 32;
 constexpr int kSamples = 64;
 
 /// Roughness and resolution of a table of mirrored light. For a roughness below that of the first
-/// table, light is interpolated between the first table and the unfiltered environment.
+/// table, light is interpolated between the first table and the unfiltered light.
 struct MirrorLevel {
     float roughness;
     int edge;
@@ -36,7 +36,7 @@ float signOf(float x) {
 }
 
 /// Weight of texel i along one axis in a sum over all directions. It is 1/2 on the border, because
-/// each direction there has two texels.
+/// directions there have two texels along this axis.
 float partOfBorder(int i, int edge) {
     return i == 0 || i == edge - 1 ? 0.5F : 1.0F;
 }

@@ -12,7 +12,8 @@
 namespace mfar {
 
 /// An interpolated function of direction, stored as a row-major table on the octahedral map
-/// (Cigolle et al. 2014). Each direction on the border of the table has two texels.
+/// (Cigolle et al. 2014). Most directions on the border of the table have two texels; the direction
+/// -z has the four corners.
 class DirectionTable {
 public:
     /// `edge` is the number of texels per side, at least 2.
@@ -47,6 +48,7 @@ public:
 
     [[nodiscard]] bool dark() const { return dark_; }
     [[nodiscard]] float brightness() const { return brightness_; }
+    /// Returns the light from `direction`. `environment` is the environment's radiance from there.
     [[nodiscard]] Eigen::Vector3f radiance(const Eigen::Vector3f& direction,
                                            const Eigen::Vector3f& environment) const {
         return hasGround_ && direction.z() < 0 ? ground_ : environment;
@@ -55,9 +57,9 @@ public:
     [[nodiscard]] Eigen::Vector3f diffuse(const Eigen::Vector3f& normal) const {
         return diffuse_(normal);
     }
-    /// Mean radiance about `direction`, weighted with the reflection lobe of this roughness at
-    /// normal incidence (Karis 2013). At other angles the lobe is longer, so the result is an
-    /// approximation.
+    /// Returns the mean radiance around `direction`, weighted with the reflection lobe of this
+    /// roughness at normal incidence (Karis 2013). At other angles the lobe is longer, so the
+    /// result is an approximation.
     [[nodiscard]] Eigen::Vector3f mirrored(const Eigen::Vector3f& direction, float roughness) const;
 
     /// Returns tables of mirrored(). The table of roughness 0 contains the unfiltered light. No

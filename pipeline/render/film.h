@@ -47,11 +47,11 @@ struct FilmSample {
 
 /// Light of a surface, averaged over samples. For an object, `first` is diffuse and `second` is
 /// specular light. For the shadow catcher, `first` is the change caused by objects and `second` is
-/// the light without objects.
+/// the light without objects. The light of an object is stored as a multiple of SeenSurface::far.
 struct KnownLight {
     Eigen::Vector3f first{0, 0, 0}, second{0, 0, 0};
-    float firstSquare = 0, secondSquare = 0;
-    float firstCount = 0, secondCount = 0;  ///< numbers of samples; 0: unknown light
+    float firstSquare = 0, secondSquare = 0;  ///< means of the samples' squared luminances
+    float firstCount = 0, secondCount = 0;    ///< numbers of samples; 0: unknown light
 };
 
 /// Sums of the samples of each pixel of one view. Pixels are numbered row-major. A block of pixels
@@ -59,8 +59,8 @@ struct KnownLight {
 /// Threads may process different pixels at the same time.
 class Film {
 public:
-    /// Number of pixels in a block. A tile of Slices has four blocks. The pixels with even column
-    /// and even row share one block.
+    /// Number of pixels in a block. A tile of Slices has four blocks. The tile's pixels with even
+    /// column and even row share one block.
     static constexpr std::size_t kBlockPixels = 16;
     /// Memory that several films may share.
     [[nodiscard]] static std::shared_ptr<FilmMemory> makeMemory();
@@ -89,7 +89,7 @@ public:
     /// Mean radiance of a pixel's samples. `object` is the mean over the samples that hit an
     /// object. `with` and `without` are means over the samples that hit the shadow catcher: its
     /// radiance with objects, and its radiance if no object existed. A share is a number of such
-    /// samples, divided by the number of all samples.
+    /// samples, divided by the number of all samples that were not dropped.
     struct Means {
         Eigen::Vector3f object{0, 0, 0};
         Eigen::Vector3f with{0, 0, 0}, without{0, 0, 0};
@@ -131,8 +131,8 @@ public:
     /// Returns a pixel's light as input of a NoiseFilter. resolvedFrom() converts the filter's
     /// output to a pixel.
     [[nodiscard]] LightPixel light(std::size_t pixel, const Exposure& exposure) const;
-    /// Stores filtered light as carried light in a pixel that has neither samples nor carried
-    /// light.
+    /// Stores filtered light as carried light in a pixel that shows a surface and has no samples. A
+    /// part of the light that the pixel already carries stays unchanged.
     void remember(std::size_t pixel, const LightPixel& light);
     /// Returns a pixel of the picture from filtered light. At an edge, the pixel shows a mixture of
     /// all its surfaces. If `layered` is true, it shows only the surface that has the filtered

@@ -25,11 +25,12 @@ public:
 
     /// Returns the light of the surface at `point` (world frame), seen from `eye`. It interpolates
     /// between those pixels of the earlier picture that show this surface. The weight of specular
-    /// light falls with the angle between the two viewing directions. The weight of all light falls
-    /// with the change that moved objects may have caused. Empty if no pixel shows the surface.
+    /// light falls with the angle between the two viewing directions. The weight of all light,
+    /// except the shadow catcher's light without objects, falls with the change that moved objects
+    /// may have caused. If no pixel shows the surface, the result has no samples.
     [[nodiscard]] KnownLight at(const SeenSurface& seen, const Eigen::Vector3f& point,
                                 const Eigen::Vector3f& eye) const;
-    /// Null if no object has moved.
+    /// Null if the constructor got no `moved`.
     [[nodiscard]] const MovedLight* moved() const { return moved_ ? &*moved_ : nullptr; }
 
 private:

@@ -16,7 +16,7 @@ namespace mfar {
 
 /// Estimates how much the motion of objects may have changed the light on a surface since an
 /// earlier picture. A moved object is approximated by its bounding ball, which blocks the distant
-/// light behind it and can glow. The estimates are rather too large than too small.
+/// light behind it and can glow. The estimates tend to be too large.
 class MovedLight {
 public:
     struct Object {

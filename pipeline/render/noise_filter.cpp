@@ -26,7 +26,7 @@ constexpr float kTolerance = 2.5F;
 // So kCatcherTolerance replaces kTolerance on the shadow catcher.
 constexpr float kCatcherTolerance = 4;
 constexpr int kBefore = 2;               // number of stages before the filter's first level
-constexpr float kLeastVariance = 1e-7F;  // (a tenth of a grey level)^2 at white
+constexpr float kLeastVariance = 1e-7F;  // about (0.04 grey levels)^2 at white
 // Upper limit of the relative change of depth per pixel on one surface.
 constexpr float kDepthSlope = 0.01F;
 

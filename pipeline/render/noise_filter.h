@@ -84,8 +84,8 @@ private:
     template <class Float>
     [[nodiscard]] std::array<simd::LightPart<Float>, 2> parts(int set);
 
-    /// Calls `use(index)` for each neighbour on the same surface, up to `reach` steps of `step`
-    /// pixels away.
+    /// Calls `use(index)` for the pixel itself and for each neighbour on the same surface, up to
+    /// `reach` steps of `step` pixels away.
     template <class Use>
     void forNeighbours(int x, int y, int reach, int step, Use use) const;
 

@@ -31,7 +31,7 @@ struct PathTracerOptions {
     bool operator==(const PathTracerOptions&) const = default;
 };
 
-/// Throws std::invalid_argument that names the first option out of range.
+/// Throws std::invalid_argument. Its message names the first option that is out of range.
 void validate(const PathTracerOptions& options);
 
 }  // namespace mfar

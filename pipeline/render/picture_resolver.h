@@ -23,10 +23,10 @@ public:
     /// the picture is complete.
     /// `layered` has an effect only if `filter` is true; see RenderedPicture.
     /// `memory` must be null or the film. With the film, and if `filter` is true, two things
-    /// differ. First: if a pixel shows a surface but has neither samples nor carried light, the
-    /// filter's result is stored as its carried light (Film::remember()). Second: a pixel through
-    /// whose centre no ray was traced shows the mean of those neighbours that show the shadow
-    /// catcher and have an even column and an even row.
+    /// differ. First: if a pixel shows a surface but has no samples, the filter's result is stored
+    /// as its carried light, unless it already carries light (Film::remember()). Second: a pixel
+    /// through whose centre no ray was traced shows the mean of those neighbours that show the
+    /// shadow catcher and have an even column and an even row.
     void begin(const Film& film, const RenderView& view, const PixelRect& traced,
                const Exposure& exposure, bool filter, RenderedPicture& out, Film* memory = nullptr,
                bool layered = false);
@@ -38,8 +38,8 @@ public:
         int stage = 0, firstRow = 0, lastRow = 0;
         [[nodiscard]] bool empty() const { return firstRow >= lastRow; }
     };
-    /// Returns a portion of about `pixels` pixels, at least one row. An empty portion means: wait
-    /// for running portions.
+    /// Returns a portion of about `pixels` pixels, at least one row. The portion is empty if the
+    /// picture is complete, or if the next stage must wait for running portions.
     [[nodiscard]] Portion next(std::int64_t pixels);
     [[nodiscard]] int stage() const { return std::min(stage_, kLastStage); }
     [[nodiscard]] bool hasNext() const { return nextRow_ < rowsEnd(); }
@@ -69,6 +69,7 @@ private:
     std::vector<double> taken_, seen_;
 };
 
+/// Converts the whole film to a picture at once.
 void resolve(const Film& film, const RenderView& view, const Exposure& exposure,
              RenderedPicture& out, bool filter = false);
 

@@ -51,7 +51,7 @@ public:
     PixelSurfaces(const TracedScene& scene, const PathIntegrator& integrator, const ViewRays& rays)
         : scene_(scene), integrator_(integrator), rays_(rays) {}
 
-    /// `ray` is the ray through the centre of `pixel`, and `hit` is the object that it shows.
+    /// `ray` is the ray through the centre of `pixel`, and `hit` is its hit on an object.
     [[nodiscard]] SeenSurface at(const Eigen::Vector2f& pixel, const Ray& ray,
                                  const RayHit& hit) const;
 

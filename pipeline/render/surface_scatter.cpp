@@ -19,8 +19,8 @@ float fifthPower(float x) {
     return x2 * x2 * x;
 }
 
-/// Returns the share of the light that leaves the surface after more than one reflection (Kulla and
-/// Conty 2017).
+/// A part of the light hits several microfacets, one after the other. Returns the share of this
+/// part that none of them absorbs (Kulla and Conty 2017).
 float manyfoldShare(float f0, const SpecularAlbedo& mean) {
     const float fresnel = f0 + (1 - f0) / 21;
     return fresnel * fresnel * mean.full() / (1 - fresnel * std::max(1 - mean.full(), 0.0F));

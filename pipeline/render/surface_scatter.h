@@ -16,13 +16,13 @@ struct SurfaceLook {
 struct ScatterValue {
     Eigen::Vector3f value{0, 0, 0};  ///< BRDF times the cosine of wi [1/sr]
     float white = 0;                 ///< diffuse part of `value` / diffuse paint [1/sr]
-    float density = 0;
+    float density = 0;               ///< probability density of wi [1/sr]
 };
 
 struct ScatterSample {
     Eigen::Vector3f wi{0, 0, 1};
-    Eigen::Vector3f weight{0, 0, 0};
-    float white = 0;    ///< diffuse part of `weight` divided by the diffuse paint
+    Eigen::Vector3f weight{0, 0, 0};  ///< ScatterValue::value / density
+    float white = 0;                  ///< diffuse part of `weight` divided by the diffuse paint
     float density = 0;  ///< probability density of wi [1/sr]; 0: the sample scatters no light
 };
 

@@ -10,7 +10,7 @@ namespace mfar {
 namespace {
 
 // Distance of a ray's start from its surface, so that the ray does not hit the same surface.
-// kStartOffset is relative to the largest coordinate: about 30 units in the last place.
+// kStartOffset is relative to the largest coordinate: 32 to 64 units in its last place.
 // kLeastOffset [m] is the lower limit.
 constexpr float kStartOffset = 0x1p-18F;
 constexpr float kLeastOffset = 1e-7F;

@@ -14,7 +14,7 @@ struct MotionTrack {
     enum class Between : unsigned char { Step, Linear, CubicSpline };
 
     Between between = Between::Linear;
-    std::vector<double> times;  ///< [s], increasing; empty: the value does not change
+    std::vector<double> times;  ///< [s], strictly increasing; empty: the value does not change
     /// One value for each time: a translation (x, y, z, 0) [m] or a unit quaternion (x, y, z, w).
     /// CubicSpline has three entries for each time: tangent before the time [1/s], value, and
     /// tangent after the time [1/s].
@@ -26,7 +26,7 @@ struct MotionTrack {
     /// Between::CubicSpline is normalised.
     [[nodiscard]] Eigen::Quaterniond rotationAt(double seconds) const;
     [[nodiscard]] MotionTrack scaled(double scale) const;
-    /// True if the value is the same at all times.
+    /// True if the value is the same at all times. A spline with several times counts as changing.
     [[nodiscard]] bool isConstant() const;
 
     bool operator==(const MotionTrack&) const = default;

@@ -26,7 +26,7 @@ std::vector<double> timesOf(const RigidPath& path) {
     return out;
 }
 
-/// Returns the bounds of the object at all times, from the corners of its bounds at rest.
+/// Returns the bounds of the object at the times of timesOf(), from the corners of its own bounds.
 Eigen::AlignedBox3d sweptBounds(const RigidTransform& T_frame_world, const SceneObject& object) {
     SceneObject atRest = object;
     atRest.path.reset();

@@ -16,20 +16,21 @@ struct ObjectBall {
 };
 
 /// Returns the bounding ball in the object's own frame, but with the object's scale applied [m].
-/// Empty if the object has no vertices.
+/// The result is empty if the object has no vertices.
 [[nodiscard]] std::optional<ObjectBall> ownBall(const SceneObject& object);
 /// Returns one ball in the world for each object that has vertices, at its present pose.
 [[nodiscard]] std::vector<ObjectBall> objectBalls(const Scene& scene);
 
-/// Returns a ball around the shadow catcher in the world. Empty if the scene has no catcher.
+/// Returns a ball around the shadow catcher in the world; empty if the scene has no catcher.
 [[nodiscard]] std::optional<ObjectBall> catcherBall(const Scene& scene);
 
-/// Returns the bounds of the object in the given frame. They contain a moving object at all times.
+/// Returns the bounds of the object in the given frame. They contain a moving object at many times
+/// of its motion: at its keyframes, and at times that are evenly spaced.
 [[nodiscard]] Eigen::AlignedBox3d boundsIn(const RigidTransform& T_frame_world,
                                            const SceneObject& object);
 
-/// Returns the bounds of all objects in world coordinates. They contain moving objects at all
-/// times, and are empty if the scene has no vertex.
+/// Returns the bounds of all objects in world coordinates, see boundsIn(). They are empty if the
+/// scene has no vertex.
 [[nodiscard]] Eigen::AlignedBox3d boundsOf(const Scene& scene);
 
 }  // namespace mfar

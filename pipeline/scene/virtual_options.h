@@ -65,14 +65,17 @@ enum class VirtualRendering : unsigned char { PathTraced, Preview };
 
 struct VirtualOptions {
     VirtualRendering rendering = VirtualRendering::PathTraced;
-    double budgetMs = 8;  ///< processor time for path tracing in each frame [ms]
+    /// Processor time for path tracing in each frame [ms]; twice this until the first picture is
+    /// shown.
+    double budgetMs = 8;
     Slicing slicing = Slicing::Time;
     int samples = 64;
-    double resolution = 0.28;  ///< width of a path-traced picture relative to the still's width
+    double resolution = 0.28;  ///< width and height of a traced picture as a share of the still's
     HoleFilling holes = HoleFilling::Both;
     int threads = 1;
     bool filter = true;
-    /// Largest angle between the views of two consecutive traced pictures [degrees].
+    /// A new traced picture is begun at the latest when the view has turned by this angle
+    /// [degrees].
     double turnDeg = 4;
 
     bool operator==(const VirtualOptions&) const = default;
