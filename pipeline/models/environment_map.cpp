@@ -44,7 +44,7 @@ void requireMemory(Size size, std::size_t memory) {
             size.width, size.height, (needed + kMegabyte - 1) / kMegabyte, memory / kMegabyte));
 }
 
-/// Averages rows as they are read, so that a large picture is never completely in memory.
+/// Averages rows as they are read, so that a large picture is never completely in memory as floats.
 class RowAverage {
 public:
     explicit RowAverage(Size from) : from_(from) {

@@ -15,9 +15,9 @@ namespace mfar {
 inline constexpr std::size_t kEnvironmentMemory = std::size_t{1} << 30U;
 
 /// Reads an environment from a latitude-longitude picture: Radiance RGBE (.hdr), PNG or JPEG (sRGB;
-/// white has radiance 1). The picture must be twice as wide as high (to within 1 %), and at most
-/// 16384 px wide (PNG and JPEG: 8192 px). A larger picture than 2048x1024 is reduced to this size
-/// by averaging. Throws ModelError with the message "file: fault".
+/// white has radiance 1). The picture must be twice as wide as high (to within 1 % or 1 px), and at
+/// most 16384 px wide (PNG and JPEG: 8192 px). A larger picture than 2048x1024 is reduced to this
+/// size by averaging. Throws ModelError with the message "file: fault".
 [[nodiscard]] Environment loadEnvironment(const std::filesystem::path& file,
                                           std::size_t memory = kEnvironmentMemory);
 /// Reads an environment from the bytes of a file. `name` is its name in error messages.

@@ -81,8 +81,9 @@ Callbacks callbacksFor(FolderAccess& access) {
     return out;
 }
 
-/// tinygltf calls this function for each picture. Keeps the encoded bytes of a picture from a file
-/// or a data URI. A picture in a bufferView is not copied.
+/// tinygltf calls this function for each picture in a data URI or a bufferView, but not for picture
+/// files (TINYGLTF_NO_EXTERNAL_IMAGE); GltfMaterials reads these. Keeps the encoded bytes of a
+/// picture from a data URI. A picture in a bufferView is not copied.
 bool keepImage(tinygltf::Image* image, int /*index*/, std::string* /*error*/,
                std::string* /*warning*/, int /*width*/, int /*height*/, const unsigned char* bytes,
                int size, void* /*user*/) {

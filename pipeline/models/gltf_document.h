@@ -43,7 +43,8 @@ struct GltfDocument {
 
 /// Validates the JSON of a document before tinygltf reads it. tinygltf does not check the ranges of
 /// images in buffers, copies the bytes of a buffer for each reference to it, and follows `extras`
-/// to any depth. Throws std::runtime_error with the message "place: fault".
+/// to any depth. Throws std::runtime_error with the message "place: fault", or with the fault alone
+/// if it concerns the whole document.
 void requireSoundJson(std::string_view text, const ModelLimits& limits);
 
 }  // namespace mfar

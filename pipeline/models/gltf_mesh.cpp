@@ -111,7 +111,8 @@ void readCoordinates(const GltfDocument& document, const PrimitiveSource& source
         if (!(uv.cwiseAbs().maxCoeff() < kFarthestUv))
             document.refuse(source.place, "texture coordinates must be between -1e6 and 1e6");
     }
-    // Without texture coordinates, textures show their first texel.
+    // Without texture coordinates, a texture shows its value at (0, 0), the mean of its corner
+    // texels.
     if (mesh.uvs.empty()) mesh.uvs.assign(mesh.positions.size(), Eigen::Vector2f::Zero());
 }
 
@@ -159,7 +160,7 @@ Mesh transformed(const Mesh& mesh, const Eigen::Affine3d& T_model_mesh) {
         cofactors.col(i) = linear.col((i + 1) % 3).cross(linear.col((i + 2) % 3));
     if (mirrors) cofactors = -cofactors;
     // The entries of the matrix are products of two scales. With a scale of micrometres, they would
-    // be too small for float without normalisation.
+    // make the normals shorter than kShortestUnit.
     const double scale = cofactors.cwiseAbs().maxCoeff();
     if (scale > 0) cofactors /= scale;
     for (Eigen::Vector3f& n : out.normals)

@@ -11,12 +11,13 @@ namespace mfar {
 struct PrimitiveSource {
     const tinygltf::Primitive& primitive;
     TextureMapping mapping;
-    bool textured = false, bumpy = false;  ///< bumpy: the material has a normal texture
+    /// textured: the material has a texture; bumpy: it has a normal texture.
+    bool textured = false, bumpy = false;
     std::string place;
 };
 /// Returns the primitive in glTF's coordinates, with material 0. The mesh has tangents if the
-/// material has a normal texture. Returns nothing for points and lines. Refuses invalid data, and
-/// more vertices or triangles than the limits allow.
+/// material has a normal texture. Returns nothing for points, for lines, and without vertices.
+/// Refuses invalid data, and more vertices or triangles than the limits allow.
 [[nodiscard]] std::optional<Mesh> readPrimitive(const GltfDocument& document,
                                                 const PrimitiveSource& source);
 

@@ -11,7 +11,8 @@
 namespace mfar {
 
 /// The motion of a document's nodes: translations and rotations of its first animation. Other
-/// motion is not played, and notes() contains a sentence about it. Invalid keyframes are refused.
+/// motion is not played, and notes() contains a sentence about each kind of it. Invalid keyframes
+/// are refused.
 class GltfMotion {
 public:
     explicit GltfMotion(const GltfDocument& document);
@@ -19,8 +20,8 @@ public:
     struct Tracks {
         MotionTrack translation, rotation;
     };
-    /// Returns the motion of the node with this index, or null if the node does not move relative
-    /// to its parent.
+    /// Returns the tracks of the node with this index, or null if the animation has none for it. A
+    /// track of the result may be constant or empty.
     [[nodiscard]] const Tracks* of(int node) const;
     [[nodiscard]] double length() const { return length_; }  ///< length of the animation [s]
 

@@ -16,10 +16,10 @@ using LatheProfile = std::vector<Eigen::Vector2f>;
 [[nodiscard]] LatheProfile smoothProfile(const LatheProfile& knots, int count);
 
 struct LatheOptions {
-    int around = 96;
+    int around = 96;  ///< number of segments around the axis
     /// Texture coordinate v at the profile's ends. u increases from 0 to 1 around the axis.
     float vBottom = 1, vTop = 0;
-    Eigen::Vector2f centre{0, 0};
+    Eigen::Vector2f centre{0, 0};  ///< x and y of the axis [m]
     /// Returns the factor by which the radius is multiplied at an angle [rad] and a height [m]. If
     /// the function is empty, the factor is 1.
     std::function<float(float angle, float height)> shape{};

@@ -25,7 +25,7 @@ struct LightEstimatorOptions {
     /// Time constant for light from directions that are out of view [s], above 0. After this time,
     /// its weight is 1/e.
     double memoryS = 120;
-    float surfaceAlbedo = 0.5F;
+    float surfaceAlbedo = 0.5F;  ///< assumed albedo of the surfaces that the camera sees, (0, 1]
 };
 
 /// Estimates the light around the scene from the camera's pictures. The radiance in the pictures is
@@ -44,11 +44,12 @@ public:
     explicit LightEstimator(const LightEstimatorOptions& options = {});
 
     /// Adds a video frame. Ignores a frame that is black, has a pose that is not finite, or is not
-    /// newer than the last frame. Throws std::invalid_argument if the view is invalid.
+    /// newer than the last added frame. Throws std::invalid_argument if `frame` is invalid
+    /// (requireSound()).
     void add(const ImageView& frame, const CameraModel& camera,
              const RigidTransform& T_world_camera, Timestamp time);
 
-    /// Empty before the first frame.
+    /// Empty until the first frame was added.
     [[nodiscard]] std::optional<LightEstimate> estimate() const;
 
 private:

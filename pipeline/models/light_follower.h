@@ -11,8 +11,8 @@ public:
     /// If `sun` is set, it replaces the estimated sun.
     explicit LightFollower(const std::optional<Sun>& sun) : sun_(sun) {}
 
-    /// Must be called for each frame. Adds at most two frames a second to the estimate. Returns the
-    /// new light after each frame that it adds, otherwise nothing.
+    /// Must be called for each frame. Passes at most two frames a second to LightEstimator::add().
+    /// Returns the light after each of these frames if there is an estimate, otherwise nothing.
     std::optional<Lighting> follow(const ImageView& frame, const CameraModel& camera,
                                    const RigidTransform& T_world_camera, Timestamp time);
 

@@ -9,7 +9,7 @@ namespace mfar {
 struct SeenRadiance {
     Eigen::Vector3f direction;  ///< unit vector in world coordinates
     Eigen::Vector3f radiance;   ///< linear RGB; 1 is the picture's white
-    float solidAngle = 0;
+    float solidAngle = 0;       ///< [sr]
 };
 
 /// Divides a picture into a grid of cells, and computes the radiance that each cell shows from a

@@ -14,7 +14,7 @@ namespace mfar {
 
 /// Reads a Radiance picture (RGBE; uncompressed, or with the old or the new run-length coding;
 /// order -Y +X). First calls `size`, which can throw, then calls `row` for each row from the top.
-/// The values are finite, not negative, and divided by the header's EXPOSURE. Throws
+/// The values are divided by the header's EXPOSURE and limited to [0, 1e7]. Throws
 /// std::runtime_error with the fault. Source: Ward, Real Pixels, Graphics Gems II, 1991; Radiance's
 /// color.c.
 void readRadianceHdr(std::span<const std::uint8_t> bytes, const std::function<void(Size)>& size,

@@ -5,9 +5,9 @@
 
 namespace mfar {
 
-/// Returns a simple shape as a model in metres, with medium roughness and its checkerboard as a
-/// texture. A quad is visible from both sides. Sizes along axes that the shape does not have are
-/// ignored.
+/// Returns a simple shape as a model in metres, with medium roughness. Its checkerboard is a
+/// texture, or a colour if both colours are equal. A quad is visible from both sides. It has no
+/// extent along z, but object.size.z() must not be 0.
 [[nodiscard]] Model shapeModel(const VirtualObject& object);
 
 }  // namespace mfar

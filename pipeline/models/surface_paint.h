@@ -9,7 +9,7 @@ namespace mfar {
 struct PaintedPoint {
     Eigen::Vector3f colour;  ///< linear base colour, [0, 1]
     float roughness = 1, metallic = 0;
-    float height = 0;
+    float height = 0;  ///< height of the relief [m]
 };
 
 /// A painted area: size of its textures, and its width and height [m]. u increases to the right and
