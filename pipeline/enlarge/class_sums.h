@@ -14,7 +14,8 @@ namespace mfar::enlarge {
 
 /// The grey levels of a pixel's neighbours minus that of the pixel, in the order of kTapAt.
 using Taps = Eigen::Matrix<double, kTaps, 1>;
-/// True picture minus Keys' cubic enlargement at a pixel's sub-pixels, row-major [grey levels].
+/// One value for each sub-pixel of a pixel, row-major. The sums of this file use the grey level of
+/// the true picture minus that of Keys' cubic enlargement.
 using Phases = Eigen::Matrix<double, kPhases, 1>;
 /// Weights of a class's filter as they are applied. (FilterBank::Filter stores halved weights.)
 using ClassWeights = Eigen::Matrix<double, kTaps, kPhases>;
@@ -43,7 +44,7 @@ struct ClassSums {
     void add(const ClassSums& other);
     void fade(double share);
     /// Returns the sums over the same pictures and their copies rotated by 180 degrees. A pixel has
-    /// the same class in the picture and in the rotated copy.
+    /// the same class in the picture and in the rotated copy. `pixels` is not doubled.
     [[nodiscard]] ClassSums turnedToo() const;
     /// Returns the sum of squared errors of a filter with these weights.
     [[nodiscard]] double errorOf(const ClassWeights& weights) const;

@@ -18,7 +18,8 @@ using namespace enlarge;
 // or Part::Choose, the class gets no learned filter. With fewer in Part::Check, the class's filter
 // is checked only together with the filters of all other classes.
 constexpr double kLeastPixels = 400;
-// When a new still arrives, the sums over all older stills are multiplied by this factor.
+// Before the sums of a new still are added, the sums over all older stills are multiplied by this
+// factor.
 constexpr double kForgetting = 0.95;
 // In the least-squares fit, the shipped filter counts as much as this number of pixels.
 constexpr double kPriorPixels = 300;
@@ -32,11 +33,11 @@ constexpr double kLeastSharpness = 1.03;
 // levels].
 constexpr int kNewFrom = 4;
 constexpr double kLeastNew = 0.1;
-// A new filter replaces an old one if its error is less than kWorthwhile times the error of the old
-// one.
+// A learned filter is selected if its error is less than kWorthwhile times the error of the shipped
+// filter or of the zero filter, whichever is better.
 constexpr double kWorthwhile = 0.998;
 
-// After this number of refused stills in a row, the tone curve is dropped.
+// After this number of refused stills with a tone curve in a row, the tone curve is dropped.
 constexpr int kMostRefused = 3;
 constexpr int kBlock = 4;  // block size [px]
 
@@ -121,8 +122,8 @@ EnlargerLearner::Outcome EnlargerLearner::addOlder(const MatchedPictures& truth,
     return changes ? Outcome::Replaced : Outcome::Kept;
 }
 
-// Learns the tone curve. If it has changed, guidance is forgotten, because guidance that was
-// learned with another tone curve adds and removes wrong shares of detail.
+// Learns the tone curve. If the new curve is not near the old one, guidance is forgotten, because
+// guidance that was learned with another tone curve adds and removes wrong shares of detail.
 void EnlargerLearner::learnTone(const TrustedPairs& pairs, const StillTone& applied) {
     const StillTone before = tone_.tone();
     tone_.add(pairs.toneSums(), applied);

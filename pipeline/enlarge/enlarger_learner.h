@@ -23,9 +23,10 @@ namespace mfar {
 /// gradually forgotten.
 /// The tiles of a picture form three parts. From the first part, filters are learned. In the second
 /// part, the best filter of each class is selected: the new filter, the shipped filter, or a zero
-/// filter, with which the result is Keys' cubic enlargement. A class with few pixels keeps the
-/// shipped filter. In the third part, the selected filters are checked before use: each class
-/// against Keys' cubic, and all classes together against the filters in use. Each pixel belongs to
+/// filter, with which the result is Keys' cubic enlargement. A class with few pixels in the second
+/// part keeps the shipped filter. In the third part, the selected filters are checked before use:
+/// each class against Keys' cubic, and all classes together against the filters in use. After the
+/// check, the still's third part is added to the second part of later stills. Each pixel belongs to
 /// two classes; the mean of their two residuals is added to the cubic enlargement.
 /// The same pictures in the same order give the same filters.
 class EnlargerLearner {
@@ -33,12 +34,13 @@ public:
     EnlargerLearner();
 
     enum class Outcome {
-        Replaced,  ///< learned from the still; new filters are in use
-        Kept,      ///< learned from the still, but the new filters are not better
-        Repeated,  ///< nothing learned: the still shows nothing new
+        Replaced,  ///< filters() returns a new bank. Learned from the still, except if a refused
+                   ///< still only caused the tone curve to be dropped
+        Kept,      ///< learned from the still; filters() still returns the same bank
+        Repeated,  ///< nothing learned: the still shows too little new
         Stopped,   ///< nothing learned: `stop` was requested
-        Refused,   ///< nothing learned: few trusted pixels, a still no sharper than the video, or
-                   ///< a still that contradicts the learned filters
+        Refused,   ///< nothing learned: few trusted pixels, a still hardly sharper than the video,
+                   ///< a still that contradicts the filters in use, or different tone curves
     };
     /// Learns from a still. If `stop` is requested, the call returns soon and nothing is learned.
     Outcome add(const MatchedPictures& pictures, const std::stop_token& stop = {});
@@ -46,7 +48,7 @@ public:
     /// the frame matched with the new still. `older` is the same frame matched with the older
     /// still, with which the frame was drawn.
     /// If the older still has no tone curve yet, it gets the curve that new stills get. If it has a
-    /// different curve, the result is Refused.
+    /// curve that is not near that one (StillTone::isNear()), the result is Refused.
     Outcome addOlder(const MatchedPictures& truth, MatchedPictures& older,
                      const std::stop_token& stop = {});
 
@@ -60,7 +62,8 @@ public:
     /// all bytes before the checksum.
     [[nodiscard]] std::vector<std::uint8_t> stored(const std::string& key) const;
     /// Restores a learner from the result of stored(). Error messages contain `name`. Throws
-    /// FilterBankError if the data is damaged or was stored with another key.
+    /// FilterBankError if the data is damaged, has an unknown format version or was stored with
+    /// another key.
     [[nodiscard]] static EnlargerLearner restored(std::span<const std::uint8_t> bytes,
                                                   const std::string& key, const std::string& name);
 
@@ -81,12 +84,13 @@ private:
     [[nodiscard]] StillSums sumsOf(const MatchedPictures& pictures,
                                    const enlarge::TrustedPairs& pairs,
                                    const std::stop_token& stop) const;
-    /// True if the learned filters are worse than Keys' cubic on this still, but were not on the
-    /// one before. Such a still is probably out of focus, and learning from it would discard all
+    /// True if the filters in use are worse than Keys' cubic on this still, but were not on the
+    /// still before. Such a still is probably out of focus, and learning from it would discard all
     /// filters. If the next still contradicts the filters as well, the lens or the sensor has
     /// changed.
     [[nodiscard]] bool isOutlier(const StillSums& still);
-    /// Returns the outcome for a refused still to which the tone curve `tone` was applied.
+    /// Counts a refused still to which the tone curve `tone` was applied, and returns its outcome.
+    /// May drop the learned tone curve.
     Outcome refusedWith(const StillTone& tone);
     bool choose(const enlarge::SumsOfClasses& check);
     [[nodiscard]] enlarge::ClassWeights solved(int unique) const;

@@ -41,7 +41,7 @@ inline constexpr std::array<Offset, kTaps> kTapAt{
 
 inline constexpr int kWeightScale = 16384;
 
-/// Classes of pixels by the structure tensor, which sums the products of gradient components over
+/// Classes of pixels by the structure tensor: the mean of the products of gradient components over
 /// 5x5 pixels. The class has three values, each divided into bins. Angle: direction of the tensor's
 /// main axis. Strength: s1, the square root of the larger eigenvalue [grey levels per px].
 /// Coherence: (s1 - s2) / (s1 + s2), where s2 is the square root of the smaller eigenvalue.
@@ -59,7 +59,7 @@ struct GradientClasses {
 };
 /// Classes of pixels by the Hessian, the matrix of second derivatives. The class has three values,
 /// each divided into bins: angle of the main axis, Laplacian, and difference of the eigenvalues
-/// [grey levels per px^2].
+/// (both in grey levels per px^2).
 /// Class index: (angle bin * number of Laplacian bins + Laplacian bin) * number of difference bins
 /// + difference bin.
 struct CurvatureClasses {
@@ -75,10 +75,10 @@ struct CurvatureClasses {
 };
 
 /// Maps an angle bin to a bin with stored filters. The bins divide [-pi/2, pi/2) equally. Mirroring
-/// the picture, or exchanging x and y, or both, turns every bin into a bin of the first quarter.
-/// Therefore, only the filters of the first quarter are stored.
+/// the picture, or exchanging x and y, or both, turns every bin into a bin of the quarter
+/// [0, pi/4). Therefore, only the filters of this quarter are stored.
 struct Symmetry {
-    int unique;                ///< bin with the stored filter, in [0, bins / 4)
+    int unique;                ///< bin with the stored filter, counted from angle 0: [0, bins / 4)
     bool mirrors, transposes;  ///< first mirror the picture upside down, then exchange x and y
 
     [[nodiscard]] static constexpr Symmetry of(int bin, int bins) {

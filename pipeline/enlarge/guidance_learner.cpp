@@ -17,13 +17,13 @@ namespace {
 constexpr double kForgetting = 0.95;
 // The prior of the least-squares fit is zero guidance. It counts as much as this number of pixels.
 constexpr double kPriorPixels = 2000;
-constexpr double kLeastPixels = 0.02;
-// Guidance is used only if it reduces the squared error by at least this share.
+constexpr double kLeastPixels = 0.02;  // share of the frame's pixels
+// Guidance is used only if it reduces the squared error by more than this share.
 constexpr double kWorthwhile = 0.005;
 // If all new factors differ from the factors in use by at most this, they are ignored, because they
 // would change the pictures without improving them.
 constexpr float kSame = 0.01F;
-// The fit alternates between the light and the other factors, this often.
+// The fit alternates between the light and the other factors this number of times.
 constexpr int kRounds = 12;
 // The factors of still and video cannot be determined separately if the determinant of the normal
 // equations, divided by the product of their diagonal, is below this.
@@ -196,8 +196,8 @@ Guidance FactorSums::withLight(double light, double prior) const {
     if (!(determinant > kLeastDeterminant * a2 * b2)) return out;
     const auto stillFor = [&](double video) { return (stillMissing - video * stillVideo) / a2; };
     const auto videoFor = [&](double still) { return (videoMissing - still * stillVideo) / b2; };
-    // `free` is the best factor if factors could have any value. If it is out of range, the best
-    // point on the border of the range is used.
+    // `free` is the best factor of the still if both factors could have any value. If it is out of
+    // range, the best point on the border of the range is used.
     const double free = (stillMissing * b2 - videoMissing * stillVideo) / determinant;
     const double still = std::clamp(free, 0.0, 1.0);
     const double video = std::clamp(videoFor(still), 0.0, double(Guidance::kMost));

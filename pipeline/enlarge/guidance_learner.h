@@ -17,8 +17,8 @@ namespace mfar::enlarge {
 ///
 /// Still: the detail that the still would add, for Guidance::still = 1
 /// Video: the video's own detail that would be removed, for Guidance::video = 1
-/// Light: what changes in the still's mean, for Guidance::light = 1
-/// LightOfStill: what this changes in Still
+/// Light: the change because the mean of the still becomes brighter, for Guidance::light = 1
+/// LightOfStill: the change of Still by the same brighter mean
 ///
 /// The fifth value is what the frame misses: the new still minus the frame as drawn without
 /// guidance. The fit approximates it by a sum of the parts with the weights still, video, light and
@@ -71,7 +71,8 @@ class GuidanceLearner {
 public:
     /// Learns from one frame that was matched with two stills. `truth` is its match with the new
     /// still. `older` is its match with the older still, with which the frame was drawn. Returns
-    /// false if too few pixels are trusted in both stills, or if `stop` was requested.
+    /// false if the frames' sizes differ, if too few pixels are trusted in both stills, or if
+    /// `stop` was requested.
     bool add(const TrustedPairs& truth, const MatchedPictures& older, const FilterBank& filters,
              const std::stop_token& stop = {});
 
@@ -81,7 +82,7 @@ public:
 
     /// stored() returns the state of the learner, to be kept for a later run of mfard. restore()
     /// returns false if a number is out of range. The numbers from kOldNumbers on concern
-    /// Guidance::light; they are 0 if it was not learned.
+    /// Guidance::light. Files of older versions do not have them; restore() then needs zeros.
     static constexpr std::size_t kOldNumbers = 3 + 2 * FactorSums::kOldNumbers;
     static constexpr std::size_t kNumbers = 4 + 2 * FactorSums::kNumbers;
     [[nodiscard]] std::array<double, kNumbers> stored() const;

@@ -9,12 +9,13 @@ namespace mfar {
 class MatchListener {
 public:
     virtual ~MatchListener() = default;
-    /// Reports a still and the first frame that was matched with it. Called only in mode Detail.
+    /// Reports a still and the first frame that was matched with it in mode Detail. Not called if
+    /// this frame was not enlarged with learned filters (Quality::learned).
     virtual void matched(const RgbPlanes& video, Rows<const std::uint8_t> still,
                          Rows<const LookUpCell> lookUps,
                          const MatchedPictures::LookedUp& lookedUp) = 0;
-    /// Called when a new still replaces an old one. Reports the old still and the last frame that
-    /// was drawn with it.
+    /// Called when a new still replaces an old one, only in mode Detail and with Quality::learned.
+    /// Reports the old still and the last frame that was drawn with it.
     virtual void replaced(const RgbPlanes& video, Rows<const std::uint8_t> still,
                           Rows<const LookUpCell> lookUps,
                           const MatchedPictures::LookedUp& lookedUp) {

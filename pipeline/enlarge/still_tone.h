@@ -17,8 +17,8 @@ struct StillTone {
 
     [[nodiscard]] bool isIdentity() const { return *this == StillTone{}; }
     bool operator==(const StillTone&) const = default;
-    /// True if the two curves differ so little that filters learned with one of them also suit the
-    /// other.
+    /// True if the two curves differ so little that guidance learned with one of them also suits
+    /// the other.
     [[nodiscard]] bool isNear(const StillTone& other) const {
         constexpr int kNear = 4;  // mean difference [grey levels]
         int sum = 0;

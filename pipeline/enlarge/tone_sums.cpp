@@ -12,7 +12,8 @@ constexpr double kLeastOfRange = 100;  // ranges with fewer pixels are left out
 // that contradicts them replaces them.
 constexpr double kKeptPerStill = 0.6;
 // A tone curve contradicts a still if its mean error exceeds both kWrongTone [grey levels] and
-// kWrongShare times the error without a tone curve.
+// kWrongShare times the error without a tone curve. The curve in use stays as long as its mean
+// error is at most kWrongTone.
 constexpr double kWrongTone = 2;
 constexpr double kWrongShare = 0.25;
 constexpr double kMostOfRange = 1e12;

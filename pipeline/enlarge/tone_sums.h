@@ -25,8 +25,10 @@ public:
     /// Returns curve(), made non-decreasing and rounded to whole grey levels. So it never makes the
     /// brighter of two pixels the darker one.
     [[nodiscard]] StillTone tone() const;
-    /// Returns the mean absolute error of `tone` over all summed pairs: the difference between the
-    /// video's grey level and tone(still's grey level) [grey levels].
+    /// Returns the mean absolute error of `tone` [grey levels]. The error of a range is the
+    /// difference between the mean level of the video and tone(mean level of the still). Ranges
+    /// count as many times as they have pairs; ranges with few pixels do not count. Returns 0 if no
+    /// range counts.
     [[nodiscard]] double distanceFrom(const StillTone& tone) const;
 
     /// stored() returns the sums, to be kept for a later run of mfard. restore() sets them. It

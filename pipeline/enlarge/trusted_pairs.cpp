@@ -108,8 +108,8 @@ float TrustedPairs::toneOf(float value) const {
     return tone_[level] + (value - static_cast<float>(level)) * (tone_[level + 1] - tone_[level]);
 }
 
-/// Fits a symmetric 5x5 kernel that blurs the still as much as the video, because the sensors have
-/// different point spread functions, and the factor Guidance::light with which a video pixel
+/// Fits two things: a symmetric 5x5 kernel that blurs the still as much as the video (the sensors
+/// have different point spread functions), and the factor Guidance::light with which a video pixel
 /// averages what it sees. Afterwards, only wrong matches appear as differences.
 void TrustedPairs::fitBlur() {
     constexpr int kReach = 2;

@@ -19,7 +19,8 @@ namespace mfar::enlarge {
 /// because the filters must learn them.
 class TrustedPairs {
 public:
-    /// If `stop` is requested, the constructor returns soon, and no pixel is trusted.
+    /// `pictures` must outlive this object. If `stop` is requested, the constructor returns soon,
+    /// and the result must not be used.
     explicit TrustedPairs(const MatchedPictures& pictures, std::stop_token stop = {});
 
     [[nodiscard]] Size size() const { return video_; }
@@ -31,7 +32,8 @@ public:
     [[nodiscard]] double trustedShare() const { return trustedShare_; }
     /// Ratio of the still's sharpness to the video's. It is the variance of the still among the
     /// sub-pixels of a pixel, divided by the same variance of the video enlarged by Keys' cubic,
-    /// over trusted pixels with structure. If it is at most one, the still is no sharper.
+    /// over trusted pixels with structure. If it is at most one, the still is no sharper. It is 0
+    /// if there is no such pixel.
     [[nodiscard]] double sharpness() const { return sharpness_; }
     /// The pairs of grey levels from which the tone curve was fitted.
     [[nodiscard]] const ToneSums& toneSums() const { return toneSums_; }

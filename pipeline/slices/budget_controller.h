@@ -6,7 +6,8 @@
 
 namespace mfar {
 
-/// Permission to trace samples. It must be returned with BudgetController::spent().
+/// Permission to trace samples. If `samples` is above 0, it must be returned with
+/// BudgetController::spent().
 struct BudgetGrant {
     std::int64_t samples = 0;  ///< number of samples; 0: this frame's budget is used up
     double reservedMs = 0;
@@ -16,7 +17,7 @@ struct BudgetGrant {
 /// frames: frames without enough work, and frames that did not use up the budget. In the latter,
 /// the threads got too little processor time, because their priority is low.
 struct BudgetKept {
-    int frames = 0;
+    int frames = 0;  ///< number of frames that `deviation` counts
     /// Mean of used time / budget. It also counts frames whose threads got too little processor
     /// time.
     double mean = 0;
@@ -25,9 +26,10 @@ struct BudgetKept {
 
 /// Limits the path tracer's work to a time budget per frame [ms].
 /// The time per sample is estimated as the median of the last few portions, so that one outlier
-/// does not change it. A portion takes at most a sixteenth of the budget. The last portion of a
-/// frame is smaller, so that it fits. An overrun is subtracted from the next frame's budget. Time
-/// reported to spentElsewhere() that did not fit into its frame is repaid over many frames.
+/// does not change it. A portion takes about a sixteenth of the budget. The last portion of a frame
+/// is smaller, so that it fits, but it has at least 16 samples. An overrun is subtracted from the
+/// next frame's budget. Time reported to spentElsewhere() that did not fit into its frame is repaid
+/// over many frames.
 /// One thread at a time may call this class. It allocates no memory.
 class BudgetController {
 public:

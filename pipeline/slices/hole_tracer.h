@@ -13,7 +13,8 @@
 namespace mfar {
 
 /// Divides hole requests into portions to trace, one request after the other. Only one thread at a
-/// time may call it. No other function may run during prepare() or answer().
+/// time may call it, except that threads that trace a portion may use request() and film() at any
+/// time until done().
 class HoleTracer {
 public:
     /// Pixels of a request beyond `mostPixels` are dropped. `memory` is for the film.

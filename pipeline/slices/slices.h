@@ -50,13 +50,14 @@ using PixelStates = std::function<PixelState(std::uint32_t)>;
 /// Divides the rendering of a picture into portions for several threads.
 /// Tiles have 8x8 pixels. Tiles, and the pixels in a tile, are in Morton order (G. M. Morton, "A
 /// computer oriented geodetic data base", 1966), so that rays traced together hit the same objects.
-/// The number of samples of a pixel depends only on the errors in its tile. It depends neither on
-/// the Slicing nor on the threads.
+/// The number of samples of a pixel depends only on the PixelStates in its tile, and not on the
+/// threads. It depends on the Slicing only because Slicing::Time can omit the first samples.
 /// Slicing::Time begins with a turn that traces a ray through every pixel's centre. Pixels whose
 /// error is small after this turn get no samples. The next three turns take the first samples: in
 /// one pixel of 16, in one of 4, and in all pixels. The third of these turns omits tiles whose
-/// pixels are all untouched (see PixelState).
-/// Only one thread at a time may call it. Only begin() allocates memory.
+/// pixels are all untouched (see PixelState). With a threshold of 0, nothing is omitted.
+/// Only one thread at a time may call it. Only begin() allocates memory; with Slicing::Spatial,
+/// next() does, too.
 class Slices {
 public:
     explicit Slices(const SliceOptions& options);
@@ -71,9 +72,8 @@ public:
     void begin(const PixelRect& bounds, Size picture,
                const std::function<Density(const PixelRect& tile)>& densityOf = {});
 
-    /// Returns the next portion. It has at most about `mostSamples` samples in total, but at least
-    /// one pixel. It has no pixels if all work is done or the rest must wait for portions being
-    /// traced.
+    /// Returns the next portion. It has at most `mostSamples` samples in total, but at least one
+    /// pixel. It has no pixels if all work is done or the rest must wait for portions being traced.
     [[nodiscard]] Slice next(std::int64_t mostSamples);
 
     void done(const Slice& slice, const PixelStates& states);
@@ -100,9 +100,9 @@ private:
         /// Number of active pixels handed out in this round. A round gives each active pixel the
         /// samples of one turn.
         std::uint32_t handed = 0;
-        std::uint32_t most = 0;
-        std::uint32_t out = 0;
-        int samples = 0;  ///< number of samples of each active pixel
+        std::uint32_t most = 0;  ///< value of `handed` at which the current turn is complete
+        std::uint32_t out = 0;   ///< number of portions being traced
+        int samples = 0;         ///< number of samples of each active pixel
     };
 
     void addTile(const PixelRect& tile, Density density);

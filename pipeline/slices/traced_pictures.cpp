@@ -35,8 +35,8 @@ constexpr int kLookTurn = 1;
 // Tolerated motion of an object's shadow since the shown picture [px], see motionSince(). The
 // shadow is assumed to move as far as the object.
 constexpr double kShadowPixels = 1;
-// While an object moves, the next picture begins after this number of turns of the shown picture.
-// By then, a quarter of the pixels has a sample.
+// While an object moves, the next picture does not begin before the shown picture has this number
+// of complete turns. By then, a quarter of the pixels has a sample.
 constexpr int kMovingTurns = 3;
 // Light on the shadow catcher is traced again if moving objects may have changed it by more than
 // this share (see MovedLight::diffuseChange()).
@@ -61,7 +61,7 @@ TracedPictures::TracedPictures(const SliceOptions& slices, const TracedPolicy& p
     : slices_(slices), policy_(policy), memory_(std::move(memory)),
       pictures_{Picture(slices), Picture(slices)} {}
 
-// Returns viewChange() from the picture's view to the present view. Returns nothing if the objects
+// Returns the change from the picture's view to the present view. Returns nothing if the objects
 // have changed. For the shown picture, also returns nothing if the lighting has changed. For the
 // next picture, a change of the lighting does not count: the picture might otherwise be begun again
 // and again and never be finished.
@@ -247,9 +247,9 @@ void TracedPictures::trace(const Portion& portion) {
                                  *picture.film, picture.history ? &*picture.history : nullptr);
 }
 
-// Returns the state by which Slices decides if the pixel gets more samples. At rest, only the
-// pixel's own samples count. Light of earlier pictures does not count, because it gives no sharp
-// edges and textures.
+// Returns the state by which Slices decides if the pixel gets more samples. In a picture for a
+// camera at rest, only the pixel's own samples count as samples. Light of earlier pictures does not
+// count, because it gives no sharp edges and textures.
 PixelState TracedPictures::Picture::state(std::uint32_t pixel, const Exposure& exposure) const {
     const KnownLight known = rests ? KnownLight{} : film->known(pixel);
     return {film->error(pixel, exposure),

@@ -22,36 +22,39 @@ enum class TracedStep : unsigned char {
     Drop,      ///< discard the next picture: the view is near the shown picture's again
 };
 
-/// `sinceShown` is PictureScene::changeOf() from the view of the shown picture to the present view;
-/// `sinceNext` is the same for the next picture. A value is empty if its picture does not exist or
-/// shows other objects; `sinceShown` is also empty if the light has changed. If there is no next
-/// picture, one begins when `sinceShown` is empty or at least `renewed`.
+/// `sinceShown` is the change since the shown picture: PictureScene::changeOf() from the view of
+/// this picture to the present view or, if larger, the motion of objects relative to its limit.
+/// `sinceNext` is PictureScene::changeOf() for the next picture. A value is empty if its picture
+/// does not exist or shows other objects; `sinceShown` is also empty if the light has changed. If
+/// there is no next picture, one begins when `sinceShown` is empty or at least `renewed`.
 [[nodiscard]] TracedStep nextStep(std::optional<double> sinceShown, std::optional<double> sinceNext,
                                   double renewed);
 
 struct TracedPolicy {
     ViewLimits limits;
     /// Samples per pixel that the next picture needs to replace the shown picture. Fewer suffice if
-    /// the shown picture has other objects or a very different view. If the camera rests, the next
-    /// picture also needs as many as the shown picture. Root mean square errors [grey levels of
-    /// 255] of four filtered samples, compared with 16 unfiltered samples: 3.2 against 3.3 on one
-    /// scene, 4.4 against 3.1 on another scene.
+    /// the shown picture has other objects or a very different view, and often with `soon`. If the
+    /// camera rests, the next picture also needs as many as the shown picture. Four filtered
+    /// samples were compared with 16 unfiltered samples. Their root mean square errors [grey levels
+    /// of 255] were 3.2 and 3.3 on one scene, 4.4 and 3.1 on another scene.
     int samplesToReplace = 4;
-    bool filter = true;
-    bool history = true;
+    bool filter = true;   ///< true: noise is filtered when a picture is converted to be shown
+    bool history = true;  ///< true: a new picture begins with the light of the shown picture
     /// True: the next picture begins when viewChange() since the shown picture reaches kSoon, which
-    /// is below 1. If it reuses the shown picture's light, it can also be shown before every pixel
-    /// has a sample. False: the next picture begins when viewChange() reaches 1. Must be false if
-    /// the caller shows the colours of the picture and not just its light.
+    /// is below 1. If it reuses the shown picture's light, `filter` is true and the camera moves,
+    /// it can also be shown before every pixel has a sample. False: the next picture begins when
+    /// viewChange() reaches 1. Must be false if the caller shows the colours of the picture and not
+    /// just its light.
     bool soon = true;
     bool operator==(const TracedPolicy&) const = default;
 };
 
 /// The two traced pictures: the shown picture, and the next picture, which will replace it. The
 /// shown picture gets more samples as long as the view is within ViewLimits.
-/// Only one thread at a time may call this class, with two exceptions. Any number of threads may
-/// call trace() at once. trace() and done() may run during begin() and between beginShow() and
-/// endShow().
+/// Only one thread at a time may call this class. The exceptions are trace() and, between
+/// beginShow() and endShow(), PictureResolver::run() of resolver(): any number of threads may call
+/// them, also while another thread calls another function. begin() and beginShow() never run during
+/// trace(), because toBegin() and toShow() are false as long as a portion is traced.
 class TracedPictures {
 public:
     /// `memory` is for the films. Throws std::invalid_argument if a slice option is out of range.

@@ -12,16 +12,17 @@ namespace mfar {
 
 /// Renders traced pictures of a scene in its own low-priority threads. The threads have a budget of
 /// processor time per call of update(). They sleep if this time is used up or no work is left.
-/// Building a scene's search structure is not part of the budget.
+/// Building a scene's search structure and providing its memory are not part of the budget.
 /// All functions must be called by the thread that handles the frames. No function except rests()
-/// waits or takes a lock. No function allocates memory after the first pictures.
+/// and the destructor waits or takes a lock. After the first pictures, only setScene() and
+/// takeError() can allocate memory.
 class TracedRenderer {
 public:
     /// `memory` is for the films. Throws std::invalid_argument if an option is out of range.
     explicit TracedRenderer(const TracedRendererOptions& options,
                             std::shared_ptr<FilmMemory> memory = Film::makeMemory());
-    /// Waits for the running portions of work, the conversion of a picture, and the building of a
-    /// scene.
+    /// Waits for the running portions of work, and for a scene that is being built. Work that has
+    /// not begun is discarded.
     ~TracedRenderer();
     TracedRenderer(const TracedRenderer&) = delete;
     TracedRenderer& operator=(const TracedRenderer&) = delete;
@@ -52,7 +53,8 @@ public:
         return workers_.rest(updates_, static_cast<int>(threads_.size()));
     }
 
-    /// Counters at the last frame or the last picture, whichever is newer.
+    /// Counters at the last frame, picture, built scene or answered hole request, whichever is
+    /// newest.
     [[nodiscard]] const RenderCounters& counters();
     /// Reason why a scene was rejected; empty if none was rejected since the last call.
     [[nodiscard]] std::optional<std::string> takeError();

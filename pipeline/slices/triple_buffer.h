@@ -13,7 +13,8 @@ namespace mfar {
 template <class T>
 class TripleBuffer {
 public:
-    /// For the writer: the value to publish next. At first it holds an older value.
+    /// For the writer: the value to publish next. Until the writer changes it, it is an older value
+    /// or T{}.
     [[nodiscard]] T& back() { return slots_[back_]; }
     void publish() {
         back_ = static_cast<std::uint8_t>(

@@ -17,18 +17,19 @@ struct ViewLimits {
 };
 
 /// Returns the difference of two views as a multiple of the limits. If the result is 1 or more, a
-/// picture of the view `from` must not be warped to the view `to`. The warp can undo a pure
-/// rotation of the camera. Therefore a rotation counts only for objects that `from` shows
-/// incompletely. Objects that are not visible in `to` do not count. Infinite if the cameras differ,
-/// or if an object is visible only in `to`.
+/// new picture is better than a picture of the view `from` that is warped to the view `to`. The
+/// warp can undo a pure rotation of the camera. Therefore a rotation counts only for objects that
+/// `from` shows incompletely. Objects that are not visible in `to` do not count. Infinite if the
+/// cameras differ, or if an object is visible only in `to`.
 [[nodiscard]] double viewChange(const RenderView& from, const RenderView& to,
                                 std::span<const ObjectBall> objects, const ViewLimits& limits);
 
 /// True if a ball may be at least partly in the picture.
 [[nodiscard]] bool isSeen(std::span<const ObjectBall> balls, const RenderView& view);
 
-/// Largest motion of the objects between two views [px], without lens distortion. Only points in
-/// front of both cameras count. Infinite if the cameras differ.
+/// Largest motion of the objects between two views [px], without lens distortion. It is measured at
+/// the centre of each ball and at six points of its surface. Only points in front of both cameras
+/// count. Infinite if the cameras differ.
 [[nodiscard]] double pixelChange(const RenderView& from, const RenderView& to,
                                  std::span<const ObjectBall> objects);
 

@@ -17,14 +17,14 @@ struct PredictionLimits {
 };
 
 /// Predicts the pose of a camera that keeps its angular and linear velocity. Both velocities are
-/// measured in the camera's frame over the last tenth of a second. One thread at a time may call
-/// this class. It allocates no memory.
+/// measured in the camera's frame, over the last tenth of a second, but over at least two and at
+/// most 16 poses. One thread at a time may call this class. It allocates no memory.
 class ViewPredictor {
 public:
     explicit ViewPredictor(const PredictionLimits& limits = {});
 
     /// Adds the pose at `time`. The measurement restarts if `time` is not later than the last time,
-    /// or more than half a second later.
+    /// or is half a second or more later.
     void add(const RigidTransform& T_world_camera, Timestamp time);
 
     /// Predicts the pose `seconds` after the last pose, within the limits. `distance` is the

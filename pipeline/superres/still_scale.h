@@ -8,7 +8,8 @@ namespace mfar {
 using params::kLinearLoss;
 
 /// Returns `rig` with its still camera reduced to the resolution that a picture of size `output`
-/// can show. Only the number of pixels becomes smaller; the lens stays the same.
+/// can show. Only the number of pixels becomes smaller; the lens stays the same. Returns `rig`
+/// unchanged if the width or the height would shrink by a tenth or less.
 [[nodiscard]] StereoRig stillFor(Size output, StereoRig rig);
 
 /// Returns the variance that is removed from the luma of a still as noise [grey levels^2]; 0:
