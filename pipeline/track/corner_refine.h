@@ -25,8 +25,8 @@ public:
     explicit CornerRefiner(double gamma = 2);
 
     /// Refines the corners of `detection`. `luma` is the Gray8 picture in which the tag was found,
-    /// with the size of `camera`. The corners stay unchanged if too little of an edge is visible,
-    /// or if a corner would move by more than two pixels.
+    /// with the size of `camera`. The corners stay unchanged if the tag is too small, if too little
+    /// of an edge is visible, or if a corner would move by two pixels or more.
     void refine(const ImageView& luma, const CameraModel& camera, TagDetection& detection) const;
 
 private:

@@ -35,9 +35,10 @@ std::optional<Matrix3d> homography(const std::array<Vector2d, 4>& rays) {
     return H;
 }
 
+/// Returns a rotation that turns the z axis to the direction (p, 1).
 Matrix3d towards(const Vector2d& p) {
-    // w is the cosine of half the angle between `direction` and the z axis. This angle is below 90
-    // degrees, so w is above sqrt(0.5), and dividing by it is safe.
+    // w is the cosine of half the angle between `direction` and the z axis. The whole angle is
+    // below 90 degrees, so w is above sqrt(0.5), and dividing by w is safe.
     const Vector3d direction = p.homogeneous().normalized();
     const double w = std::sqrt((1 + direction.z()) / 2);
     return Eigen::Quaterniond(w, -direction.y() / (2 * w), direction.x() / (2 * w), 0)

@@ -48,11 +48,12 @@ class PoseEstimator {
 public:
     explicit PoseEstimator(const PoseEstimatorOptions& options = {});
 
-    /// Returns the filtered pose at the frame's time. If no tag is visible, or if the measured pose
+    /// Returns the filtered pose at the frame's time. If no tag is usable, or if the measured pose
     /// is an outlier, returns the filter's prediction (tags = 0). Returns nothing if the filter
     /// does not predict any more.
     std::optional<Pose> update(std::span<const TagObservation> tags, const CameraModel& camera,
                                Timestamp time);
+    /// Unfiltered pose of the last update(), even if it is an outlier. Empty if no tag was usable.
     [[nodiscard]] const std::optional<Pose>& raw() const { return raw_; }
     [[nodiscard]] std::optional<Pose> predict(Timestamp t) const { return filter_.predict(t); }
     /// Measures the pose of the video camera at the time of a picture that is not a video frame.

@@ -19,7 +19,8 @@ struct PoseFilterOptions {
     /// A pose is an outlier if its squared Mahalanobis distance from the prediction (6 degrees of
     /// freedom) is larger than this.
     double gate = 50;
-    /// The filter restarts after this number of consecutive outliers that agree with each other.
+    /// The filter restarts after this number of outliers that agree with each other, without an
+    /// accepted pose between them. Frames without a pose may lie between them.
     int jumpFrames = 3;
     /// Limits of predictions without an accepted pose: this time, and bridgeFrames frames. If one
     /// of them is exceeded, there is no prediction.
@@ -36,20 +37,24 @@ public:
     explicit PoseFilter(const PoseFilterOptions& options = {});
 
     enum class Outcome {
-        Started,  ///< the filter (re)started: no earlier pose, a long gap, or a step back in time
+        /// The filter (re)started: no earlier pose, a long gap, or a time that is not later than
+        /// the last one.
+        Started,
         Accepted,
-        Rejected,
-        Jumped  ///< the filter restarted, because several outliers agreed with each other
+        Rejected,  ///< the pose is an outlier, or it or its covariance is invalid
+        Jumped     ///< the filter restarted, because several outliers agreed with each other
     };
     /// Adds a measured pose. `distance` is the distance of the camera from the measured tags, in
     /// the pose's unit of length.
     Outcome update(const Pose& measured, double distance);
+    /// Reports a frame without a measured pose.
     void missed();
     void reset();
 
-    /// Returns the predicted pose at time t, with tags = 0. Returns nothing in three cases: there
-    /// was no pose yet; t is more than `bridge` before or after the last accepted pose; or more
-    /// than bridgeFrames frames had no accepted pose.
+    /// Returns the predicted pose at time t, with tags = 0. Returns nothing in four cases: there
+    /// was no pose yet; t is more than `bridge` before or after the last accepted pose; more than
+    /// bridgeFrames frames in a row had no accepted pose; or double precision is not enough for
+    /// the prediction.
     [[nodiscard]] std::optional<Pose> predict(Timestamp t) const;
 
 private:

@@ -8,8 +8,8 @@
 #include <span>
 
 namespace mfar {
-/// Corners of a tag: their positions in the world [m] and in the distorted picture [px].
 
+/// Corners of a tag: their positions in the world [m] and in the distorted picture [px].
 struct CornerSet {
     std::array<Eigen::Vector3d, 4> world;
     std::array<Eigen::Vector2d, 4> pixels;
@@ -29,12 +29,12 @@ outwardsOf(const std::array<Eigen::Vector2d, 4>& corners);
 
 struct RefinedPose {
     RigidTransform T_world_camera;
-    /// J^T J, where J is the derivative of the corners' positions [px] with respect to a small
-    /// motion in camera coordinates. The information that is lost because the edge shift is unknown
-    /// has been subtracted.
+    /// Sum of w J^T J over the tags, where w is CornerSet::weight, and J is the derivative of the
+    /// corners' positions [px] with respect to a small motion in camera coordinates. The
+    /// information that is lost because the edge shift is unknown has been subtracted.
     Matrix6 information;
-    double squaredError = 0;
-    double edgeShift = 0;
+    double squaredError = 0;  ///< weighted sum over all tags [px^2]
+    double edgeShift = 0;     ///< [px]; positive: outwards
 };
 
 /// With this `shiftWeight`, refinePose() estimates an edge shift of zero.
@@ -42,8 +42,9 @@ inline constexpr double kNoEdgeShift = 1e12;
 
 /// Minimises the weighted squared reprojection error by Levenberg-Marquardt, from `start` to the
 /// nearest local minimum. Marquardt's scaling makes the result independent of the unit of length.
-/// Returns nothing if the corners do not determine the pose, or if a corner is behind the camera at
-/// the start.
+/// Returns nothing if a corner is not in front of the camera at the start, or if a number becomes
+/// infinite or NaN. If the corners do not determine the pose, inverseOf(information) returns
+/// nothing.
 ///
 /// Blur, gamma and the printer's ink move the edges of all tags in a picture slightly outwards or
 /// inwards, by a common edge shift. With one tag, an edge shift looks the same as another distance

@@ -31,7 +31,7 @@ struct DetectorOptions {
     /// For the search for quads, the picture is reduced by this factor: 1.5 or a whole number from
     /// 1 to 8. Bits and edges are read in the full picture.
     double decimation = 2;
-    int threads = 1;
+    int threads = 1;     ///< 1 to 64
     double blur = 0;     ///< sigma of the blur before the search for quads [decimated px], 0 to 5
     bool refine = true;  ///< true: libapriltag moves the quad's edges to the strongest gradient
     /// Largest number of corrected bits of a detection, 0 or 1. Tags of tag16h5 are often found in
@@ -39,7 +39,7 @@ struct DetectorOptions {
     int maxHamming = 1;
     /// Width of the tags' black border [cells]: 2 for tags printed by Kalibr, otherwise 1.
     int borderCells = 1;
-    double minMargin = 20;
+    double minMargin = 20;  ///< smallest TagDetection::margin of a detection, 0 to 255
 };
 
 /// Finds AprilTags with libapriltag. Only one thread at a time may use it.
@@ -54,9 +54,10 @@ public:
     /// tag, then from left to right. Throws std::invalid_argument if the format or the size is not
     /// supported.
     ///
-    /// With `region`, only tags completely inside the region are found. They are found exactly as
-    /// in the whole picture, because the region is enlarged to whole tiles of libapriltag. It is
-    /// also clipped to the picture.
+    /// The region is clipped to the picture and enlarged to whole tiles of libapriltag, so that
+    /// tags are found exactly as in the whole picture. Only tags completely inside the enlarged
+    /// region are found. Nothing is found in a region or picture with a side shorter than 16
+    /// decimated pixels.
     [[nodiscard]] std::vector<TagDetection> detect(const ImageView& luma,
                                                    std::optional<PixelRect> region = {});
 

@@ -13,8 +13,8 @@ enum class TagFamily : unsigned char { Tag36h11, Tag25h9, Tag16h5, TagStandard41
 struct TagFamilyInfo {
     TagFamily family;
     std::string_view name;
-    int count;  ///< ids are 0 to count - 1
-    int cells;
+    int count;          ///< ids are 0 to count - 1
+    int cells;          ///< number of cells along an edge, from corner to corner
     bool brightInside;  ///< true: at the corners, cells inside are white, outside black
 };
 

@@ -33,6 +33,8 @@ struct MappedTag {
 class TagMap {
 public:
     TagMap() = default;
+    /// Throws std::invalid_argument if a tag occurs twice, its size is not positive, or its size or
+    /// pose is not finite.
     explicit TagMap(const std::vector<MappedTag>& tags);
 
     /// Returns null if the tag is not in the map. The result is valid as long as the map.

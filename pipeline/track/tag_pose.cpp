@@ -104,8 +104,8 @@ RigidTransform bestStart(std::span<const Candidate> tags, std::span<const Corner
     return best;
 }
 
-/// Sets the weight of each tag to 1 if its error is at most `cutoff` [px], else to 0. Returns false
-/// if all weights are 0.
+/// Sets the weight of each tag to 1 if the rms error of its corners is at most `cutoff` [px], else
+/// to 0. Returns false if all weights are 0.
 bool keepFitting(std::span<CornerSet> sets, const RigidTransform& T_world_camera,
                  const CameraModel& camera, double cutoff) {
     const RigidTransform inverse = T_world_camera.inverse();

@@ -34,8 +34,9 @@ struct CameraPose {
     [[nodiscard]] double rms() const;
 };
 
-/// The two poses from which a plane of tags looks nearly the same. `best` has the smaller error.
-/// `other` is the second local minimum for the same tags, or empty if there is none.
+/// The two poses from which a plane of tags looks nearly the same. `best` has the smaller error;
+/// the two errors are compared before the edge shift is estimated. `other` is the second local
+/// minimum for the same tags, or empty if there is none.
 struct CameraPoses {
     CameraPose best;
     std::optional<CameraPose> other;
@@ -50,8 +51,8 @@ struct TagPoseOptions {
     /// standard deviation [px].
     double edgeShiftSigma = 0.1;
     /// A tag is ignored in three cases: the rms error of its corners is above farthestCorner [px],
-    /// an edge is shorter than smallestEdge [px], or the tag is seen at more than grazingAngleDeg
-    /// from its normal.
+    /// an edge is shorter than smallestEdge [px], or the tag is seen at grazingAngleDeg or more
+    /// from its normal in at least one of its two planar solutions.
     double farthestCorner = 2;
     double smallestEdge = 8;
     double grazingAngleDeg = 80;
@@ -62,17 +63,18 @@ struct TagPoseOptions {
 /// fits all tags best is chosen. Then, tags that contradict it are ignored, and the reprojection
 /// error in distorted pixels is minimised by Levenberg-Marquardt.
 ///
-/// Returns nothing if no tag is usable. A tag is unusable if a corner is NaN, infinite or outside
-/// the picture, or if its quad is tiny, not convex, seen at a grazing angle or seen from behind.
-/// Results are never NaN. Lengths may have any unit.
+/// Returns nothing if no tag is usable, or if no pose fits the corners to farthestCorner. A tag is
+/// unusable if a corner is NaN, infinite or outside the picture, if its quad is tiny, not convex,
+/// seen at a grazing angle or seen from behind, or if its size or T_world_tag is invalid. Results
+/// are never NaN. Lengths may have any unit.
 [[nodiscard]] std::optional<CameraPoses> solveTagPose(std::span<const TagObservation> tags,
                                                       const CameraModel& camera,
                                                       const TagPoseOptions& options = {});
 
-/// Returns the two possible poses of a square with the corners (-1, -1) to (1, 1). Its corners are
-/// seen along the rays (x/z, y/z), in the order of kTagCorners. The pose with the smaller error
-/// comes first. Returns nothing if the corners are degenerate. Source: IPPE, Collins and Bartoli,
-/// "Infinitesimal Plane-Based Pose Estimation", IJCV 2014.
+/// Returns the two possible poses T_camera_square of a square with the corners (-1, -1) to (1, 1).
+/// Its corners are seen along the rays (x/z, y/z), in the order of kTagCorners. The pose with the
+/// smaller error comes first. Returns nothing if the corners are degenerate. Source: IPPE, Collins
+/// and Bartoli, "Infinitesimal Plane-Based Pose Estimation", IJCV 2014.
 [[nodiscard]] std::optional<std::array<RigidTransform, 2>>
 planarPoses(const std::array<Eigen::Vector2d, 4>& rays);
 

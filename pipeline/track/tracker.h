@@ -15,11 +15,11 @@ namespace mfar {
 
 struct TrackerOptions {
     /// The coordinates of the map are the world, and only tags of the map's families are searched.
-    /// If the map is empty, tags of `families` are searched instead. In the first picture that
-    /// shows tags, the largest one becomes the world: the origin is its centre, x points right and
-    /// y up in its print, and z out of the print. If the filter stops predicting before it has
-    /// accepted this tag's pose in five frames, the tag was a false detection, and another tag
-    /// becomes the world.
+    /// If the map is empty, tags of `families` are searched instead. In the first video frame that
+    /// shows tags with a usable pose, the largest of these tags becomes the world: the origin is
+    /// its centre, x points right and y up in its print, and z out of the print. If the filter
+    /// stops predicting before it has accepted this tag's pose in five frames, the tag counts as a
+    /// false detection, and another tag becomes the world.
     TagMap map;
     std::vector<TagFamily> families{TagFamily::Tag36h11};
     double tagSize = 0.1;  ///< size of the tag that becomes the world [m]
@@ -56,24 +56,29 @@ class Tracker {
 public:
     Tracker(const StereoRig& rig, TrackerOptions options);
 
-    /// Processes a video frame of any format. Times must increase; a step back in time restarts the
-    /// filter. Returns the filtered pose. If no tag is visible, returns the filter's prediction
-    /// (tags = 0). Returns nothing if the filter does not predict any more. Throws
-    /// std::invalid_argument if the picture does not have the size of the rig's video.
+    /// Processes a video frame of any format. Times must increase; a time that is not later than
+    /// the last one restarts the filter. Returns the filtered pose. If no tag of the map is usable,
+    /// or if the measured pose is an outlier, returns the filter's prediction (tags = 0). Returns
+    /// nothing if the filter does not predict any more. Throws std::invalid_argument if the picture
+    /// does not have the size of the rig's video.
     std::optional<Pose> track(const ImageView& picture, Timestamp time);
+    /// Unfiltered pose of the last frame. Empty if the frame had no usable tag. Pose::world is 0.
     [[nodiscard]] std::optional<Pose> raw() const;
+    /// See PoseFilter::predict(). Pose::world is 0.
     [[nodiscard]] std::optional<Pose> predict(Timestamp time) const;
     /// Returns the video camera's pose at the time of a still. The tags are found in the still
     /// itself, and T_still_video is used to compute the pose of the video camera. The pose is not
-    /// filtered. Returns nothing if the still shows no usable tag.
+    /// filtered. Returns nothing if the still shows no usable tag of the map. Throws
+    /// std::invalid_argument if the picture does not have the size of the rig's still.
     [[nodiscard]] std::optional<Pose> trackStill(const ImageView& still, Timestamp time);
 
-    /// All tags of the last frame, with refined corners. They include tags that are not in the map.
-    /// May be called only from the thread of track(). Valid until the next call of track().
+    /// All tags found in the last frame, with refined corners. They include tags that are not in
+    /// the map. May be called only from the thread of track(). Valid until the next call of
+    /// track().
     [[nodiscard]] const std::vector<TagDetection>& detections() const { return detections_; }
     [[nodiscard]] TrackStats stats() const;
     /// Returns the map of the options. If that is empty, returns a map with the tag that became the
-    /// world, or an empty map if no tag has been the world for five frames yet.
+    /// world, or an empty map if the filter has not yet accepted its pose in five frames.
     [[nodiscard]] TagMap map() const;
 
 private:

@@ -17,7 +17,7 @@ inline constexpr int kSurfaceNumbers = 256;
 /// Two depths belong to the same surface if they differ by less than this factor times z.
 inline constexpr float kSameDepth = 0.003F;
 /// A surface's colour is interpolated only between texels that show this surface. The colour is
-/// unreliable if the sum of the texels' weights is below this limit.
+/// unreliable if the sum of the texels' weights is not above this limit.
 inline constexpr float kLeastLookUpWeight = 0.2F;
 /// Cracks of one pixel are filled even if HoleFilling leaves larger holes in the surface empty. In
 /// this case, only this number of pyramid levels is used, the finest ones.

@@ -10,9 +10,9 @@
 
 namespace mfar {
 
-/// The last kPictures re-rendered pictures. Each consists of the pixels of one HoleAnswer. These
-/// were traced for the camera pose in the answer. The warp looks up colours of objects in these
-/// pictures as in the traced picture. A new picture replaces the oldest.
+/// The last kPictures re-rendered pictures. Each consists of the pixels of one HoleAnswer, which
+/// were traced for the camera pose in the answer. The warp looks up colours of objects in
+/// re-rendered pictures as in the traced picture. A new picture replaces the oldest.
 class RerenderedPictures {
 public:
     static constexpr int kPictures = 4;
@@ -29,8 +29,8 @@ public:
         std::span<const WarpSurface> surfaces;
     };
     /// Adds an answer as the newest picture, unless no pixel shows an object. All pixels must be in
-    /// the layer. Passes all changed rows to `store`. Storage that was never
-    /// written counts as empty.
+    /// the layer. Passes all changed rows to `store`. Storage that was never written counts as
+    /// empty.
     void add(const HoleAnswer& answer, const std::function<void(const StoredRows&)>& store);
     void clear();
     /// Increases the weight of each picture that still fades in. Must be called once per displayed

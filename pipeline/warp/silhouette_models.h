@@ -29,7 +29,7 @@ public:
         float cutoff = 0;                       ///< texels with a smaller alpha are transparent
         bool bothSides = true;
         const Material* material = nullptr;
-        /// Null if the mesh has no uvs.
+        /// Null if the mesh has no uvs or the material has no such texture.
         const SurfaceTexture *baseColour = nullptr, *metallicRoughness = nullptr;
     };
     struct Shape {

@@ -20,11 +20,11 @@ struct SurfaceMesh {
     std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
-/// Halves edges until no edge is longer than `longest` [m]. Triangles with a common edge cut it at
-/// the same points, so that no gap appears. `longest` is doubled until at most `mostTriangles`
-/// triangles result. A mesh that already has more triangles than `mostTriangles` stays uncut. `uvs`
-/// has one entry per vertex or is empty. Triangles are omitted if a corner is not finite or an
-/// index is out of range.
+/// Halves edges until no edge is longer than `longest` [m]; 0: no edge is cut. Triangles with a
+/// common edge cut it at the same points, so that no gap appears. `longest` is doubled until at
+/// most `mostTriangles` triangles result. A mesh that already has more triangles than
+/// `mostTriangles` stays uncut. `uvs` has one entry per vertex or is empty. Triangles are omitted
+/// if a corner is not finite or an index is out of range.
 [[nodiscard]] SurfaceMesh surfaceMesh(std::span<const Eigen::Vector3f> positions,
                                       std::span<const Eigen::Vector2f> uvs,
                                       std::span<const std::array<std::uint32_t, 3>> triangles,

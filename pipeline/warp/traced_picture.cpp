@@ -57,7 +57,8 @@ public:
         const int own = id(x, y);
         return own != 0 && own != kCatcherId;
     }
-    /// True if the pixel's colour contains no other object's colour and no transparent background.
+    /// True if the pixel's colour probably contains no other object's colour and no transparent
+    /// background.
     [[nodiscard]] bool isPlain(int x, int y) const {
         const int own = id(x, y);
         if (own == 0) return true;
@@ -77,7 +78,8 @@ private:
 };
 
 /// Replaces a pixel's colour and light by the mean of adjacent pixels that show the same surface
-/// and have an unmixed colour (isPlain()). Returns false if there are none.
+/// and have an unmixed colour (isPlain()). For the shadow catcher, pixels without a surface count,
+/// too, because they have no shadow. Returns false if there are none.
 bool takeFromNeighbours(const PictureGrid& grid, std::span<const LightWords> light,
                         TracedPicture& r, int x, int y) {
     const int own = grid.id(x, y);

@@ -20,7 +20,9 @@ struct WarpSurface {
     float z = 0;          ///< [m]; 0 if there is no surface
     float id = 0;         ///< object number; 0 if there is no surface
     float tolerance = 0;  ///< points whose z differs by less are on the same surface [m]
-    float known = 0;      ///< 1 if the colour is known and of this surface alone, else 0
+    /// 0: the colour is unknown, because it is a mixture of surfaces or was never rendered. 1: it
+    /// is known; on objects, it can still be a mixture if no adjacent pixel has a better colour.
+    float known = 0;
 };
 
 /// A finished picture, prepared on the CPU for warping. Any thread may prepare it. Each array is
@@ -53,7 +55,8 @@ struct TracedPicture {
     /// z and object number in one word, in the format of warp_surface.glsl.
     std::vector<std::uint32_t> packed;
     /// A square part of the picture that shows a surface. When the view changes, the tile's point
-    /// that moves farthest in the picture is one of its corners.
+    /// that moves farthest in the picture is one of its corners, at the depth `nearest` or
+    /// `farthest`.
     struct Tile {
         PixelRect pixels;
         std::array<Eigen::Vector2d, 4> rays;  ///< normalised rays of the outer corners
@@ -63,9 +66,9 @@ struct TracedPicture {
     PixelRect bounds;
 };
 
-/// Throws std::invalid_argument if the camera or the pose is not finite, a side is longer than
-/// 16384 px, or an array has the wrong size. Pixels have no surface if z is not finite, not beyond
-/// the near plane, or above 1000 km.
+/// Throws std::invalid_argument if the camera or the pose is not finite, a focal length is not
+/// above 0, a side is not from 1 to 16384 px, or an array has the wrong size. Pixels have no
+/// surface if z is not finite, not beyond the near plane, or not below 1000 km.
 [[nodiscard]] TracedPicture tracedPicture(const RenderedPicture& picture);
 
 /// Divides a partly covered pixel's colour by its coverage and makes it opaque.
@@ -77,8 +80,10 @@ struct TracedPicture {
 
 /// Motion of a traced picture's points from the picture's own view to another view of the layer.
 struct WarpMotion {
-    double greatest = 0;  ///< [px]; infinite if a point moves behind the near plane
-    PixelRect bounds;     ///< bounds of the points in the other view
+    /// [px]. Infinite if a point moves behind the near plane, or if the picture shows a surface and
+    /// its size differs from the layer's.
+    double greatest = 0;
+    PixelRect bounds;  ///< bounds of the points in the other view
 };
 [[nodiscard]] WarpMotion motionOf(const TracedPicture& traced, const LensProjection& layer,
                                   const RigidTransform& T_world_camera);

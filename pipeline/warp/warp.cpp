@@ -160,7 +160,8 @@ void Warp::remember(const HoleRequest& request) {
         requested_.pixels.erase(requested_.pixels.begin());
 }
 
-/// True if no point of the traced picture moves by leastMotion [px] or more.
+/// True if each point of the traced picture moves by less than leastMotion or kSamePose [px],
+/// whichever is larger. The motion is estimated from the nearest point, at the picture's centre.
 bool Warp::isUnmoved(const RigidTransform& from, const RigidTransform& to) const {
     const RigidTransform T = from.inverse() * to;
     float nearest = kFarthestSurface;

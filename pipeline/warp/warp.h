@@ -19,9 +19,9 @@ struct WarpCounters {
     std::uint64_t empty = 0;      ///< frames without a virtual object in view
     std::uint64_t requested = 0;  ///< pixels requested for individual rendering
     std::uint64_t answered = 0;   ///< requested pixels that were rendered
-    std::uint64_t rays = 0;
-    int openHoles = 0;  ///< pixels of objects that no picture shows
-    int cracks = 0;     ///< pixels in cracks, which are one pixel wide
+    std::uint64_t rays = 0;       ///< samples of the requested pixels
+    int openHoles = 0;            ///< pixels of objects that no picture shows
+    int cracks = 0;               ///< missing pixels at edges and in cracks one pixel wide
 };
 
 /// Image-based rendering of the virtual layer. It shows a finished picture (the traced picture)
@@ -53,15 +53,16 @@ public:
     LayerPicture& run(const RigidTransform& T_world_camera, std::vector<RigidTransform> poses = {});
 
     /// Returns the pixels to render individually: missing pixels of objects in a recent frame, or
-    /// edge pixels if camera and objects rest. At most mostRequested pixels are returned, evenly
-    /// spread. Empty if no such pixels are known, or if an earlier request for this scene is not
-    /// answered yet.
+    /// edge pixels if the camera rests and no object can move. At most mostRequested pixels are
+    /// returned, evenly spread. Empty if no such pixels are known, or if an earlier request for
+    /// this scene is not answered yet.
     /// Must be called once per frame, even if the frame is not drawn because the camera rests.
     /// Never waits.
     [[nodiscard]] std::optional<HoleRequest> takeRequest();
     /// Adds the rendered pixels of a request. They are shown from the next run() on. Answers for
-    /// another scene are ignored. Throws std::invalid_argument if the answer's vectors have
-    /// different lengths, a pixel is outside the layer, or the pose is not finite.
+    /// another scene are ignored, and so are edge pixels if the camera has moved since. Throws
+    /// std::invalid_argument if the answer's vectors have different lengths (`light` may be empty),
+    /// a pixel is outside the layer, or the pose is not finite.
     void answer(const HoleAnswer& answer);
 
     [[nodiscard]] const WarpCounters& counters() const { return counters_; }
@@ -85,7 +86,8 @@ private:
     std::optional<TracedPicture> traced_;
     std::uint64_t scene_ = 0;
     bool asked_ = false;
-    // The last requests, all for the same view; as many as pictures are stored.
+    // The last requests for missing pixels, all for the same view, at most kPictures of
+    // RerenderedPictures.
     struct {
         RigidTransform T_world_camera;
         std::vector<std::vector<std::uint32_t>> pixels;

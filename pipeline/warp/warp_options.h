@@ -2,9 +2,9 @@
 
 namespace mfar {
 
-/// Method to fill pixels of a model that no picture shows (holes). Cracks of one pixel are always
-/// closed. Holes in the shadow catcher are interpolated, except with None: a shadow is smooth, and
-/// a few samples of it would be noisy.
+/// Method to fill pixels of a model that no picture shows (holes). Holes at edges and cracks of one
+/// pixel are always interpolated. Other holes in the shadow catcher are interpolated, except with
+/// None: a shadow is smooth, and a few samples of it would be noisy.
 enum class HoleFilling {
     None,      ///< leave the pixels empty
     PushPull,  ///< interpolate the pixels from their surroundings
@@ -26,7 +26,7 @@ struct WarpOptions {
     /// HoleFilling::Both.
     int fadeFrames = 4;
     /// If a new pose moves all points by less than this distance [px], [0, 10], the traced picture
-    /// is shown unchanged.
+    /// is shown unchanged, unless it is layered (RenderedPicture::layered) or objects can move.
     double leastMotion = 0.1;
     bool operator==(const WarpOptions&) const = default;
 };

@@ -8,8 +8,8 @@
 
 namespace mfar {
 
-/// Rectangle around those pixels of a picture that are within `margin` px of `box`. Empty if there
-/// are none.
+/// Rectangle that contains all pixels of a picture that are within `margin` px of `box`. Its sides
+/// are at most one pixel farther out. Empty if the picture has no pixels there.
 [[nodiscard]] PixelRect pixelsAround(const Eigen::AlignedBox2d& box, int margin, Size picture);
 
 }  // namespace mfar

@@ -14,7 +14,8 @@ namespace mfar {
 
 struct WarpHoles {
     std::vector<std::uint32_t> open;  ///< pixels of objects that no picture shows, ascending
-    int cracks = 0;                   ///< number of pixels in cracks; they are not in `open`
+    /// Number of missing pixels at edges and in cracks one pixel wide. They are not in `open`.
+    int cracks = 0;
 };
 
 /// Processes the pixels of a warp. Each engine implements it; Warp decides when it runs. The result
