@@ -20,9 +20,9 @@ using CellVector = std::array<float, 4>;
 struct FlowEnds {
     Lens lens;  ///< lens of the video camera
     Motion motion;
-    float nearPlane;  ///< a point is valid if z of its ray in the turned still exceeds this
-    /// Largest valid |x| and |y| of a projected point [px]. A point that is invalid or exceeds this
-    /// gets the position x = y = nowhere.
+    float nearPlane;  ///< a point is valid only if z of its ray in the turned still exceeds this
+    /// A point is valid only if |x| and |y| of its projection are less than this [px]. An invalid
+    /// point gets the position x = y = nowhere.
     float nowhere;
 };
 

@@ -14,8 +14,8 @@ namespace mfar::simd {
     return {(cells.width + kLongest - 1) / kLongest * kLongest, cells.height};
 }
 
-/// One value per cell. Each row has margins, to which repeatBorder() copies the row's first and
-/// last value.
+/// One value per cell. Each row has margins. repeatBorder() copies the row's first and last value
+/// to the nearest entry of each margin.
 class CellPlane {
 public:
     explicit CellPlane(Size cells)

@@ -12,7 +12,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace mfar::simd::HWY_NAMESPACE {
 
-constexpr float kLeastLanding = 0.05F;  // smallest valid z of a ray (x, y, 1) after the rotation
+constexpr float kLeastLanding = 0.05F;  // z of a ray (x, y, 1) after the rotation must exceed this
 constexpr float kUnknown = std::numeric_limits<float>::infinity();
 
 template <class D, class V = hn::Vec<D>>

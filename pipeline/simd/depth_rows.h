@@ -37,8 +37,9 @@ struct MovedPoints {
 };
 struct MoveRule {
     float pixelX, pixelY;  ///< change of a ray's x per column, and of its y per row
-    float leastDepth;      ///< smallest valid ratio (depth after the motion) / (depth before it)
-    float growth;          ///< variance that the motion adds, divided by (inverse depth)^2
+    /// A moved point is valid only if (depth after the motion) / (depth before it) exceeds this.
+    float leastDepth;
+    float growth;  ///< variance that the motion adds, divided by (inverse depth)^2
 };
 /// Moves points by `motion` and projects them into a picture of `size`. A point on the ray (x, y,
 /// 1) has the homogeneous coordinates (x, y, 1, inverseDepth). `bounds` grows to contain the pixels
@@ -54,13 +55,15 @@ struct SearchedRow {
 struct MeasureRule {
     std::array<float, 3> t;  ///< translation of points [units of length], see landRow()
     float slack;             ///< a point with s < nearest - slack is hidden [1/unit of length]
-    float leastDepth;        ///< smallest valid ratio (depth in this camera) / (depth in the other)
-    float error;             ///< standard deviation of a match's position [focal lengths]
-    float perUnit;           ///< converts s [1/unit of length] to inverse depth [1/m]
+    /// A pixel is valid only if (depth in this camera) / (depth in the other) exceeds this.
+    float leastDepth;
+    float error;    ///< standard deviation of a match's position [focal lengths]
+    float perUnit;  ///< converts s [1/unit of length] to inverse depth [1/m]
 };
-/// Computes the inverse depth s / (1 - s t.z) [1/m] of each pixel, and its variance. An invalid
-/// pixel gets inverse depth 0 and infinite variance. A pixel is valid if the other picture shows
-/// its point, 1 - s t.z exceeds `leastDepth`, and a change of s moves the point in that picture.
+/// Computes the inverse depth perUnit * s / (1 - s t.z) [1/m] of each pixel, but at least 0, and
+/// the variance of the inverse depth [1/m^2]. An invalid pixel gets inverse depth 0 and infinite
+/// variance. A pixel is valid if the other picture shows its point, 1 - s t.z exceeds `leastDepth`,
+/// and a change of s moves the point in that picture.
 void measureRow(const SearchedRow& row, const MeasureRule& rule, std::size_t count,
                 float* inverseDepth, float* variance);
 

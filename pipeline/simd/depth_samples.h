@@ -19,7 +19,7 @@ struct SampleSource {
     const std::uint8_t *red, *green, *blue;
 };
 
-/// A row of SampleSource, converted to single precision. A virtual pixel is certainly in front of
+/// A row of SampleSource, with all values as floats. A virtual pixel is certainly in front of
 /// the sample if its inverse depth exceeds `nearest`. It is certainly behind the sample if its
 /// inverse depth is less than `farthest`. In an unknown sample, `nearest` and `farthest` are 0, and
 /// `inverse` is negative, so that the sample hides nothing.

@@ -9,8 +9,9 @@
 
 namespace mfar::simd {
 
-// These functions process pixels [begin, end) of an output row. They may read and write up to 64
-// bytes beyond `end`, but write rows of the RGBA8 picture only up to `end`.
+// These functions process pixels [begin, end) of an output row; guideRow() processes a row of the
+// video. They may read and write up to 64 bytes beyond `end`, but write rows of the RGBA8 picture
+// only up to `end`.
 
 /// Positions at which the output pixels of a row read the still. They are interpolated between two
 /// rows of LookUpCells, which are already enlarged to the output's width. All numbers are finite.

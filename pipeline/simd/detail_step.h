@@ -25,24 +25,25 @@ struct DetailOptions {
     SuperResMode mode;
     bool cubic;
     bool upscaledTiles, plainTiles;
-    /// Learned filters that enlarge the matched tiles in mode Detail, see detailRow(). If null,
-    /// tiles are sharpened instead.
+    /// Learned filters that enlarge the matched tiles in mode Detail, see detailRow(). If null, the
+    /// video is sharpened instead in mode Detail, provided that DetailInput::still has data.
     const FilterBank* learned = nullptr;
 };
 
 struct DetailInput {
     const RgbPlanes& video;
     const TileWork& work;
-    // Mode Blend uses `picture` (RGBA8), the other modes use `still` (luma). If the one that is
-    // used has no data, the video is only enlarged.
+    // Mode Blend uses `picture` (RGBA8), mode Detail uses `still` (luma), and mode Off uses
+    // neither. If the one that is used has no data, the video is only enlarged.
     StillPairs still{};
     Rows<const std::uint32_t> picture{};
-    // These fields have one entry per 4x4 video pixels. They are read only if there is a still.
+    // These fields have one entry per 4x4 video pixels. They are read only if the picture that the
+    // mode uses (`still` or `picture`) has data.
     Rows<const WeighedCell> weighed;
     Rows<const LookUpCell> lookUps;
     Rows<const TrustCell> trust;
-    /// A second still, which is shown where its weight exceeds the first still's weight. It is used
-    /// only in mode Detail, and only if both stills have data.
+    /// A second still, which is shown where its weight exceeds the first still's weight by more
+    /// than params::kSecondFrom. It is used only in mode Detail, and only if both stills have data.
     struct Second {
         StillPairs still{};
         Rows<const WeighedCell> weighed{};

@@ -18,7 +18,8 @@ struct DirectMatch {
     Size cells;
     const std::array<float, 4>* lines;  ///< flow along epipolar lines: x, y [px], two unused
     float noise;                        ///< standard deviation of the video's noise [grey levels]
-    float leastTexture;                 ///< cells with less FlowCell::texture are not compared
+    /// Only cells whose FlowCell::texture exceeds this are compared [grey levels^2].
+    float leastTexture;
 };
 
 /// Corrects the flow of doubtful cells by comparing the video with the full-resolution still; see
@@ -28,7 +29,7 @@ struct DirectMatch {
 ///
 /// A cell's flow is replaced by its flow along the epipolar line if the still fits clearly better
 /// there. If the correlation with the still exceeds 1 - FlowCell::cost, the sums of this comparison
-/// are stored in the cell's ErrorCell. Then the cell's two-way error is limited to the error that
+/// are stored in the cell's ErrorCell, and the cell's two-way error is limited to the error that
 /// params::kErrorPerCost gives for the cost 1 - correlation.
 void matchDirectly(const DirectMatch& in, int row, int first, int end, FlowCell* flow,
                    ErrorCell* errors);

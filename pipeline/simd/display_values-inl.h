@@ -1,5 +1,5 @@
-// Conversion between display (sRGB) and linear values for vectors of pixels. The error is at most
-// half a display level (levels 0 to 255).
+// Conversion between display (sRGB, levels 0 to 255) and linear values (0 to 1) for vectors of
+// pixels. This header is included once per instruction set.
 #if defined(MFAR_SIMD_DISPLAY_VALUES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef MFAR_SIMD_DISPLAY_VALUES_INL_H
 #undef MFAR_SIMD_DISPLAY_VALUES_INL_H
@@ -14,6 +14,8 @@ namespace mfar::simd::HWY_NAMESPACE {
 
 namespace hw = hwy::HWY_NAMESPACE;
 
+/// Returns the linear value of a display level. The error is below 0.002. This corresponds to less
+/// than one display level above level 48, but to up to five display levels near level 12.
 template <class D>
 HWY_INLINE hw::Vec<D> LinearOf(D d, hw::Vec<D> byte) {
     const auto x = hw::Mul(byte, hw::Set(d, 1.0F / 255));

@@ -41,8 +41,8 @@ void forTileRuns(int columns, int cellsPerTile, const Key& keyOf, const Run& run
     }
 }
 
-/// Copies flow vectors of the coarser pyramid level to the cells [first, end), which are not
-/// searched.
+/// Copies flow vectors of the coarser pyramid level, converted to pixels of the finer level, to the
+/// cells [first, end), which are not searched.
 void enlargeCells(const FlowPlanes& coarse, const FlowPlanes& fine, int row, int first, int end) {
     for (int column = first; column < end; ++column) {
         const std::ptrdiff_t from = row / 2 * coarse.pitch + column / 2;

@@ -19,9 +19,10 @@ namespace mfar::simd {
 /// engine's Flow2d, with the same pyramids.
 ///
 /// Work whose result is not read is skipped. At the two finest pyramid levels, unmatched tiles are
-/// searched only where neighbouring tiles read their vectors. The same applies to unchanged tiles,
-/// if only changed tiles are drawn. At the finest level of the backward flow, cells of the still
-/// are searched only around the ends of flow vectors from the video.
+/// searched only where neighbouring tiles read their vectors. The same applies to unchanged tiles
+/// if only changed tiles are drawn; run() then also requires `usePrior`. At the finest level of the
+/// backward flow, cells of the still are searched only around the ends of flow vectors from the
+/// video.
 class Flow2d {
 public:
     /// Throws std::invalid_argument if an option is out of range.
@@ -39,15 +40,15 @@ public:
         std::span<const std::uint32_t> words;
     };
     /// Computes the flow in both directions. Keeps the last flow if no changed tile is matched.
-    /// `usePrior`: the last frame's flow is a candidate for every cell; must be false after a new
-    /// still.
+    /// `usePrior`: the last frame's flow from video to still is a candidate for every cell of the
+    /// video; must be false after a new still.
     void run(const Luma& luma, const TileWork& work, bool usePrior);
 
     /// Computes the flow from video to still. The search starts from `forward`, the vectors of the
     /// epipolar search, whose error is a fraction of a pixel. Tiles in which these vectors do not
     /// match (see TileSearch) are searched in two dimensions, from coarse to fine. The first entry
     /// of each cell's `errors` is the two-way error of its `forward` vector [px], see eq. 2 of the
-    /// paper (docs/paper.md).
+    /// paper (docs/paper.md). Keeps the last flow and errors if no changed tile is matched.
     using Cells = std::span<const std::array<float, 4>>;
     void refine(const Luma& luma, const TileWork& work, Cells forward, Cells errors);
 
@@ -56,12 +57,14 @@ public:
     /// Flow from still to video, at pyramid level backwardLevel(); valid after run().
     [[nodiscard]] Rows<const FlowCell> backward() const { return rowsOf(backward_, stillCells_); }
     [[nodiscard]] int backwardLevel() const { return backwardLevel_; }
-    /// True after refine(), where errors() contains the two-way errors of the video's cells. False
-    /// after run(), which does not compute them. Without matched tiles, neither changes it.
+    /// True after refine(): errors() then contains the two-way errors of the video's cells. False
+    /// after run(), which does not compute these errors. If no changed tile is matched, refine()
+    /// and run() do not change this value.
     [[nodiscard]] bool errorsGiven() const { return errorsGiven_; }
     [[nodiscard]] Rows<const ErrorCell> errors() const { return rowsOf(errors_, videoCells_); }
 
-    /// True for each tile that the last refine() searched.
+    /// Returns a flag for each tile, row-major: true if the last call was refine() and it searched
+    /// the tile in two dimensions. After run(), all flags are false.
     [[nodiscard]] const std::vector<bool>& searchedTiles() const { return searched_.tiles(); }
     [[nodiscard]] int searchedCount() const { return searched_.count(); }
 

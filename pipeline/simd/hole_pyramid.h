@@ -30,9 +30,10 @@ public:
         Rows<const std::uint32_t> state;
         PixelRect where;
     };
-    /// `holes`: the layer's holes, ascending. A hole is a crack if its isEdge is true, or if at
-    /// least five of its eight neighbours show the same surface. Cracks are always filled, and
-    /// their isEdge is set to true. `filling` selects the other holes that are filled.
+    /// `holes`: the layer's holes. A hole is a crack if its isEdge is true, or if at least five of
+    /// its eight neighbours show the hole's surface. Cracks are filled with any `filling`, and
+    /// their isEdge is set to true. `filling` selects the other holes that are filled. A hole
+    /// without known colours in its surroundings stays unfilled.
     void fill(const Layer& layer, std::span<Hole> holes, HoleFilling filling);
 
 private:

@@ -4,8 +4,9 @@
 
 namespace mfar::simd {
 
-/// Number of readable entries that must follow the loaded part of a layer's row, because vectors
-/// read them.
+/// Number of entries that must follow the loaded part of a layer's row, the arrays of LayerColumns
+/// and the results of blendLayerRows() and enlargeColours(). Vectors read these entries; in
+/// results, they also overwrite them.
 inline constexpr int kLayerSpare = 64;
 
 struct LayerColumns {

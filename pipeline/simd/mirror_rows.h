@@ -19,9 +19,9 @@ struct MirrorInput {
     const float* shareOf;
     /// GGX parameter alpha for each roughness (a byte), at least MirrorLight::leastSunAlpha.
     const float* alphaOf;
-    float sun[3], irradiance[3];
-    float least, exposure;
-    float axes[3][3];  ///< the camera's x, y and z axis in the world
+    float sun[3], irradiance[3];  ///< MirrorLight::towardsSun and sunIrradiance
+    float least, exposure;        ///< MirrorLight::least and TracedPicture::exposure
+    float axes[3][3];             ///< the camera's x, y and z axis in the world
     /// Vector from the traced picture's camera to the eye that sees the light, in the world [m].
     float eye[3];
 };

@@ -25,8 +25,9 @@ public:
     /// `traced` must live until the next call of setTracedPicture().
     void setTracedPicture(const TracedPicture& traced);
     /// Returns TracedPicture::light as seen from the position `eye` in the world, valid until the
-    /// next call. Returns it unchanged if the pixels' gloss is unknown, or if the traced picture
-    /// has another camera model than the layer.
+    /// next call of a member function. Returns the light unchanged if the pixels' gloss or the
+    /// mirrored light (TracedPicture::mirrors) is unknown, or if the traced picture has another
+    /// camera model than the layer.
     [[nodiscard]] std::span<const LightWords> lightFor(const Eigen::Vector3d& eye);
 
 private:

@@ -49,8 +49,9 @@ struct OcclusionStep::Strip {
     int x = 0, count = 0;
     std::array<float, kVisibilityChunk + kSpare> greatest{}, least{}, z{}, inverse{};
     std::array<std::uint32_t, kVisibilityChunk + kSpare> colours{};
-    // Used only if the layer is enlarged: depths and colours of the layer's rows above and below
-    // the strip, and colours interpolated between these rows (redBlue, greenAlpha).
+    // Used only if the layer's size differs from the output's: depths and colours of the layer's
+    // rows above and below the strip, and colours interpolated between these rows (redBlue,
+    // greenAlpha).
     std::array<float, kVisibilityChunk + kSpare> depthAbove{}, depthBelow{};
     std::array<std::uint32_t, kVisibilityChunk + kSpare> above{}, below{}, redBlue{}, greenAlpha{};
     std::array<std::uint8_t, kVisibilityChunk + kSpare> visibility{};

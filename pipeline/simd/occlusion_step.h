@@ -51,10 +51,11 @@ public:
 
     /// Draws `layer` over `picture`, the RGBA8 picture of the frame at output size. `real`,
     /// `video`: depth and colours of the same frame. Real pixels occlude nothing if their inverse
-    /// depth or sigma is not finite and positive. Layer pixels are drawn only if their depth is
-    /// finite and positive. If the layer is smaller than the output, its colours are interpolated
-    /// linearly. An output pixel's depth is then that of the closest of the four surrounding layer
-    /// pixels; those without a depth are skipped.
+    /// depth or sigma is NaN or outside the limits of params::kLeastInverseDepth. Layer pixels are
+    /// drawn only if their depth is between the limits of params::kLeastVirtualDepth. If the
+    /// layer's size differs from the output's, the layer's colours are interpolated linearly. An
+    /// output pixel's depth is then that of the closest of the four surrounding layer pixels; those
+    /// without a depth are skipped.
     void run(const LayerRowsView& layer, const RealDepth& real, const RgbPlanes& video,
              Rows<std::uint32_t> picture);
 

@@ -205,7 +205,7 @@ HWY_INLINE VU Byte(V level) {
     return hn::BitCast(DU(), hn::ConvertTo(DI(), hn::Add(held, F(0.5F))));
 }
 
-/// Converts linear light to an sRGB byte. Linear 1 is stored as 255^2.
+/// Converts linear light to an sRGB byte. `linear` is 255^2 for the byte 255.
 HWY_INLINE VU SrgbByte(V linear) {
     return Byte(SrgbLevel(D(), hn::Mul(linear, F(1.0F / 65025))));
 }

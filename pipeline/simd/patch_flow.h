@@ -49,16 +49,16 @@ struct SearchStep {
 };
 void searchCells(const SearchStep& step, int row, int first, int end);
 
-/// Parameters of the LISTED variant of flow_search.comp. At the finest pyramid level, a vector that
-/// ends farther than kOnLine from the end of the cell's vector in `search.out` replaces that vector
-/// only if its cost is clearly smaller (kClearlyLess). The cell's two-way error, the first of its
-/// four floats in `errors`, is then replaced too. A vector that ends closer always replaces it,
-/// without a change of the error. At coarser levels, `errors` is null, and the vectors of all cells
-/// are replaced.
+/// Parameters of the LISTED variant of flow_search.comp. The search finds a new vector for each
+/// cell; the old one is in `search.out`. At the finest pyramid level, if the ends of both are
+/// farther apart than kOnLine, the new vector replaces the old one only if it costs clearly less
+/// (kClearlyLess). Then the cell's two-way error, the first of its four floats in `errors`, is
+/// replaced too. If the ends are closer together, the new vector always replaces the old one, and
+/// the error stays. At coarser levels, `errors` is null, and the vectors of all cells are replaced.
 struct ListedStep {
     SearchStep search;
     float* errors = nullptr;
-    std::ptrdiff_t errorPitch = 0;
+    std::ptrdiff_t errorPitch = 0;  ///< from one row of cells to the next [floats]
 };
 /// Searches a group of 4x4 cells, or the part of it that lies in the field.
 void searchListedGroup(const ListedStep& step, int groupX, int groupY);
@@ -85,9 +85,10 @@ void alignCells(const AlignStep& step, int row, int first, int end);
 /// large become 0.
 void keepSeedCells(const AlignStep& step, int row, int first, int end);
 
-/// Parameters of flow_filter.comp. prepareCleanUpRow() must have filled the margins of `in` and
-/// `known`. `known`: reliability of each cell, [0, 1]. `out`: four floats per cell, row by row
-/// without gaps.
+/// Parameters of flow_filter.comp. The margins of in.x, in.y and `known` must be filled with the
+/// outermost cells: prepareCleanUpRow() fills those beside the rows, the caller the kCleanUpRadius
+/// rows above and below the field. `known`: reliability of each cell, [0, 1]. `out`: four floats
+/// per cell, row by row without gaps.
 struct CleanUpStep {
     FlowPlanes in;
     const float* known = nullptr;  ///< same pitch and margins as `in`

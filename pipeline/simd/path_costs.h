@@ -41,7 +41,7 @@ struct PathVolume {
     std::uint8_t* sums;         ///< results and temporary values, one for each entry of `costs`
 };
 
-/// pathsAlongRows() and pathsAlongColumns() process this number of rows or columns together.
+/// pathsAlongRows() and pathsAlongColumns() process up to this number of rows or columns together.
 /// Threads should split the work at multiples of this number.
 inline constexpr int kRowsTogether = 4, kColumnsTogether = 32;
 

@@ -181,8 +181,8 @@ private:
         subpixel_.run(pictures.video.planes, stills_->of(pictures.still), pictures.light, work,
                       row_[0], errors);
     }
-    // Must not be called if no tile is matched: row_ then contains the corrected flow of the last
-    // frame and its errors, which are still valid.
+    // Must not be called if no changed tile is matched: row_ then contains the corrected flow of
+    // the last frame and its errors, which are still valid.
     template <class Cell>
     static void copy(Rows<const Cell> from, Cell* to) {
         for (int y = 0; y < from.size.height; ++y)

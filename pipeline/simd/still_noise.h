@@ -9,7 +9,8 @@ namespace mfar::simd {
 ///
 /// Halving the picture halves the standard deviation of white noise, but hardly changes the
 /// contrast of texture, because natural textures have as much contrast at twice the scale. So the
-/// noise is computed from the difference of BlockNoise between the still and its halved copy.
+/// noise is computed from the difference between the variances (squares of BlockNoise) of the still
+/// and of its halved copy.
 [[nodiscard]] double noiseOfStill(const ImageView& still);
 
 }  // namespace mfar::simd

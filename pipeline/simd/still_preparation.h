@@ -20,9 +20,9 @@
 namespace mfar::simd {
 
 /// Prepares the newest still once: its luma at full resolution, and at the resolution that the
-/// output needs. CPU version of the GLES engine's StillReference. Memory is allocated in the
-/// constructor, in the first call of picture(), and in set() if its copy of the still needs more
-/// memory than all copies before.
+/// output needs. CPU version of the GLES engine's StillReference. Memory for pictures is allocated
+/// in the constructor, in the first call of picture(), and in set() if its copy of the still needs
+/// more memory than all copies before.
 class StillPreparation {
 public:
     /// `output`: size of the whole enlarged video.
@@ -40,8 +40,9 @@ public:
     [[nodiscard]] const StereoRig& rig() const { return rig_; }
     /// Rec. 601 luma of the whole still, with the tone curve.
     [[nodiscard]] Rows<const std::uint8_t> luma() const { return luma_.rows(); }
-    /// Luma without noise, at the size of rig().still. A still that already had this size is
-    /// sharpened a little: its finest detail is raised, because later linear look-ups blur it.
+    /// Luma without noise, with the tone curve, at the size of rig().still. A still that already
+    /// had this size is sharpened a little: its finest detail is raised, because later linear
+    /// look-ups blur it.
     [[nodiscard]] StillPairs pairs() const { return {pairs_[0], pairs_.pitch(), pairs_.size()}; }
     /// The picture as RGBA8 with R in the lowest byte, at the size of rig().still. 64 readable
     /// bytes follow each row. The first call after set() computes it.

@@ -29,7 +29,7 @@ struct CornerRows {
     float *x, *y, *z;
 };
 /// Projects `count` corners through a lens, onto a grid with twice the resolution of the lens's
-/// picture. Rows need kAlignment bytes of padding.
+/// picture. Rows need AlignedRows::kPadding bytes of padding.
 void projectCorners(const MeshRows& mesh, int count, const PointTransform& view,
                     const PointLens& lens, const CornerRows& out);
 

@@ -17,7 +17,7 @@ struct TileSummary {
     std::array<int, kTileClasses> tiles{};  ///< number of tiles of each class
     /// Number of tiles in which at least params::kUnexplainedCells cells match neither still.
     int unexplained = 0;
-    int second = 0;
+    int second = 0;  ///< number of drawn tiles for which TileClasses::showsSecond() is true
     /// Sum of one value per tile: 256 times the mean confidence (eq. 2 of the paper) of the tile's
     /// cells, rounded down. 0 if there is no still.
     double confidence = 0;

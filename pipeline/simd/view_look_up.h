@@ -71,7 +71,8 @@ public:
         const RerenderedStore& store;
         Eigen::Vector4d plane;
     };
-    /// Writes every pixel of `where`, and no other pixels.
+    /// Writes every pixel of `where`. Up to 7 pixels to the right of `where` in the same rows
+    /// become empty; all other pixels stay unchanged.
     void run(const Input& input, const RigidTransform& T_world_camera, const PixelRect& where);
     void clear(const PixelRect& where);
 

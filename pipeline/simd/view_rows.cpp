@@ -250,7 +250,6 @@ HWY_INLINE void ReadReference(const ViewLookUpInput& in, const Asked& a, const P
     const D d;
     const DU du;
     const V width = hn::Set(d, static_cast<float>(in.tracedSize.width));
-    // Pictures have at most 2^24 pixels, so indices are exact in single precision.
     const VI row = hn::ConvertTo(DI(), hn::IfThenElseZero(a.asked, a.lowY));
     const VI at = hn::Add(hn::Mul(row, hn::ConvertTo(DI(), width)),
                           hn::ConvertTo(DI(), hn::IfThenElseZero(a.asked, a.lowX)));

@@ -21,7 +21,7 @@ namespace mfar::simd {
 /// Input of WeighStep::run() for a frame. The data must remain valid during the call.
 struct WeighInput {
     /// At least two pyramid levels of each picture; their pixels are in `words`. The photometric
-    /// gain between the sensors is measured at the second level.
+    /// gain between the sensors is measured at the first two levels.
     const std::vector<LumaLevel>& videoLuma;
     const std::vector<LumaLevel>& stillLuma;
     std::span<const std::uint32_t> words;  ///< must end with kLumaSpareWords unused words
@@ -45,9 +45,9 @@ public:
     WeighStep(const StereoRig& stillRig, std::shared_ptr<Workers> workers);
 
     /// Computes the weight of every cell. If no tile has changed, the last results stay valid. If
-    /// no changed tile is matched, the last photometric gain is used. Cells of unmatched tiles are
-    /// not compared; they get a weight only from neighbouring cells of matched tiles. The results
-    /// have one entry per cell and are valid until the next run().
+    /// no changed tile is matched, the second level's last photometric gain is used. Cells of
+    /// unmatched tiles are not compared; they get a weight only from neighbouring cells of matched
+    /// tiles. The results have one entry per cell and are valid until the next run().
     void run(const WeighInput& in);
 
     /// Raises each weight w below 1 to 1 - (1 - w)^4, then multiplies the weight of each cell by
