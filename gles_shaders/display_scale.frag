@@ -3,10 +3,10 @@
 // picture pixel wide. So a picture is averaged without aliasing if it is reduced, interpolated
 // linearly if it is enlarged, and copied if it has equal size. Gamma-encoded values are averaged as
 // they are stored.
-// One texture fetch reads two neighbouring texels with weights that the sampling position
-// determines. The sampler must therefore filter linearly and clamp to the edge.
-// PAIRS: largest number of texel pairs in a row of a footprint; 0 copies the picture. It is a
-// constant, so that the compiler can unroll the loops.
+// One texture fetch reads two neighbouring texels along each axis, with weights that the sampling
+// position determines. The sampler must therefore filter linearly and clamp to the edge.
+// PAIRS: largest number of texel pairs of a footprint along each axis; 0 copies the picture. It is
+// a constant, so that the compiler can unroll the loops.
 // Variant: #define PAIRS 0
 // Variant: #define PAIRS 2
 #ifndef PAIRS

@@ -1,7 +1,7 @@
 // Filters of the learned enlarger. Needs cubic.glsl.
 // The texture has one row per class. For each pair of taps, the row has four texels, one for each
 // row of the pixel's 4x4 sub-pixels. A texel has four channels, one for each sub-pixel in that row.
-// A channel has the weights of both taps as half floats.
+// A channel has the weights of both taps, divided by two, as half floats.
 layout(binding = 1) uniform usampler2D filters;
 
 // Differences of luma have at most eleven bits, so half floats represent them exactly. Half floats
@@ -13,8 +13,9 @@ vec4 floatsOf(uvec2 v) {
     return vec4(unpackHalf2x16(v.x), unpackHalf2x16(v.y));
 }
 
-// Returns the contribution of a pair of taps to the four sub-pixels of a row, summed over the
-// filters of both classes. `taps` contains the luma differences of the two taps.
+// Returns the contribution of a pair of taps to the four sub-pixels of a row: the mean over the
+// filters of both classes, because the stored weights are divided by two. `at`: index of the pair's
+// texel for this row. `taps`: luma differences of the two taps.
 vec4 pairOf(ivec2 classes, int at, uint taps) {
     uvec4 a = texelFetch(filters, ivec2(at, classes.x), 0), b = texelFetch(filters, ivec2(at, classes.y), 0);
     vec2 steps = unpackHalf2x16(taps);

@@ -1,4 +1,5 @@
-// Reads a flow field in cells[]. The shader must declare cells[] and params (source, columns, rows).
+// Reads a flow field in cells[]. The shader must declare cells[] and params (source, columns,
+// rows).
 vec4 cellIn(ivec2 c) {
     c = clamp(c, ivec2(0), ivec2(params.columns, params.rows) - 1);
     return cells[params.source + c.y * params.columns + c.x];
@@ -8,10 +9,10 @@ vec2 flowAt(ivec2 c) {
     return cellIn(c).xy;
 }
 
-// Returns the change of the flow per pixel along `step`: the smaller of the two one-sided
-// differences, or zero if they have different signs. The differences span two cells, because
-// between adjacent cells noise exceeds the true change. A cell at the border has the change of the
-// nearest cell with both differences.
+// Returns the change of the flow per pixel along `step`, for each component: the smaller of the two
+// one-sided differences, at most kSteepestFlow in magnitude, or zero if they have different signs.
+// The differences span two cells, because between adjacent cells noise exceeds the true change. A
+// cell at the border has the change of the nearest cell with both differences.
 vec2 slopeAt(ivec2 cell, ivec2 step) {
     cell = max(min(cell, ivec2(params.columns, params.rows) - 1 - 2 * step), 2 * step);
     vec2 here = flowAt(cell);

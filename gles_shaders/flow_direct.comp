@@ -8,7 +8,7 @@
 // In: states of the tiles, video, luma of the still with amplified finest detail; in cells[], the
 // flow along epipolar lines. In, out: cells[], the filtered forward field and its ErrorCells.
 // One workgroup per tile, one invocation per cell. Most loops count from cell.x or cell.y, so that
-// compilers do not know the number of iterations. Loops that they unroll would spill registers.
+// compilers cannot unroll them. If they were unrolled, registers would be spilled.
 // Range: cells -2e4..2e4, -4.2e6..4.2e6, 0..4.2e6, 0..4.2e6
 #include "luma.glsl"
 #include "rig.glsl"
@@ -58,9 +58,10 @@ vec2 lineOf(ivec2 cell) {
     return middle + sum / weight;
 }
 
-// Compares the cell's patch with the still at the flow `u`. The flow changes by `dx` per pixel to the
-// right and by `dy` per pixel downwards. Returns covariance, variance in the video and variance in the
-// still, as sums over the pixels, and the squared correlation. All are 0 if the patch's centre is
+// Compares the cell's patch with the still at the flow `u`. The flow changes by `dx` per pixel to
+// the right and by `dy` per pixel downwards. Returns covariance, variance in the video and variance
+// in the still, as sums over the pixels, and the squared correlation. The correlation takes noise
+// into account, and is 0 if the covariance is negative. All values are 0 if the patch's centre is
 // outside the still.
 vec4 compared(ivec2 cell, vec2 u, vec2 dx, vec2 dy) {
     vec2 size = vec2(1.0) / vec2(params.texelX, params.texelY);

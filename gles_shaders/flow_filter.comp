@@ -1,7 +1,8 @@
 // Removes outliers and noise from a flow field. First, x and y of each flow vector are replaced by
-// their medians over 3x3 cells. Then a plane is fitted to those vectors of the surrounding 5x5
-// cells that are close to the median. Medians over more cells were worse in measurements on
-// photographs, because they flatten slanted and curved surfaces.
+// their medians over 3x3 cells. Then params.planeFits planes are fitted, one after the other, to
+// the unfiltered vectors of the surrounding 5x5 cells: the first to vectors close to the median,
+// the next to vectors close to the first plane. Medians over more cells were worse in measurements
+// on photographs, because they flatten slanted and curved surfaces.
 // In, out: two fields in cells[]. Tiles that are not matched keep their flow vectors. One
 // invocation per cell.
 // Range: cells -2e4..2e4, -2e4..2e4, 0..2.02, 0..4.2e6
@@ -25,10 +26,10 @@ struct Plane {
     vec2 value, dx, dy;  // flow at the cell [px], change of the flow per cell
 };
 
-// Fits a plane to the flow vectors of the neighbours. `about` is the plane of the previous round.
-// Neighbours that are less reliable or differ more from `about` have smaller weights. From a
-// difference of `reach` [px] on, the weight is zero, so that the other side of a depth edge has no
-// influence.
+// Fits a plane to the flow vectors of the neighbours. `about` is the plane of the previous round,
+// or in the first round the median. Neighbours that are less reliable or differ more from `about`
+// have smaller weights. From a difference of `reach` [px] on, the weight is zero, so that the other
+// side of a depth edge has no influence.
 Plane planeAt(ivec2 cell, Plane about, float reach) {
     float w0 = 0.0;
     vec2 wx = vec2(0.0), u0 = vec2(0.0), ux = vec2(0.0), uy = vec2(0.0);

@@ -1,8 +1,9 @@
 // Lists the groups of 4x4 cells in which the 2-D search must run, at one pyramid level. One
 // invocation per group. A group is listed if a flagged tile is in it or within a margin around it.
 // The margin is needed because the search at the next finer pyramid level starts from vectors
-// around each cell. A tile with two flagged neighbours counts as flagged too: it may be a part of a
-// moving object without texture, which flow_flag.comp cannot flag.
+// around each cell. A tile with at least two flagged neighbours (beside, above and below it) counts
+// as flagged too: it may be a part of a moving object without texture, which flow_flag.comp cannot
+// flag.
 // In: flags[] of flow_flag.comp. Out: lists[] = packed positions of the groups of the pyramid
 // level; commands[] = the dispatch command of the pyramid level, initially (0, 1, 1, 0).
 #include "tiles.glsl"

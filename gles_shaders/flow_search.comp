@@ -1,12 +1,14 @@
 // Computes the flow of every cell at one pyramid level: refines the best candidate by Gauss-Newton
-// steps. Candidates are the last frame's vector and the vectors of the next coarser pyramid level
-// around the cell. At the coarsest pyramid level, the candidates are the last frame's vector and
-// all whole-pixel displacements within a square.
+// steps. Candidates are the last frame's vector, if there is one, and the vectors of the next
+// coarser pyramid level around the cell. At the coarsest pyramid level, all whole-pixel
+// displacements within a square replace the vectors of the coarser level.
 // Out: cells[] = flow (x, y) [px of this pyramid level], cost, texture (sum of the squared
 // deviations of the patch from its mean). One invocation per cell.
 // Source: Kroeger et al., Fast optical flow using dense inverse search, ECCV 2016, section 2.
-// LISTED: processes only the groups of 4x4 cells in lists[]. If the best vector is off the cell's
-// epipolar line, the cell's two-way error is derived from the cost of the match.
+// LISTED: processes only the groups of 4x4 cells in lists[]. The flow along epipolar lines takes
+// the place of the last frame's vector. At the finest pyramid level, a vector off the cell's
+// epipolar line is used only if it fits clearly better (kClearlyLess). The cell's two-way error is
+// then derived from the cost of the match.
 // Variant: #define LISTED
 // Range: cells -2e4..2e4, -2e4..2e4, 0..2.02, 0..4.2e6
 #include "luma.glsl"

@@ -8,7 +8,7 @@
 //   [0]: VS, SS, VX, VY  [1]: SX, SY, XX, XY  [2]: YY, VV, flow  [3]: change of the flow along x, y
 // All sums are 0 for cells that are not compared.
 // One workgroup per tile, one invocation per cell. The loops count from cell.x or cell.y, so that
-// compilers do not know the number of iterations. Loops that they unroll would spill registers.
+// compilers cannot unroll them. If they were unrolled, registers would be spilled.
 // Range: sums -4.2e6..4.2e6, -4.2e6..4.2e6, -4.2e6..4.2e6, -4.2e6..4.2e6
 #include "luma.glsl"
 #include "rig.glsl"
@@ -44,8 +44,8 @@ struct Place {
     vec2 centre, alongX, alongY;
 };
 
-// Returns where the still shows the cell: its centre, and the change of the position per video pixel
-// along x and along y. `u`: the cell's flow. dx, dy: its change per pixel.
+// Returns where the still shows the cell's centre, and the change of this position per video pixel
+// along x and along y. `u`: the cell's flow. dx, dy: change of the flow per pixel along x and y.
 Place placeOf(ivec2 cell, vec2 u, vec2 dx, vec2 dy) {
     // Positions in the still: of the cell's centre, and of the points one cell to the right of it
     // and one cell below it.
@@ -61,10 +61,11 @@ Place placeOf(ivec2 cell, vec2 u, vec2 dx, vec2 dy) {
 }
 
 // Returns the still's luma at pixel `p` of the cell and its derivatives along x and y [grey
-// levels]. The still is sampled at 4x4 positions around the pixel, half a pixel apart. The mean of
-// the middle 2x2 samples is the luma. The derivative along x is the mean of the 2x2 samples half a
-// pixel to the right minus the mean of the 2x2 samples half a pixel to the left. The derivative
-// along y is computed in the same way. The mean is that of the light, see kSubpixelReach.
+// levels]. The still is sampled at 4x4 positions around the pixel, half a pixel apart, without the
+// four corners. The mean of the middle 2x2 samples is the luma. The derivative along x is the mean
+// of the 2x2 samples half a pixel to the right minus the mean of the 2x2 samples half a pixel to
+// the left. The derivative along y is computed in the same way. params.light determines the kind of
+// mean: 0: of grey levels, 1: of light; see kSubpixelReach.
 vec3 seenAt(ivec2 cell, ivec2 p, Place place, vec2 size) {
     vec3 seen = vec3(0.0), squares = vec3(0.0);
     for (int j = cell.x; j < cell.x + 16; ++j) {

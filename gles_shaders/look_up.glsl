@@ -1,6 +1,5 @@
-// Looks up this output pixel in the still. In a plain tile, position and weight are linear
-// functions over the whole tile. In other tiles, they are interpolated between the cells. Needs
-// tile_params.glsl.
+// Looks up this output pixel in the still. In a plain tile, position and weight are interpolated
+// between the tile's corners; in other tiles, between the cells. Needs tile_params.glsl.
 #ifdef PLAIN_TILE
 in vec4 plainLookUp;
 #else

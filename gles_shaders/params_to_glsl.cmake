@@ -1,16 +1,17 @@
 # Translates parameter headers from C++ to GLSL, so that shaders, engines and tests share one
-# definition. It supports only these two constructs:
+# definition. It translates only these two constructs:
 #   inline constexpr T kName = EXPR;
 #   struct alignas(16) Name {
 #       T member, member;
 #       Name member, member[2];
 #   };
-# T is float, int, std::int32_t or std::uint32_t. EXPR contains literals and constants of type T,
-# + - * / and parentheses. Scalars are aligned to 4 bytes and structures to 16, so that std140 and
-# C++ have the same layout. Arrays of scalars are not supported, because their stride in std140
-# differs from that in C++.
-# #pragma once, #include <...>, namespace mfar::params, static_assert and comments are ignored.
-# Every other construct is reported as an error, with file and line.
+# T is float, std::int32_t or std::uint32_t; a constant can also be an int. EXPR contains literals
+# and constants of type T, + - * / and parentheses. Scalars are aligned to 4 bytes and structures to
+# 16, so that std140 and C++ have the same layout. Arrays of scalars are not supported, because
+# their stride in std140 differs from that in C++.
+# #include "x.h" is kept; x.h must be a parameter header, too. #pragma once, #include <...>,
+# namespace mfar::params, static_assert and comments are ignored. Every other construct is reported
+# as an error, with file and line.
 cmake_policy(VERSION 3.25)
 
 function(params_fault where why statement)

@@ -36,9 +36,11 @@ uvec3 shifted(uvec3 words, uint shift) {
                  words.z >> shift);
 }
 
-// State of nextRow(), which reads a patch row by row. The patch's position is between pixels.
+// State of nextRow(), which reads a patch row by row. The patch's position may be between pixels.
 struct Window {
-    int first, y;   // first: index in luma[] of the patch's first word in row 0; y: row of `above`
+    // first: index in luma[] of the patch's first column of words, in row 0 of the pyramid level.
+    // y: row of `above`.
+    int first, y;
     uint shift;     // number of bits in the first word before the patch's first pixel
     vec2 f;         // fractional part of the patch's position (x, y) [px]
     uvec3 above;
@@ -49,7 +51,8 @@ uvec3 fetchPixels(LumaLevel l, Window w) {
 }
 
 // Starts reading a patch, displaced by u pixels. `start` is its first pixel without displacement.
-// Positions outside the pyramid level are clamped to its border.
+// The patch's position is limited so that the patch overlaps the pyramid level. Pixels of the patch
+// outside the level are those of its border.
 Window windowAt(LumaLevel l, vec2 start, vec2 u) {
     vec2 origin = clamp(start + u, vec2(-7.0), vec2(l.width - 2, l.height - 2));
     vec2 whole = floor(origin);

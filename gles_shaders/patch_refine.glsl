@@ -1,7 +1,9 @@
-// Refines an approximate displacement by Gauss-Newton steps until the cost no longer falls.
+// Refines an approximate displacement by Gauss-Newton steps.
 #include "patch_template.glsl"
 
-// Takes Gauss-Newton steps from `best` as long as they lower the cost, or none if `steps` is -1.
+// Takes at most `steps` Gauss-Newton steps from `best`, as long as they lower the cost and are not
+// too short (kShortestStep). If `steps` is -1, `best` and `cost` stay unchanged. Otherwise, `cost`
+// becomes the cost of the new `best`.
 // The comparison of the patches needs all registers of a V3D (the GPU of a Raspberry Pi). Values
 // that are needed after the comparison are therefore stored behind the template in templateWords[].
 // The indices `none` and `later` are always 0, but the compiler does not know this. So it can

@@ -1,5 +1,5 @@
 // An 8x8 patch (the template) that is searched in a pyramid level of the other picture. The cost
-// does not depend on an offset or gain between both pictures' luma.
+// does not depend on an offset between both pictures' luma, and hardly on a gain.
 #include "patch.glsl"
 
 // The template. Each of the rows -1 to kRows has three words: two with its eight pixels, and one
@@ -7,7 +7,7 @@
 // squared deviations), sum of the gradient (x, y), sum of the gradient times the deviation of the
 // pixel from the mean (x, y), inverse Hessian (xx, xy, yy). The next five floats belong to
 // patch_refine.glsl. Two more are the position (x, y) of the patch's first pixel without
-// displacement; a comparison has no free registers for it. The words after them are not used.
+// displacement; a comparison has no free registers for them. The last words are not used.
 // No GPU has enough registers for the template and a comparison. Indexing by variables makes the
 // compiler keep the array in memory; Mali's compiler does so only for more than 64 words. Here and
 // in the files that include this file, the compiler does not know the length of loops over the
@@ -50,8 +50,8 @@ void setMoment(int i, float value) {
     templateWords[3 * kRows + 6 + i] = floatBitsToUint(value);
 }
 
-// Stores the rows, mean and variance of the cell's patch in templateWords[]. Returns mean and
-// variance.
+// Stores the rows, mean, variance and position of the cell's patch in templateWords[]. Returns mean
+// and variance.
 vec2 loadTemplate(LumaLevel l, ivec2 cell) {
     ivec2 start = patchStart(cell, sizeOf(l));
     uint shift = uint(start.x & 3) * 8u, toLeft = (shift + 24u) & 31u;

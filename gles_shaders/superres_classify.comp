@@ -1,9 +1,10 @@
 // Finds the class of every tile and makes the frame's draw lists. One invocation per tile.
 // In: change flags; cell fields of one or two stills.
-// Out: lists[] = five lists of changed tiles: 0 all, 1 upscaled (only enlarged), 2 trusted, 3
-// blended, 4 tiles that show some of the second still. If header.x is 1, lists 0 to 3 are left
-// empty. If header.x is 2, lists 0 and 1 are left empty. List 0 also contains unchanged neighbours
-// of tiles that show detail or are enlarged by filters, because such tiles read their neighbours.
+// Out: lists[] = five lists of drawn tiles (changed tiles, or all if header.x is not 0): 0 all, 1
+// upscaled (only enlarged), 2 trusted, 3 blended, 4 tiles that show some of the second still. If
+// header.x is 1, lists 0 to 3 are left empty. If header.x is 2, lists 0 and 1 are left empty.
+// Otherwise, list 0 also contains unchanged neighbours of tiles that show detail or are enlarged by
+// filters, because such tiles read their neighbours.
 // draws[] = indirect draw commands, one per list; before this shader runs, only the number of
 // vertices in each is set. counts[] = counters of the frame, initially 0. classes[] = class of each
 // tile.
@@ -51,7 +52,7 @@ vec4 cellAt(ivec2 c) {
     return texelFetch(cellField, clamp(c, ivec2(0), lastCell()), 0);
 }
 
-// Finds the class of a changed tile, whose first cell is `first`. A tile is trusted (plain) if it
+// Finds the class of a drawn tile, whose first cell is `first`. A tile is trusted (plain) if it
 // can be drawn as one rectangle: its flow is affine and its weight is uniform (within tolerances).
 uint classOf(ivec2 first) {
     vec4 low = vec4(1e9), high = vec4(-1e9);

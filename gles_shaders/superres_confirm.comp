@@ -1,5 +1,5 @@
-// Raises small weights, and lowers the weights of cells in which the still does not show the video's
-// finest detail; see kFineRoom.
+// Raises weights below 1, and then lowers the weights of cells in which the still does not show the
+// video's finest detail; see kFineRoom.
 // In: image of superres_fine.comp, images of superres_weigh.comp. Out: the images of
 // superres_weigh.comp with the new weights.
 // Range: newCells -2e4..2e4, -2e4..2e4, 0..2.31, 0..1

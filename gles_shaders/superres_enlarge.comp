@@ -1,6 +1,7 @@
 // Computes the residual of the learned enlarger relative to Keys' cubic, for 4x4 sub-pixels per
-// pixel. A pixel has two classes with a filter each; the result is the mean of both residuals. A
-// residual is the weighted sum of the differences between the pixel's neighbours and the pixel.
+// pixel. A pixel has two classes with a filter each; the result is the mean of both residuals,
+// limited as kOvershoot describes. A residual is the weighted sum of the differences between the
+// pixel's neighbours and the pixel.
 // Only drawn tiles with learned filters and the pixels around these tiles are computed.
 // In: video, states of the tiles, filters of all classes. Out: residual image [1/32 grey level]. A
 // pixel has four texels, one below the other, with a row of four sub-pixels each.
@@ -30,7 +31,7 @@ layout(binding = 0) uniform sampler2D picture;
 layout(rgba16i, binding = 0) uniform writeonly highp iimage2D residual;
 
 shared float luma[kLumas];   // luma of the group and its surroundings [1/8 grey level]
-shared float sumsXx[kSums];  // sums of gx * gx over five rows; (gx, gy) is the gradient
+shared float sumsXx[kSums];  // sums of gx * gx over five rows; (gx, gy): twice the gradient
 shared float sumsXy[kSums];
 shared float sumsYy[kSums];
 

@@ -1,5 +1,5 @@
-// Corrects the still's mean over each video pixel: subtracts the difference between the guidance
-// signal and the signal's local mean; see kGuideReach.
+// Corrects the still's mean over each video pixel where the still is trusted: subtracts the
+// difference between the guidance signal and the signal's local mean; see kGuideReach.
 // In: result of superres_seen.frag. Out: the corrected mean luma of the still [1/64 grey level].
 #include "tile_params.glsl"
 

@@ -1,9 +1,9 @@
 // Computes the weight of the still in each cell, from the statistics of 3x3 cells.
-// In: images of superres_assess.comp.
+// In: images of superres_assess.comp, image of superres_gain.comp.
 // Out: cells image = flow (x, y) [video px], weight of the detail, confidence (eq. 2 of
 // the paper). Look-up image = end of the flow vector in the still minus the scaled cell centre
 // (x, y) [still px], weight, confidence. Weights image = weight / 2, confidence, share of the
-// video's variance that is not noise (for the sharpening), 1 if the cell has no reliable match.
+// video's variance that is not noise (for the sharpening), TrustCell::unexplained.
 // The weight of the detail is the product of the photometric gain between the sensors, the trust in
 // the match and the confidence. The gain is covariance / (variance of the still + noise). It is
 // also measured at half resolution. If the contrast at half resolution suffices, the larger of the

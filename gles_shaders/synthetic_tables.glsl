@@ -1,6 +1,6 @@
 // Tables of the synthetic world, and functions that intersect rays with its solids. A solid is a
 // box, a cylinder or an ellipsoid. Rays are transformed to scaled coordinates in which the solid is
-// a unit cube, unit cylinder or unit sphere.
+// a cube, a cylinder or a sphere that reaches from -1 to 1 along each axis.
 
 struct Solid {
     // Transform from camera to scaled coordinates, one row per component. xyz of a row multiply a
@@ -10,7 +10,8 @@ struct Solid {
 struct Surface {
     vec4 size;        // half extents [m]; w: 0 box, 1 cylinder, 2 ellipsoid
     vec4 face;        // in the light map, xy: corner of the first face; zw: size of a face
-    // xyz: direction to the key light; w: half a texel of the light map divided by a face's width.
+    // xyz: direction to the key light in the solid's frame; w: half a texel of the light map
+    // divided by a face's width.
     vec4 light;
     ivec4 materials;  // indices in `materials` of the x, y and z faces; w: 1 if the solid moves
 };

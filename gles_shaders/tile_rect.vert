@@ -2,7 +2,8 @@
 // In: position of the tile, packed by tiles.glsl (one per instance).
 // PLAIN_TILE: also outputs the look-up (see look_up.glsl) at the tile's corners. Its value at a
 // corner is the mean of the four cells that meet there.
-// AROUND: the rectangle is larger than the tile by a margin of kTileAround on each side.
+// AROUND: on each side, the rectangle extends kTileAround video pixels beyond the tile, as far as
+// the picture reaches.
 // Variant: #define PLAIN_TILE
 // Variant: #define AROUND
 #include "tile_params.glsl"

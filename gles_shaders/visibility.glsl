@@ -17,8 +17,8 @@ vec2 inVideo() {
     return gl_FragCoord.xy * vec2(params.scaleX, params.scaleY) - 0.5;
 }
 
-// True if a sample of the real scene's depth (inverse depth [1/m], sigma [1/m]) is valid. False for
-// NaN, infinity, zero and negative values.
+// True if a sample of the real scene's depth (inverse depth [1/m], sigma [1/m]) is valid, see
+// kLeastInverseDepth. False for NaN.
 bool known(vec2 real) {
     return real.x > kLeastInverseDepth && real.x < kMostInverseDepth && real.y > kLeastDepthSigma &&
            real.y < kMostInverseDepth;

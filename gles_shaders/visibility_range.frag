@@ -4,8 +4,8 @@
 // at the video pixels from (x - 1, y - 1) to (x + 2, y + 2).
 // In: inverse depth and sigma of the real scene [1/m], Rg32F.
 // Out: x: virtual surfaces with at least this inverse depth are in front of every sample. y:
-// virtual surfaces with at most this inverse depth are occluded by every sample; 0: there are no
-// such surfaces.
+// virtual surfaces with at most this inverse depth would be occluded by every sample if their own
+// depth were exact (see visibility_decide.frag); 0: there are no such surfaces.
 // Range: range 0..1e6, 0..1e6
 #include "visibility.glsl"
 

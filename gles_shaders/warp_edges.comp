@@ -1,12 +1,13 @@
 // Lists the least exact pixels of a warped picture: those with the most contrast to their
 // neighbours. There, the warp interpolated between colours that already are mixtures.
-// The first pass (COUNT) counts the pixels of each contrast level. The second pass lists whole
-// contrast levels, highest first, until the next one would exceed the largest number of pixels (a
-// share of the objects' pixels, with an upper limit). The highest level is always listed. The set
-// of listed pixels does not depend on the order of the threads.
+// The first pass (COUNT) counts the pixels of each contrast level from params.leastContrast on. The
+// second pass lists whole contrast levels, highest first, until the next one would exceed the
+// largest number of pixels (a share of the objects' pixels, with an upper limit). The highest level
+// is always listed. The set of listed pixels does not depend on the order of the threads.
 // In: colour (RGBA8 premultiplied) and state, from warp_look_up.frag and warp_rest.comp.
-// Out: count[] = number of pixels of each contrast level, number of pixels of objects, length of
-// the list; list[] = row-major index and colour of each listed pixel.
+// Out: count[] = number of pixels of each contrast level, number of pixels that an object fills
+// with a known colour, length of the list; list[] = row-major index and colour of each listed
+// pixel.
 // Variant: #define COUNT
 #include "warp_edge_params.glsl"
 

@@ -2,8 +2,8 @@
 // levels come first; each level fills the share of a pixel that the finer levels leave unfilled.
 // An object without any known colour, for example one that has just emerged from behind others,
 // gets the colour of the objects around it.
-// A pixel belongs to a crack if it is at an edge, or if most of its neighbours show the surface of
-// the pixel. Cracks are always filled.
+// A pixel belongs to a crack if it is at an edge, or if its surface fills at least five of its
+// eight neighbours with a known colour. Cracks are always filled.
 // In: list[] (holes[] of warp_rest.comp) and state of warp_rest.comp; pyramid. Out: colours of the
 // listed pixels, RGBA8 premultiplied; bit 30 in list[] marks a crack.
 #include "warp_hole_params.glsl"

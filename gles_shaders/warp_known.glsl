@@ -72,9 +72,9 @@ float lookUp(bool ofTraced, int firstRow, vec3 at, float id, Paint paint, out ve
 }
 
 // Looks up the colour of surface `id` at `point` in the traced picture. If the traced picture does
-// not show the point and the surface is an object, looks it up in the re-rendered pictures. Returns
-// the colour in `found`. `paint` is used for objects only. Returns the share of the colour that is
-// known, [0, 1].
+// not show the point and the surface is an object, looks it up in the re-rendered pictures. `found`
+// becomes the premultiplied colour. `paint` is used for objects only. Returns the share of the
+// colour that is known, [0, 1].
 float known(vec3 point, float id, Paint paint, out vec4 found) {
     vec3 at = inView(0, uint(id), point);
     if (lookUp(true, 0, at, id, paint, found) > 0.0) return 1.0;

@@ -1,10 +1,11 @@
 // Second pass of the warp for simple pixels. A pixel is simple if one surface fills it, and if the
 // four texels around the looked-up position in the traced picture show this surface at the same
-// depth. All other pixels are left to warp_rest.comp. An object's colour is its paint in the traced
-// light, or the traced colour if the picture has no light.
+// depth. The shadow catcher is simple also where these texels show no surface. All other pixels
+// with a surface are left to warp_rest.comp. An object's colour is its paint in the traced light,
+// or the traced colour if the picture has no light.
 // In: silhouette and paint at twice the resolution.
-// Out: colour, RGBA8 premultiplied; z [m], 0 without a surface; state = (0, 1 if the pixel is left
-// to warp_rest.comp, 0, number of the surface that fills the pixel).
+// Out: colour, RGBA8 premultiplied; z [m], 0 if the colour is empty; state = (0, 1 if the pixel is
+// left to warp_rest.comp, 0, number of the surface that fills a simple pixel).
 // Source: eq. 5 of the paper (docs/paper.md).
 // Range: depth 0..1e6
 // Variant: #define MOVING

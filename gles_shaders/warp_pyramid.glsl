@@ -18,8 +18,8 @@ uvec4 packArea(Area a) {
     return uvec4(packUnorm4x8(a.object), packUnorm4x8(a.catcher), a.id, packUnorm4x8(vec4(a.weights, 0.0, 0.0)));
 }
 
-// Merges four texels of the next finer level. An area gets the full weight if the colour of at
-// least half of it is known. The texels stay packed until the object is selected, so that all
+// Merges four texels of the next finer pyramid level. An area gets the full weight if the colour of
+// at least half of it is known. The texels stay packed until the object is selected, so that all
 // values fit in the registers of a Mali.
 Area merged(uvec4 parts[4]) {
     Area best = Area(vec4(0.0), vec4(0.0), 0u, vec2(0.0));

@@ -8,7 +8,7 @@
 layout(binding = 0) uniform sampler2D diffuseTexture;
 layout(binding = 1) uniform sampler2D facingTexture;
 #ifdef ALPHA_MASK
-// Alpha times the material's alpha factor; the texture repeats.
+// Alpha of the material's texture, which repeats. `cutoff` is already divided by the alpha factor.
 layout(binding = 2) uniform sampler2D alpha;
 #endif
 in vec2 texel;

@@ -1,4 +1,5 @@
-// Parameters of the shaders that look up warped pixels (warp_look_up.frag, warp_rest.comp).
+// Parameters of the shaders that look up warped pixels (warp_look_up.frag, warp_rest_list.comp,
+// warp_rest.comp).
 #include "pipeline/warp/pass_params.h"
 
 layout(std140, binding = 0) uniform Params {
