@@ -27,7 +27,8 @@ class CellWeigher {
 public:
     explicit CellWeigher(const StereoRig& rig);
 
-    /// Computes weighed(), lookUps() and trust(). Does nothing if no tile has changed.
+    /// Computes weighed(), lookUps(), trust() and statistics(). Does nothing if no tile has
+    /// changed.
     void run(const WeighInput& in, const TileBuffer& tiles);
 
     /// Textures with one texel per cell: a WeighedCell (Rgba32F), a LookUpCell (Rgba16F, linear

@@ -33,8 +33,8 @@ public:
         /// Used only in mode Detail with learned filters.
         const Matched* second = nullptr;
     };
-    /// Finds the classes of the changed tiles and draws these tiles. If `matched` is null, they
-    /// show only the enlarged video.
+    /// Finds the classes of the tiles that `tiles` requests, and draws these tiles. If `matched` is
+    /// null, they show only the enlarged video.
     void draw(const gpu::Texture& video, const Matched* matched, const TileBuffer& tiles,
               const DetailOptions& options);
 

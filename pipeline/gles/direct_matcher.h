@@ -10,7 +10,7 @@ namespace mfar {
 /// Compares doubtful cells with the still itself, see params::kPatchSamples.
 class DirectMatcher {
 public:
-    /// The still camera of `stillRig` has the resolution of the still that is compared.
+    /// The still camera of `stillRig` must have the resolution of the still that is compared.
     explicit DirectMatcher(const StereoRig& stillRig);
 
     /// Indices of the first cell of each field in a buffer of cells: filtered flow, flow along

@@ -29,7 +29,8 @@ public:
     /// Returns the row-major indices of the listed pixels in ascending order, or nullopt until the
     /// GPU has finished the list. Never waits.
     std::optional<std::vector<std::uint32_t>> poll();
-    /// Sets the rendered colours of listed pixels. Ignores pixels in `answer` that are not listed.
+    /// Sets the rendered colours of listed pixels. The pixels in `answer` must be in ascending
+    /// order. Those that are not listed are ignored.
     void answer(const HoleAnswer& answer);
     /// Blends the rendered colours over the listed pixels of `colour`, a picture that must have
     /// been warped to the same pose as in list(). The rendered colours fade in from frame to frame.

@@ -16,7 +16,7 @@ class EyeLight {
 public:
     explicit EyeLight(const CameraModel& layer);
 
-    /// `traced` and `textures` must live until the next call. `textures` must contain `traced`.
+    /// `textures` must contain `traced`. Both must live until the next call of setTracedPicture().
     void setTracedPicture(const TracedPicture& traced, const TracedTextures& textures);
     /// False if only the traced picture's colours are known.
     [[nodiscard]] bool isLit() const { return traced_ != nullptr && !traced_->light.empty(); }
@@ -25,9 +25,9 @@ public:
     /// gloss is unknown, or if the traced picture has another camera model than the layer.
     void run(const Eigen::Vector3d& eye, const gpu::Texture& rays);
 
-    /// RGBA16F textures, see struct Light in warp_light.glsl. Their size is that of the traced
-    /// picture, or one texel before the first run(). Outside TracedPicture::bounds, the values are
-    /// finite, but have no meaning.
+    /// RGBA16F textures, see struct Light in warp_light.glsl. Their size is that of the last traced
+    /// picture with light, or one texel before the first. Outside TracedPicture::bounds, the values
+    /// are finite, but have no meaning.
     [[nodiscard]] const gpu::Texture& diffuse() const { return diffuse_; }
     [[nodiscard]] const gpu::Texture& specular() const { return specular_; }
 

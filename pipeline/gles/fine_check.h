@@ -8,8 +8,8 @@
 
 namespace mfar {
 
-/// Raises small weights, and lowers the weights of cells in which the still does not show the
-/// video's finest detail as well as usual, see params::kFineRoom.
+/// Raises weights below 1, and then lowers the weights of cells in which the still does not show
+/// the video's finest detail as well as usual, see params::kFineRoom.
 class FineCheck {
 public:
     /// The still camera of `stillRig` must have the resolution of run()'s `still`.

@@ -81,8 +81,8 @@ void Flow2d::refine(const LumaOnGpu& luma, const TileBuffer& tiles, Cells forwar
 
 // Searches the listed groups of cells from coarse to fine. There is no propagation, because the
 // neighbours of a listed group need not be listed. At every pyramid level, the flow along epipolar
-// lines is one of the candidates. At the finest level, another vector replaces this flow only if it
-// fits clearly better (params::kClearlyLess).
+// lines is one of the candidates. At the finest level, a vector that is more than params::kOnLine
+// away from this flow replaces it only if it fits clearly better (params::kClearlyLess).
 void Flow2d::searchListed(const LumaOnGpu& luma) {
     const Direction way{luma.video, luma.still, forwardStages_, 0, 0, false};
     for (int level = static_cast<int>(way.stages.size()) - 1; level >= 0; --level) {

@@ -14,8 +14,8 @@ namespace mfar {
 /// Computes the dense flow from video to still (forward) and from still to video (backward) without
 /// the cameras' pose. Its parts are a coarse-to-fine inverse search, propagation, Gauss-Newton
 /// refinement, and the removal of outliers and noise. Each cell is matched by the 8x8 patch around
-/// it. A gain or an offset between the pictures does not change the cost of a match. Sources:
-/// Kroeger et al., ECCV 2016 (inverse search); Barnes et al., 2009 (propagation).
+/// it. An offset between the pictures does not change the cost of a match, and a gain hardly does.
+/// Sources: Kroeger et al., ECCV 2016 (inverse search); Barnes et al., 2009 (propagation).
 class Flow2d {
 public:
     /// A part of cells() with one FlowCell per cell, starting at index `offset`.
@@ -32,15 +32,17 @@ public:
     /// changed() in flow_options.h). Throws std::invalid_argument if an option is out of range.
     void setOptions(const Flow2dOptions& options) { options_ = changed(options_, options); }
 
-    /// Computes the forward and the backward field. Does nothing if no tile is matched. If
-    /// `usePrior` is true, the last frame's flow vectors are candidates in all cells. `usePrior`
-    /// must be false after a new still.
+    /// Computes the forward and the backward field. If no tile is matched, both fields stay
+    /// unchanged. If `usePrior` is true, the last frame's forward field gives a candidate for each
+    /// cell of the forward field, and the search radius is smaller. `usePrior` must be false after
+    /// a new still.
     void run(const LumaOnGpu& luma, const TileBuffer& tiles, bool usePrior);
 
-    /// Computes the forward field by refining `forward`, which has one flow vector per cell. These
-    /// vectors must be right to within a pixel. The first number of each entry of `errors` is the
-    /// cell's two-way error (eq. 2 of the paper, see docs/paper.md) [px]. Tiles in which the
-    /// vectors match badly are searched again, in two dimensions from coarse to fine.
+    /// Computes the forward field by refining `forward`, which has one flow vector per cell: the
+    /// first two numbers of an entry [px]. These vectors must be right to within a pixel. The first
+    /// number of each entry of `errors` is the cell's two-way error (eq. 2 of the paper, see
+    /// docs/paper.md) [px]. Tiles in which the vectors match badly are searched again, in two
+    /// dimensions from coarse to fine. If no tile is matched, the forward field stays unchanged.
     using Cells = std::span<const std::array<float, 4>>;
     void refine(const LumaOnGpu& luma, const TileBuffer& tiles, Cells forward, Cells errors);
 
@@ -48,7 +50,7 @@ public:
 
     [[nodiscard]] const gpu::Buffer& cells() const { return cells_; }
     [[nodiscard]] const Field& forward() const { return forward_; }
-    /// Returns x, y [px] and two unused numbers for each cell. Waits for the GPU.
+    /// Returns a FlowCell (x, y, cost, texture) for each cell. Waits for the GPU.
     [[nodiscard]] std::vector<std::array<float, 4>> readForward() const {
         return cells_.read<std::array<float, 4>>(static_cast<std::size_t>(forward_.cells.width) *
                                                      forward_.cells.height,

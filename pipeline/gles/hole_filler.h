@@ -42,8 +42,8 @@ public:
     /// reading back an older list.
     void fill(const gpu::Texture& colour, const gpu::Texture& state, bool wantList);
 
-    /// Returns the listed pixels of the last frame for which fill() got `wantList`, or nullopt
-    /// until the GPU has finished that frame. Never waits.
+    /// Returns the list that fill() began to read back last, or nullopt until the GPU has finished
+    /// it. Returns each list only once. Never waits.
     std::optional<WarpHoles> poll();
     [[nodiscard]] bool isPending() const { return fence_.has_value(); }
     void drop() { fence_.reset(); }

@@ -19,14 +19,14 @@ public:
         : LayerComposite(video, output, output, options) {}
 
     /// `realDepth` is Rg32F of video size: inverse depth and its sigma [1/m]. If one of them is not
-    /// finite and positive, the pixel's depth is unknown and hides nothing. `video` is the
-    /// video frame to which the depth belongs, RGBA8 or R8. `picture` is this frame at output size,
-    /// RGBA8. `target` draws into the picture or into a copy of it.
+    /// valid (see params::kLeastInverseDepth), the pixel's depth is unknown and hides nothing.
+    /// `video` is the video frame to which the depth belongs, RGBA8 or R8. `picture` is this frame
+    /// at output size, RGBA8. `target` draws into the picture or into a copy of it.
     ///
-    /// Layer pixels are drawn only if their depth is finite and positive. If the layer is smaller
-    /// than the output, colours are interpolated linearly. The depth is then copied from one of the
-    /// four surrounding layer pixels: of those with a valid depth, the one closest to the output
-    /// pixel.
+    /// Layer pixels are drawn only if their depth is between params::kLeastVirtualDepth and
+    /// kMostVirtualDepth. If the layer's size differs from the output's, colours are interpolated
+    /// linearly. The depth is then copied from one of the four surrounding layer pixels: of those
+    /// with a valid depth, the one closest to the output pixel.
     void run(const VirtualLayer& layer, const gpu::Texture& realDepth, const gpu::Texture& video,
              const gpu::Texture& picture, const gpu::Framebuffer& target);
 

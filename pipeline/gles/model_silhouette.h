@@ -15,9 +15,9 @@
 namespace mfar {
 
 /// Draws the depth, number and paint of the virtual surface that is visible at each pixel: an
-/// object or, where there is none, the shadow catcher. Surfaces are rasterised at twice the layer's
-/// resolution, so that each layer pixel has four quarters. The lens distortion is applied to the
-/// vertices. Light is not computed.
+/// object or, where there is none, the shadow catcher. A planar shadow catcher is not drawn.
+/// Surfaces are rasterised at twice the layer's resolution, so that each layer pixel has four
+/// quarters. The lens distortion is applied to the vertices. Light is not computed.
 class ModelSilhouette {
 public:
     /// `layer` is the video camera at the layer's resolution. Throws GlError if the GL

@@ -28,9 +28,10 @@ public:
     /// always copied. The importer must outlive this object.
     void setImporter(PlaneImporter* importer);
 
-    /// The view must be valid (requireSound()). Changes the GL framebuffer binding.
+    /// The view must be valid (requireSound()). May change the GL framebuffer binding.
     void upload(const ImageView& view);
-    /// Waits until the GPU no longer reads the memory of the last uploaded view.
+    /// Waits until the GPU no longer reads the memory of the last uploaded view, but at most
+    /// kLongestGpuWait.
     void finishReading();
     /// Returns the reason if an import of camera memory has failed since the last call, otherwise
     /// nullopt.

@@ -16,7 +16,7 @@ public:
     [[nodiscard]] const gpu::Texture& colour() const { return colour_; }
     [[nodiscard]] const gpu::Texture& surface() const { return surface_; }
     [[nodiscard]] const gpu::Texture& light() const { return light_; }
-    /// True if the pictures contain light. The light of all objects is then valid.
+    /// True once rows with light were stored. Pictures stored before have no valid light.
     [[nodiscard]] bool isLit() const { return isLit_; }
 
 private:

@@ -11,7 +11,7 @@ namespace mfar {
 /// Corrects the flow by a fraction of a pixel, see params::kSubpixelReach.
 class SubpixelCorrector {
 public:
-    /// The still camera of `stillRig` has the resolution of the still that is compared.
+    /// The still camera of `stillRig` must have the resolution of the still that is compared.
     explicit SubpixelCorrector(const StereoRig& stillRig);
 
     /// Indices in a buffer of cells. `flow`: the first cell of the flow. `errors`: the first

@@ -9,7 +9,7 @@
 namespace mfar {
 namespace {
 
-constexpr int kTileGroup = 8;  // width and height of the shaders' workgroups [tiles]
+constexpr int kTileGroup = 8;  // width and height of the shaders' workgroups [invocations]
 
 gpu::Groups groupsOf(Size size) {
     return {gpu::groupsFor(size.width, kTileGroup), gpu::groupsFor(size.height, kTileGroup), 1};

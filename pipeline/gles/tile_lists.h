@@ -23,7 +23,9 @@ public:
     /// `cells` is the number of columns and rows at the finest pyramid level.
     TileLists(Size cells, int levels);
 
+    /// Replaces all lists. They are empty if no tile is matched. `tiles` gives the noise.
     void find(const Field& field, const TileBuffer& tiles);
+    /// Empties all lists.
     void clear();
 
     /// Positions of groups of 4x4 cells, packed by tiles.glsl. The list of a pyramid level begins
@@ -36,6 +38,7 @@ public:
     /// Length of the list of tiles that the last find() or clear() replaced. Does not wait for the
     /// GPU.
     [[nodiscard]] int countBefore() const { return countBefore_; }
+    /// Number of listed tiles. Waits for the GPU.
     [[nodiscard]] int count() const;
     /// Returns a flag for each tile, row-major: true if the tile is listed. Waits for the GPU.
     [[nodiscard]] std::vector<bool> read() const;

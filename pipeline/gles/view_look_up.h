@@ -46,7 +46,8 @@ public:
         light_.setTracedPicture(traced, textures);
     }
 
-    /// colour() is RGBA8, premultiplied. depth() is R32F: z [m], or 0 without a surface.
+    /// colour() is RGBA8, premultiplied. depth() is R32F: z with which the layer is drawn [m], or 0
+    /// where nothing is drawn.
     [[nodiscard]] const gpu::Texture& colour() const { return colour_; }
     [[nodiscard]] const gpu::Texture& depth() const { return depth_; }
     /// State of each pixel, RGBA8; see WarpStep::state().
