@@ -6,6 +6,7 @@
 #include "pipeline/pipeline_state.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -84,7 +85,9 @@ void Pipeline::setStill(const ImageView& still, Timestamp time, const std::optio
     s.retireNewest();
     s.filters = s.nextFilters;
     s.newest.take(still, time, s.quality.mode, *s.filterBank());
-    if (s.options.engines.weigh == EngineKind::Simd || s.options.engines.detail == EngineKind::Simd)
+    const EngineChoice& engines = s.options.engines;
+    if (std::ranges::count(std::array{engines.flow, engines.weigh, engines.detail},
+                           EngineKind::Simd) > 0)
         s.simd->take(*s.newest.pictures);
     if (s.epipolar) s.epipolar->dropStill();
     if (pose) s.needEpipolar().setStill(still, *pose);

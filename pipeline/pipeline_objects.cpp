@@ -31,9 +31,9 @@ void Pipeline::setObjects(std::vector<VirtualObject> objects) {
     if (!s.objects && objects.empty()) return;
     s.needDepth();
     if (!s.objects || s.objects->traced() != nullptr) {
+        s.redraw = true;
         s.objects.emplace(s.rig.video, s.output, s.engineOf(s.options.engines.occlusion));
         s.objects->setSkips(s.options.skips);
-        s.redraw = true;
     }
     s.objects->setObjects(std::move(objects));
 }
@@ -57,10 +57,10 @@ void Pipeline::setScene(Scene scene, const TracedLayerOptions& options,
         wanted.size = {(s.output.width + 1) / 2, (s.output.height + 1) / 2};
     if (s.options.engines.occlusion == EngineKind::Gles) wanted.size = layerOnGpu(wanted.size);
     if (!s.objects || s.objects->traced() == nullptr || !(s.traced == wanted)) {
+        s.redraw = true;
         s.objects.emplace(s.rig.video, s.engineOf(s.options.engines.occlusion), wanted);
         s.objects->setSkips(s.options.skips);
         s.traced = wanted;
-        s.redraw = true;
     }
     s.objects->setScene(s.sceneFollower.emplace().set(std::move(scene)));
 }

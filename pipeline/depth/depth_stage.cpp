@@ -70,6 +70,8 @@ void DepthStage::run(const Rows<const std::uint8_t>& luma, const Pose& pose,
             filter_.fuse(measured_, where, fixed_);
             source_ = DepthSource::Still;
         }
+        // A new still brings new evidence at rest, a keyframe does not.
+        if (!moved && isRenewed_) fixKnown(where);
         findNeeds(pose, brightness, source_ == DepthSource::Still ? still->unit : 0, where);
         searchKeyframe(luma, pose);
         if (source_ != DepthSource::None && source_ != DepthSource::Carried) {

@@ -50,12 +50,6 @@ public:
 
     [[nodiscard]] const gpu::Buffer& cells() const { return cells_; }
     [[nodiscard]] const Field& forward() const { return forward_; }
-    /// Returns a FlowCell (x, y, cost, texture) for each cell. Waits for the GPU.
-    [[nodiscard]] std::vector<std::array<float, 4>> readForward() const {
-        return cells_.read<std::array<float, 4>>(static_cast<std::size_t>(forward_.cells.width) *
-                                                     forward_.cells.height,
-                                                 16UL * forward_.offset);
-    }
     /// True after refine(): backward() then has the ErrorCells of forward() instead of flow
     /// vectors. False after run(). Without matched tiles, neither changes it.
     [[nodiscard]] bool errorsGiven() const { return errorsGiven_; }

@@ -57,9 +57,10 @@ PixelRect LayerComposite::videoPixels(const PixelRect& bounds) const {
     const auto below = [](int pixel, double scale) {
         return static_cast<int>(std::floor((pixel + 0.5) * scale - 0.5));
     };
+    // At the left and upper border, below() can give -1 for the last pixel, too.
     return {std::max(below(bounds.x0, sx), 0), std::max(below(bounds.y0, sy), 0),
-            std::min(below(bounds.x1, sx) + 1, video_.width),
-            std::min(below(bounds.y1, sy) + 1, video_.height)};
+            std::clamp(below(bounds.x1, sx) + 1, 1, video_.width),
+            std::clamp(below(bounds.y1, sy) + 1, 1, video_.height)};
 }
 
 void LayerComposite::run(const VirtualLayer& layer, const gpu::Texture& realDepth,

@@ -218,6 +218,9 @@ std::optional<CameraPoses> solveTagPose(std::span<const TagObservation> tags,
     if (!finished || !(finished->rms() <= options.farthestCorner)) return std::nullopt;
     out.best = *finished;
     if (other) out.other = finish(*other, sets, used, camera, options);
+    // finish() estimates the edge shift, which can exchange the order of the errors.
+    if (out.other && out.other->squaredError < out.best.squaredError)
+        std::swap(out.best, *out.other);
     return out;
 }
 
