@@ -13,6 +13,7 @@
 #include <cstdio>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace mfar {
 namespace {
@@ -99,11 +100,14 @@ void writeWholeFile(const std::filesystem::path& file, std::span<const std::uint
 }
 
 void writeWholeFiles(std::span<const NewFile> files) {
-    const auto run = [files](const auto& step) {
-        for (const NewFile& one : files) {
+    std::vector<NewFile> targets(files.begin(), files.end());
+    for (NewFile& one : targets)
+        if (!isDevice(one.file)) one.file = replacedBy(one.file);
+    const auto run = [&targets](const auto& step) {
+        for (const NewFile& one : targets) {
             const int error = step(one);
             if (error == 0) continue;
-            for (const NewFile& each : files)
+            for (const NewFile& each : targets)
                 unlink(partOf(each.file).c_str());
             check(one.file, error);
         }
@@ -113,7 +117,7 @@ void writeWholeFiles(std::span<const NewFile> files) {
         return writePart(one.file, {bytes, one.text.size()}, true);
     });
     run([](const NewFile& one) { return renamePart(one.file); });
-    for (const NewFile& one : files)
+    for (const NewFile& one : targets)
         syncFolder(one.file.parent_path());
 }
 

@@ -41,6 +41,22 @@ TEST(WholeFile, ReplacesTheFileToWhichALinkLeads) {
     EXPECT_EQ(test::readFile(folder / "disk/file"), "abc");
 }
 
+TEST(WholeFile, SeveralFilesReplaceTheFilesToWhichLinksLead) {
+    const test::TempFolder folder;
+    fs::create_directory(folder / "disk");
+    test::writeFile(folder / "disk/file", "older");
+    fs::create_symlink("disk/file", folder / "link");
+    fs::create_symlink("/dev/null", folder / "device");
+    writeWholeFiles(std::array{NewFile{folder / "link", "abc"}, NewFile{folder / "new", "de"},
+                               NewFile{folder / "device", "f"}});
+    EXPECT_TRUE(fs::is_symlink(folder / "link"));
+    EXPECT_EQ(test::readFile(folder / "disk/file"), "abc");
+    EXPECT_EQ(test::readFile(folder / "new"), "de");
+    EXPECT_TRUE(fs::is_regular_file(fs::symlink_status(folder / "device")));
+    EXPECT_EQ(entriesIn(folder.path()), 4U);
+    EXPECT_EQ(entriesIn(folder / "disk"), 1U);
+}
+
 TEST(WholeFile, APipeIsWrittenAndNotReplaced) {
     const test::TempFolder folder;
     const fs::path pipe = folder / "pipe";
