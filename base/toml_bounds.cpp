@@ -20,7 +20,7 @@ public:
                 at_ = std::min(text_.find('\n', at_), text_.size());
             else
                 take(c);
-            if (dots_ > kDeepestToml)
+            if (dots_ >= kDeepestToml)
                 return here(fmt::format("a key has more than {} parts", kDeepestToml));
             if (depth_ > kDeepestToml)
                 return here(

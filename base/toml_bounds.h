@@ -8,7 +8,7 @@
 namespace mfar {
 
 /// Limits of a TOML text. Without them, the recursion and memory of the parser would grow with the
-/// text. kDeepestToml limits the depth of nested brackets, and the number of dots of a key.
+/// text. kDeepestToml limits the depth of nested brackets, and the number of parts of a key.
 /// kMostTomlValues limits the number of the characters , = [ { and . outside of strings and
 /// comments. No file of this project reaches these limits.
 inline constexpr std::size_t kDeepestToml = 32;
