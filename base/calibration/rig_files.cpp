@@ -49,10 +49,15 @@ RigCalibration readOwn(const YamlReader& in, const WantedSizes& wanted) {
 RigCalibration readEuroc(const fs::path& video, const fs::path& still, const WantedSizes& wanted) {
     const SensorYaml v = readSensorYaml(video, wanted.video);
     const SensorYaml s = readSensorYaml(still, wanted.still);
+    // Each time_offset leads to the clock that both cameras share. stillTimeOffset leads from the
+    // still's clock to the video's.
     RigCalibration out{{v.camera, s.camera, s.T_body_sensor.inverse() * v.T_body_sensor},
-                       s.timeOffset};
+                       s.timeOffset - v.timeOffset};
     readYaml(still, [&](const YamlReader& in) {
         plausible::checkBaseline(in, in.at("T_BS"), out.rig.T_still_video);
+        if (in.has("time_offset"))
+            plausible::requireTimeOffset(in, in.at("time_offset"), out.stillTimeOffset,
+                                         "the difference of both time_offset");
     });
     return out;
 }
@@ -63,9 +68,20 @@ bool isFile(const fs::path& path) {
     return fs::is_regular_file(path, ignored);
 }
 
+/// Like isFile(), but throws if the path cannot be looked up. Otherwise, a file in a folder that
+/// this user may not enter would be reported as missing.
+bool hasFile(const fs::path& path) {
+    std::error_code error;
+    if (fs::is_regular_file(path, error)) return true;
+    if (error && error != std::errc::no_such_file_or_directory &&
+        error != std::errc::not_a_directory)
+        calibrationFault(path, 0, error.message());
+    return false;
+}
+
 RigCalibration readFolder(const fs::path& folder, const WantedSizes& wanted) {
-    if (isFile(folder / kRigFile)) return loadRig(folder / kRigFile, wanted);
-    if (isFile(folder / "cam0" / "sensor.yaml"))
+    if (hasFile(folder / kRigFile)) return loadRig(folder / kRigFile, wanted);
+    if (hasFile(folder / "cam0" / "sensor.yaml"))
         return readEuroc(folder / "cam0" / "sensor.yaml", folder / "cam1" / "sensor.yaml", wanted);
     calibrationFault(folder, 0, "contains neither rig.yaml nor cam0/sensor.yaml");
 }

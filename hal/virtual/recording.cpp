@@ -151,7 +151,10 @@ Recording load(const fs::path& root, std::size_t most) {
     Recording out;
     out.root = root;
     out.videoRateHz = video.rateHz;
-    out.stillTimeOffset = still.timeOffset;
+    out.stillTimeOffset = still.timeOffset - video.timeOffset;
+    if (const auto fault =
+            plausible::timeOffsetFault(out.stillTimeOffset, "the difference of both time_offset"))
+        recordingFault(stillFolder / "sensor.yaml", 0, *fault);
     out.rig = {video.camera, still.camera, still.T_body_sensor.inverse() * video.T_body_sensor};
     if (const auto fault = plausible::baselineFault(out.rig.T_still_video))
         recordingFault(stillFolder / "sensor.yaml", 0, *fault);

@@ -1,5 +1,6 @@
 #include "base/calibration/plausible_ranges.h"
 #include "base/calibration/rig_files.h"
+#include "base/calibration/sensor_yaml.h"
 #include "tests/calibration/rig_texts.h"
 #include "tests/unit/damage.h"
 #include "tests/unit/temp_folder.h"
@@ -157,6 +158,16 @@ TEST(RigFiles, APathThatCannotBeLookedUpIsRefused) {
     EXPECT_NE(faultOf(name), "no fault found");
 }
 
+// The folder exists, but the paths of its files are too long.
+TEST(RigFiles, AFolderWhoseFilesCannotBeLookedUpIsRefusedWithTheReason) {
+    const TempFolder folder;
+    std::string path = folder.path().string();
+    while (path.size() < 4090)
+        path += "/.";
+    ASSERT_TRUE(fs::is_directory(path));
+    EXPECT_EQ(faultOf(path), path + "/rig.yaml: File name too long");
+}
+
 TEST(RigFiles, DevicesAndPipesAreRefused) {
     const TempFolder folder;
     ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
@@ -171,6 +182,18 @@ TEST(RigFiles, TheDocumentationListsTheAcceptedRanges) {
                                         range.least, range.most)),
                   std::string::npos)
             << range.what;
+}
+
+TEST(RigFiles, AnImplausibleDifferenceOfTheTimeOffsetsOfTwoSensorFilesIsRefused) {
+    const TempFolder folder;
+    const StereoRig rig = sampleRig().rig;
+    const fs::path video = folder / "cam0/sensor.yaml", still = folder / "cam1/sensor.yaml";
+    writeFile(video, sensorYamlText({rig.video, {}, 30, 6}, "video"));
+    writeFile(still, sensorYamlText({rig.still, rig.T_still_video.inverse(), 0, -6}, "still"));
+    const std::string message = faultOf(folder.path());
+    EXPECT_TRUE(message.starts_with(still.string() + ":")) << message;
+    EXPECT_NE(message.find("the difference of both time_offset of -12 s"), std::string::npos)
+        << message;
 }
 
 TEST(RigFiles, ImplausibleLensOfAnOpenCvFileWithoutSizeIsRefused) {

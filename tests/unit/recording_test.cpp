@@ -294,6 +294,18 @@ TEST(Recording, ARecordingWithoutStillsAndPosesIsValid) {
     EXPECT_FALSE(r.poseAt(r.video.front().time).has_value());
 }
 
+TEST(Recording, TheTimeOffsetOfTheStillsIsRelativeToThatOfTheVideo) {
+    const TempFolder folder;
+    test::writeSmallRecording(folder.path());
+    replaceInFile(folder / kVideoYaml, "camera_model:", "time_offset: 0.25\ncamera_model:");
+    EXPECT_EQ(loadRecording(folder.path()).stillTimeOffset, -0.25);
+    replaceInFile(folder / kStillYaml, "camera_model:", "time_offset: 1.5\ncamera_model:");
+    EXPECT_EQ(loadRecording(folder.path()).stillTimeOffset, 1.25);
+    replaceInFile(folder / kStillYaml, "1.5", "-9.875");
+    EXPECT_NE(faultOf(folder.path()).find("the difference of both time_offset of -10.125 s"),
+              std::string::npos);
+}
+
 TEST(Recording, TruthFilesAreFound) {
     const TempFolder folder;
     test::writeSmallRecording(folder.path());
