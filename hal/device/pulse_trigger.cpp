@@ -56,7 +56,7 @@ Timestamp PulseTrigger::fire() {
     std::lock_guard lock(mutex_);
     if (failure_) throw std::runtime_error(*std::exchange(failure_, std::nullopt));
     if (running_) throw TriggerBusy(name_ + ": the previous pulse has not ended yet");
-    while (loopback_ && loopback_->next(microseconds{0})) {
+    while (nextEdge(microseconds{0})) {
     }
     leading_.reset();
     begun_ = Timestamp::now();
@@ -105,12 +105,22 @@ void PulseTrigger::end() {
     }
 }
 
+/// Returns nothing if the loopback line cannot be read, e.g. because its chip is unplugged. The
+/// trigger line works without it, and a pulse that was driven must not be lost.
+std::optional<Timestamp> PulseTrigger::nextEdge(microseconds timeout) {
+    if (!loopback_) return std::nullopt;
+    try {
+        return loopback_->next(timeout);
+    } catch (const std::runtime_error&) {
+        return std::nullopt;
+    }
+}
+
 std::optional<Timestamp> PulseTrigger::edgeSince(Timestamp earliest) {
-    while (loopback_) {
-        const std::optional<Timestamp> edge = loopback_->next(kEdgeWait);
+    while (const std::optional<Timestamp> edge = nextEdge(kEdgeWait)) {
         // Before version 5.7, the kernel takes the times of edges from another clock than
         // CLOCK_MONOTONIC. Such times lie in the future and are ignored.
-        if (!edge || *edge > Timestamp::now()) return std::nullopt;
+        if (*edge > Timestamp::now()) return std::nullopt;
         if (*edge >= earliest) return edge;
     }
     return std::nullopt;

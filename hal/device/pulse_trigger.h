@@ -39,8 +39,8 @@ public:
     /// Starts a pulse and returns the time of its leading edge as the loopback line measured it.
     /// Without a report of the loopback line, returns the mean of the times before and after the
     /// line was driven. Throws TriggerBusy if a pulse is active. Throws std::runtime_error if the
-    /// line cannot be driven, the loopback line cannot be read, or an earlier pulse could not be
-    /// ended or measured.
+    /// line cannot be driven, or if an earlier pulse could not be ended. If the loopback line
+    /// cannot be read, the pulse counts in missedEdges().
     Timestamp fire() override;
     void endPulse() override;
     [[nodiscard]] std::string name() const override { return name_; }
@@ -51,6 +51,7 @@ public:
 private:
     void endLater(const std::stop_token& stop);
     void end();
+    [[nodiscard]] std::optional<Timestamp> nextEdge(std::chrono::microseconds timeout);
     [[nodiscard]] std::optional<Timestamp> edgeSince(Timestamp earliest);
     void measure(Timestamp endDriven);
 
@@ -65,7 +66,7 @@ private:
     Timestamp begun_;
     Timestamp due_;
     std::optional<Timestamp> leading_;
-    /// Reason why a pulse could not be ended or measured. The next fire() throws it.
+    /// Reason why a pulse could not be ended. The next fire() throws it.
     std::optional<std::string> failure_;
     std::optional<MeasuredPulse> measured_;
     std::uint64_t missed_ = 0;

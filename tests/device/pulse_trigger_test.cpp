@@ -33,6 +33,7 @@ struct Wire {
     std::chrono::nanoseconds clockOffset{0};
     int edgesToLose = 0;
     int setsToFail = 0;
+    bool isUnplugged = false;  ///< true: the loopback input cannot be read
 
     bool active() {
         std::lock_guard lock(mutex);
@@ -59,6 +60,7 @@ struct Wire {
     }
     std::optional<Timestamp> edge() {
         std::lock_guard lock(mutex);
+        if (isUnplugged) throw std::runtime_error("the loopback input is unplugged");
         if (edges.empty()) return std::nullopt;
         const Timestamp first = edges.front();
         edges.pop_front();
@@ -206,6 +208,26 @@ TEST(PulseTrigger, MissedEdgesOfTheLoopbackAreCounted) {
             EXPECT_LT(edge, levels[2].time)
                 << "the end of the pulse must not be mistaken for its start";
         }
+    }
+}
+
+TEST(PulseTrigger, PulsesAreDrivenAndTimedEvenIfTheLoopbackIsUnplugged) {
+    for (const microseconds pulse : {microseconds{50}, microseconds{3000}}) {
+        const auto wire = std::make_shared<Wire>();
+        const auto trigger = triggerOn(wire, pulse, true);
+        wire->isUnplugged = true;
+        for (std::uint64_t fired = 1; fired <= 2; ++fired) {
+            const Timestamp before = Timestamp::now();
+            const Timestamp edge = trigger->fire();
+            while (trigger->missedEdges() < fired)
+                std::this_thread::sleep_for(100us);
+            const std::vector<Level> levels = wire->all();
+            ASSERT_EQ(levels.size(), 1 + 2 * fired);
+            EXPECT_GE(edge, before);
+            EXPECT_LT(edge, levels.back().time);
+            EXPECT_EQ(trigger->missedEdges(), fired);
+        }
+        EXPECT_FALSE(trigger->measured());
     }
 }
 
