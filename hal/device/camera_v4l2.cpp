@@ -174,7 +174,7 @@ std::optional<Frame> CameraV4l2::frameOf(const V4l2Filled& filled) {
         else
             out.emplace(view, *time, [loan] {});
     }
-    if (!out && copies_) {
+    if (!out && (copies_ || (decoder_ && decoder_->isFull()))) {
         drops_.lose();
         return refuse(nullptr);
     }

@@ -74,10 +74,12 @@ bool JpegDecoder::decodeInto(std::span<const std::uint8_t> jpeg,
 }
 
 std::optional<Frame> JpegDecoder::decode(std::span<const std::uint8_t> jpeg, Timestamp time) {
+    isFull_ = false;
     const auto subsampling = subsamplingOf(jpeg);
     if (!subsampling) return std::nullopt;
     const auto slot = pool_.acquire(std::chrono::milliseconds(0));
-    if (!slot) return std::nullopt;
+    isFull_ = !slot;
+    if (isFull_) return std::nullopt;
     const Size size = pool_.size();
     const auto width = static_cast<std::size_t>(size.width), half = width / 2;
     const auto height = static_cast<std::size_t>(size.height);

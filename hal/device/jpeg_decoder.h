@@ -20,8 +20,10 @@ public:
 
     /// Returns the picture as Yuv420 (BT.601, full range, as JFIF defines) or Gray8. For chroma
     /// subsampled 4:2:2, the mean of two chroma rows is used. Returns nothing if the picture is
-    /// damaged or has another size or subsampling, or if all buffers are in use.
+    /// damaged or has another size or subsampling, or if all buffers are in use (isFull()).
     [[nodiscard]] std::optional<Frame> decode(std::span<const std::uint8_t> jpeg, Timestamp time);
+    /// Returns true if the last decode() returned nothing because all buffers were in use.
+    [[nodiscard]] bool isFull() const { return isFull_; }
 
 private:
     [[nodiscard]] std::optional<int> subsamplingOf(std::span<const std::uint8_t> jpeg);
@@ -34,6 +36,7 @@ private:
     };
     std::unique_ptr<void, Close> handle_;
     FramePool pool_;  // 2 bytes per pixel, because decoding 4:2:2 needs them
+    bool isFull_ = false;
 };
 
 }  // namespace mfar

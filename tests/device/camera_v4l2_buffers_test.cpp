@@ -257,6 +257,26 @@ TEST(CameraV4l2Buffers, JpegsAreDecoded) {
     EXPECT_EQ(fake.queued(), 4) << "the driver must get the buffer of a decoded picture back";
 }
 
+TEST(CameraV4l2Buffers, AJpegForWhichNoBufferIsFreeCountsAsMissedAndNotAsBroken) {
+    FakeV4l2 fake;
+    fake.formats = {{V4L2_PIX_FMT_MJPEG, {kPicture}}};
+    CameraV4l2 camera(fourBuffers(), fake);
+    camera.start();
+    const std::vector<std::uint8_t> white(3UL * kPicture.width * kPicture.height, 255);
+    const std::vector<std::uint8_t> jpeg = test::jpegOf(white, kPicture, TJSAMP_422);
+    std::vector<Frame> held;
+    for (int i = 0; i < 4; ++i) {
+        ASSERT_TRUE(fake.deliver({.ageMs = 50 - i, .jpeg = jpeg}));
+        auto frame = camera.next(1s);
+        ASSERT_TRUE(frame.has_value());
+        held.push_back(std::move(*frame));
+    }
+    ASSERT_TRUE(fake.deliver({.ageMs = 40, .jpeg = jpeg}));
+    EXPECT_FALSE(camera.next(0ms).has_value());
+    EXPECT_EQ(camera.cameraCounters().missed, 1U);
+    EXPECT_EQ(camera.cameraCounters().broken, 0U);
+}
+
 TEST(CameraV4l2Buffers, ABrokenJpegIsCounted) {
     FakeV4l2 fake;
     fake.formats = {{V4L2_PIX_FMT_MJPEG, {kPicture}}};

@@ -121,7 +121,11 @@ TEST(JpegDecoder, WithAllBuffersLentNothingIsDecoded) {
     JpegDecoder decoder(kJpegSize, 1);
     const Bytes jpeg = encoded(TJSAMP_420);
     auto held = decoder.decode(jpeg, {});
+    EXPECT_FALSE(decoder.isFull());
     EXPECT_FALSE(decoder.decode(jpeg, {}).has_value());
+    EXPECT_TRUE(decoder.isFull());
+    EXPECT_FALSE(decoder.decode({jpeg.data(), 2}, {}).has_value());
+    EXPECT_FALSE(decoder.isFull()) << "the picture is damaged";
     held.reset();
     EXPECT_TRUE(decoder.decode(jpeg, {}).has_value());
 }
