@@ -32,10 +32,13 @@ public:
             memory = mmap(nullptr, bytes_, PROT_READ | PROT_WRITE, MAP_SHARED, fd,
                           static_cast<off_t>(offset));
         const std::uint64_t rows = static_cast<std::uint64_t>(size.height);
-        if (memory == MAP_FAILED || pitch_ < static_cast<std::uint64_t>(size.width) * 4 ||
+        const bool isMapped = memory != MAP_FAILED;
+        if (!isMapped || pitch_ < static_cast<std::uint64_t>(size.width) * 4 ||
             bytes_ < rows * pitch_) {
-            const std::runtime_error error = refused("a dumb buffer cannot be mapped");
-            if (memory != MAP_FAILED) munmap(memory, bytes_);
+            const std::runtime_error error =
+                isMapped ? std::runtime_error("the display driver made a dumb buffer too small")
+                         : refused("a dumb buffer cannot be mapped");
+            if (isMapped) munmap(memory, bytes_);
             drmModeDestroyDumbBuffer(fd, handle_);
             throw error;
         }

@@ -112,6 +112,15 @@ TEST_F(KmsScreenTest, ARefusedFlipIsReportedWithScreenAndReason) {
                   ", HDMI-A-1: the display driver refuses the picture: Device or resource busy");
 }
 
+TEST_F(KmsScreenTest, ATooSmallDumbBufferIsReportedAndFreed) {
+    ASSERT_EQ(screen_.look(true), Presence::Ready);
+    driver_.missingPitch = 4;
+    milliseconds took{};
+    EXPECT_EQ(faultOfShow(took), card() + ", HDMI-A-1: no picture can be shown; dumb buffers: the "
+                                          "display driver made a dumb buffer too small");
+    EXPECT_EQ(driver_.buffers, 0);
+}
+
 TEST_F(KmsScreenTest, FollowsConnectionAndModeOfTheMonitor) {
     driver_.connected = false;
     ASSERT_EQ(screen_.look(true), Presence::Waiting);

@@ -218,7 +218,7 @@ int drmModeCreateDumbBuffer(int /*fd*/, std::uint32_t width, std::uint32_t heigh
                             std::uint32_t* pitch, std::uint64_t* size) {
     constexpr std::uint64_t kPage = 65536;
     *handle = driver.next++;
-    *pitch = 4 * width;
+    *pitch = 4 * width - driver.seen.missingPitch;
     *size = std::uint64_t{*pitch} * height;
     driver.buffers[*handle] = {driver.end, width, height};
     driver.end += (*size + kPage - 1) / kPage * kPage;

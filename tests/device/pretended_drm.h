@@ -16,6 +16,7 @@ struct PretendedDrm {
     bool flips = true;
     int otherEvents = 0;  ///< number of other events before the event of the flip, 10 ms apart
     bool refusesFlips = false;
+    std::uint32_t missingPitch = 0;  ///< rows of dumb buffers are too short by this [bytes]
     int modeSets = 0, flipped = 0, buffers = 0, framebuffers = 0;
     int blockingFlips = 0;  ///< number of flips for which the caller had to wait
     std::uint32_t shown = 0;
