@@ -33,8 +33,10 @@ int largestTexture() {
     return most;
 }
 
-Texture::Texture(Size size, TexelFormat format, Filter filter, int levels)
-    : size_(size), format_(format) {
+// Delegates to the default constructor, so that the destructor deletes the texture after an error.
+Texture::Texture(Size size, TexelFormat format, Filter filter, int levels) : Texture() {
+    size_ = size;
+    format_ = format;
     checkErrors("a call before Texture()");
     const int most = largestTexture();
     if (size.width > most || size.height > most)
@@ -190,7 +192,9 @@ std::vector<float> Texture::readRgba32F() const {
     return out;
 }
 
-Framebuffer::Framebuffer(std::span<const Texture* const> colour, const Texture* depth) {
+// Delegates for the same reason as Texture().
+Framebuffer::Framebuffer(std::span<const Texture* const> colour, const Texture* depth)
+    : Framebuffer() {
     checkErrors("a call before Framebuffer()");
     glGenFramebuffers(1, &id_);
     glBindFramebuffer(GL_FRAMEBUFFER, id_);
