@@ -114,10 +114,10 @@ LightEstimator::LightEstimator(const LightEstimatorOptions& options)
                                     "surfaceAlbedo must be above 0 and at most 1");
 }
 
-void LightEstimator::add(const ImageView& frame, const CameraModel& camera,
+bool LightEstimator::add(const ImageView& frame, const CameraModel& camera,
                          const RigidTransform& T_world_camera, Timestamp time) {
     requireSound(frame, "frame");
-    if (!isFinite(T_world_camera) || (last_ && !(time > *last_))) return;
+    if (!isFinite(T_world_camera) || (last_ && !(time > *last_))) return false;
     seenRadiance(frame, camera, T_world_camera, frame_);
     std::vector<Eigen::Vector4f> sums(map_.size(), Eigen::Vector4f::Zero());
     Eigen::Vector4f all = Eigen::Vector4f::Zero();
@@ -129,7 +129,7 @@ void LightEstimator::add(const ImageView& frame, const CameraModel& camera,
     }
     // A black picture is ignored. The lens is probably covered.
     constexpr float kBlack = 0.002F;
-    if (!(all.head<3>().maxCoeff() > kBlack * all.w())) return;
+    if (!(all.head<3>().maxCoeff() > kBlack * all.w())) return false;
     for (std::size_t i = 0; i < map_.size(); ++i) {
         if (!(sums[i].w() > 0)) continue;
         Seen& seen = map_[i];
@@ -139,6 +139,7 @@ void LightEstimator::add(const ImageView& frame, const CameraModel& camera,
         seen = {now + static_cast<float>(kept) * (seen.radiance - now), time};
     }
     last_ = time;
+    return true;
 }
 
 std::optional<LightEstimate> LightEstimator::estimate() const {

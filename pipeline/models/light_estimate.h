@@ -44,9 +44,9 @@ public:
     explicit LightEstimator(const LightEstimatorOptions& options = {});
 
     /// Adds a video frame. Ignores a frame that is black, has a pose that is not finite, or is not
-    /// newer than the last added frame. Throws std::invalid_argument if `frame` is invalid
-    /// (requireSound()).
-    void add(const ImageView& frame, const CameraModel& camera,
+    /// newer than the last added frame. Returns false if the frame was ignored. Throws
+    /// std::invalid_argument if `frame` is invalid (requireSound()).
+    bool add(const ImageView& frame, const CameraModel& camera,
              const RigidTransform& T_world_camera, Timestamp time);
 
     /// Empty until the first frame was added.

@@ -12,7 +12,9 @@ std::optional<Lighting> LightFollower::follow(const ImageView& frame, const Came
                                               Timestamp time) {
     if (seen_ && !((time - *seen_).count() > kInterval * 1e9)) return std::nullopt;
     seen_ = time;
-    estimator_.add(frame, camera, T_world_camera, time);
+    // If the frame was ignored, the light is unchanged. Returning it would relight the scene for
+    // nothing.
+    if (!estimator_.add(frame, camera, T_world_camera, time)) return std::nullopt;
     const std::optional<LightEstimate> estimate = estimator_.estimate();
     if (!estimate) return std::nullopt;
     Lighting lighting = lightingOf(*estimate);

@@ -12,8 +12,9 @@ using namespace std::chrono_literals;
 
 const CameraModel kWideLens{{64, 48}, 56, 56, 31.5, 23.5, {}};
 
-std::optional<Lighting> followed(LightFollower& light, std::chrono::milliseconds at) {
-    const std::vector<std::uint8_t> pixels(4UL * 64 * 48, 180);
+std::optional<Lighting> followed(LightFollower& light, std::chrono::milliseconds at,
+                                 std::uint8_t grey = 180) {
+    const std::vector<std::uint8_t> pixels(4UL * 64 * 48, grey);
     return light.follow({pixels.data(), {64, 48}, 256, PixelFormat::Rgba8}, kWideLens, {},
                         Timestamp{} + at);
 }
@@ -24,6 +25,14 @@ TEST(LightFollower, LightChangesAtMostTwiceASecond) {
     for (auto at = 33ms; at < 2s; at += 33ms)
         changes += followed(light, at) ? 1 : 0;
     EXPECT_EQ(changes, 4);
+}
+
+TEST(LightFollower, ACoveredLensDoesNotChangeTheLight) {
+    LightFollower light({});
+    EXPECT_FALSE(followed(light, 0ms, 0));
+    EXPECT_TRUE(followed(light, 600ms));
+    EXPECT_FALSE(followed(light, 1200ms, 0));
+    EXPECT_TRUE(followed(light, 1800ms));
 }
 
 TEST(LightFollower, AConfiguredSunIsKept) {
