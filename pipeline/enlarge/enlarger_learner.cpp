@@ -41,6 +41,11 @@ constexpr double kWorthwhile = 0.998;
 constexpr int kMostRefused = 3;
 constexpr int kBlock = 4;  // block size [px]
 
+Size blocksOf(Size video) {
+    const Size tiles = tilesOf(video);
+    return {tiles.width * kTileSize / kBlock, tiles.height * kTileSize / kBlock};
+}
+
 std::size_t tileOfBlock(int x, int y, Size tiles) {
     return static_cast<std::size_t>(y * kBlock / kTileSize) * tiles.width + x * kBlock / kTileSize;
 }
@@ -80,11 +85,11 @@ EnlargerLearner::Outcome EnlargerLearner::add(const MatchedPictures& pictures,
         ++counts_.refused;
         return Outcome::Refused;
     }
-    fineMatch_.add(pictures, stop);
-    if (stop.stop_requested()) return Outcome::Stopped;
+    // If fineMatch_ has learned from the still, the other parts must, too.
+    if (!fineMatch_.add(pictures, stop) && stop.stop_requested()) return Outcome::Stopped;
     learnTone(pairs, pictures.tone);
     ++counts_.stills;
-    rememberShown();
+    rememberShown(pictures.video);
     sums_.fade(kForgetting);
     sums_.add(still.learn);
     held_.fade(kForgetting);
@@ -131,14 +136,9 @@ void EnlargerLearner::learnTone(const TrustedPairs& pairs, const StillTone& appl
 }
 
 bool EnlargerLearner::findNew(const MatchedPictures& pictures) {
-    const Size tiles = tilesOf(pictures.video);
-    const Size blocks{tiles.width * kTileSize / kBlock, tiles.height * kTileSize / kBlock};
+    const Size tiles = tilesOf(pictures.video), blocks = blocksOf(pictures.video);
     const bool isFirst = blocks != shownSize_;
-    if (isFirst) {
-        shownSize_ = blocks;
-        shown_.assign(static_cast<std::size_t>(blocks.width) * blocks.height, 0);
-        means_ = shown_;
-    }
+    means_.resize(static_cast<std::size_t>(blocks.width) * blocks.height);
     isNew_.assign(static_cast<std::size_t>(tiles.width) * tiles.height, isFirst);
     for (int y = 0; y < blocks.height; ++y)
         for (int x = 0; x < blocks.width; ++x) {
@@ -149,14 +149,18 @@ bool EnlargerLearner::findNew(const MatchedPictures& pictures) {
             }
             const std::size_t i = static_cast<std::size_t>(y) * blocks.width + x;
             means_[i] = static_cast<std::uint8_t>(sum / (kBlock * kBlock * kLumaScale));
-            if (std::abs(means_[i] - shown_[i]) > kNewFrom) isNew_[tileOfBlock(x, y, tiles)] = 1;
+            if (!isFirst && std::abs(means_[i] - shown_[i]) > kNewFrom)
+                isNew_[tileOfBlock(x, y, tiles)] = 1;
         }
     const auto count = std::count(isNew_.begin(), isNew_.end(), 1);
     return double(count) >= kLeastNew * double(isNew_.size());
 }
 
-void EnlargerLearner::rememberShown() {
-    const Size tiles{shownSize_.width * kBlock / kTileSize, shownSize_.height * kBlock / kTileSize};
+void EnlargerLearner::rememberShown(Size video) {
+    const Size tiles = tilesOf(video);
+    // If the size is another one, all tiles are new, and all of shown_ is replaced.
+    shownSize_ = blocksOf(video);
+    shown_.resize(means_.size());
     for (int y = 0; y < shownSize_.height; ++y)
         for (int x = 0; x < shownSize_.width; ++x) {
             const std::size_t i = static_cast<std::size_t>(y) * shownSize_.width + x;

@@ -77,7 +77,9 @@ private:
     /// Finds the tiles that have changed since filters were last learned from them. Returns false
     /// if too few tiles have changed.
     bool findNew(const MatchedPictures& pictures);
-    void rememberShown();
+    /// To be called after filters were learned from the tiles that findNew() found in a picture of
+    /// size `video`.
+    void rememberShown(Size video);
     struct StillSums {
         enlarge::SumsOfClasses learn, choose, check;
     };
@@ -110,7 +112,8 @@ private:
     int refusedInARow_ = 0;  // number of stills with a tone curve that were refused in a row
     std::shared_ptr<const FilterBank> inPlace_;
     // Means over 4x4 video pixels. `shown_`: for each tile, the means when filters were last
-    // learned from it. `means_`: the means of the picture that was last given to findNew().
+    // learned from it; its size in blocks is `shownSize_`. `means_`: the means of the picture that
+    // was last given to findNew().
     std::vector<std::uint8_t> shown_, means_;
     Size shownSize_{};
     std::vector<std::uint8_t> isNew_;

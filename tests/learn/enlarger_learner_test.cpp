@@ -186,6 +186,15 @@ TEST(EnlargerLearner, RepeatedStillsAreIgnored) {
     EXPECT_NE(learner.add(matchedPictures(sharpDiscs(3), pair)), Outcome::Repeated);
 }
 
+TEST(EnlargerLearner, ADarkStillAfterARefusedOneIsNotTakenForARepeatedOne) {
+    twin::Grey dark = sharpDiscs(1);
+    for (double& value : dark.values)
+        value /= 64;
+    EnlargerLearner learner;
+    EXPECT_EQ(learner.add(matchedPictures(dark, {.confidence = 0})), Outcome::Refused);
+    EXPECT_NE(learner.add(matchedPictures(dark, {})), Outcome::Repeated);
+}
+
 TEST(EnlargerLearner, TheSamePicturesGiveTheSameFilters) {
     const SensorPair pair{.videoBlur = 1, .videoNoise = 2};
     EXPECT_EQ(learned(pair, 3).stored("x"), learned(pair, 3).stored("x"));
