@@ -23,7 +23,7 @@ film() {
 # deviceTest [NUMBER...]: runs these scenarios (default: all) on the emulated board.
 deviceTest() {
     local root image deb film programs=.build/aarch64/tests/device
-    ensurePackages buildPackages crossPackages bedPackages
+    ensurePackages buildPackages aarch64Packages rootPackages bedPackages
     sysroot aarch64
     deb=$(pack aarch64)
     build aarch64 tests/device/all
@@ -43,7 +43,7 @@ boardReport() {
     local root suite libraries program=.build/host/tests/engine/gles/mfar-compile-shaders
     local frame=tests/measure/boards/mfar-frame-work
     local -a command
-    ensurePackages buildPackages crossPackages boardPackages
+    ensurePackages buildPackages aarch64Packages rootPackages boardPackages
     build host mfar-compile-shaders mfar-frame-work
     command=(python3 -B toolchains/boards/report.py --compile-shaders "$program" --frame-work ".build/host/$frame")
     root=$(rootCommand) || exit 1
