@@ -306,8 +306,8 @@ constexpr Option kObjects[] = {
     number("scale", {0.0001, 10000, ""}, "1.0", "Factor by which a model is enlarged."),
     absent(whole("tag", {0, 2114, ""}, "0",
                  "Id of the tag that the object stands on. The object's axes are then x right and "
-                 "y up in the tag's print, z out of it. Absent: the object is in the world of the "
-                 "tag map. The upper limit depends on the family.")),
+                 "y up in the print, z out of it. Absent: the object is in the world of the tag "
+                 "map; without a map, on the first tag. The upper limit depends on the family.")),
     word("family", kFamilies, R"("tag36h11")", "Family of the tag that the object stands on."),
     numbers("position", 3, {-1000, 1000, "m"}, "[0.0, 0.0, 0.0]",
             "Position of the object in the world or on its tag."),
