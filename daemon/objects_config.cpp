@@ -9,6 +9,7 @@
 
 #include <system_error>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -52,8 +53,9 @@ void readShape(TomlReader& file, const std::string& prefix, VirtualObject& out) 
 /// different paths.
 class ModelReader {
 public:
-    ModelReader(std::filesystem::path folder, FileMemory& memory)
-        : folder_(std::move(folder)), memory_(memory) {}
+    /// `shapes` is the number of objects without a model.
+    ModelReader(std::filesystem::path folder, FileMemory& memory, std::size_t shapes)
+        : folder_(std::move(folder)), memory_(memory), parts_(shapes) {}
 
     std::shared_ptr<const Model> operator()(std::string_view name) {
         std::shared_ptr<const Model>& known = models_[identity(name)];
@@ -66,13 +68,13 @@ public:
     }
 
 private:
-    // The path tracer counts each part that moves by itself as an object.
+    // The path tracer counts each part that moves by itself as an object, and each simple shape.
     void countParts(const Model& model) {
         parts_ += model.paths.size() + 1;
         if (parts_ > kMostSceneObjects)
             throw ModelError(fmt::format(
-                "the moving nodes of all objects' models, and one more part for each of "
-                "these objects, are more than {}",
+                "the moving nodes of all objects' models, and one more part for each object, are "
+                "more than {}",
                 kMostSceneObjects));
     }
 
@@ -94,7 +96,7 @@ private:
 
     std::filesystem::path folder_;
     FileMemory& memory_;
-    std::size_t parts_ = 0;
+    std::size_t parts_;
     std::map<std::filesystem::path, std::shared_ptr<const Model>> models_;
 };
 
@@ -155,8 +157,12 @@ void noteUnused(const TomlReader& file, const std::string& prefix, const PlacedO
 
 void readObjects(TomlReader& file, const std::filesystem::path& folder, FileMemory& memory,
                  std::vector<PlacedObject>& objects, std::vector<std::string>& notes) {
-    ModelReader models(folder, memory);
-    for (const std::string& prefix : file.sections("objects", kMostObjects)) {
+    const std::vector<std::string> prefixes = file.sections("objects", kMostObjects);
+    // Shapes are counted before the models, because a fault needs the place of a model.
+    const auto shapes = std::ranges::count_if(
+        prefixes, [&](const std::string& prefix) { return !file.placeOf(prefix + "model"); });
+    ModelReader models(folder, memory, static_cast<std::size_t>(shapes));
+    for (const std::string& prefix : prefixes) {
         objects.push_back(readObject(file, prefix, models));
         noteUnused(file, prefix, objects.back(), notes);
     }

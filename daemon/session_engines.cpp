@@ -38,7 +38,7 @@ EngineChoice chooseEngines(const Config& config, const GlContext* gl, const Ster
         return withWishes(engine, EngineChoice::all(EngineKind::Simd));
     if (!fitsGpu(rig, output)) {
         const EngineChoice choice = withWishes(engine, EngineChoice::all(EngineKind::Simd));
-        if (choice.detail == EngineKind::Gles)
+        if (choice.uses(EngineKind::Gles))
             throw Failure(ExitCode::Unavailable,
                           fmt::format("engine gles: the pictures are too large for the textures of "
                                       "{}; use engine simd or smaller pictures",

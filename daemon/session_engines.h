@@ -25,7 +25,7 @@ struct OpenedGl {
 ///   - If shader outputs are validated, GLES is used.
 ///   - Without GL, or with a software renderer, SIMD is used.
 ///   - If the pictures are too large for the GPU's textures, SIMD is used. Throws
-///     Failure(Unavailable) if the step "detail" is configured to run on GLES.
+///     Failure(Unavailable) if a step is configured to run on GLES.
 ///   - Otherwise, the engine that was faster on this GPU is used, measured now or at an earlier
 ///     start. If promisingEngines() returns only one choice, this choice is used and nothing is
 ///     measured.

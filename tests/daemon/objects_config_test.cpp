@@ -167,6 +167,11 @@ TEST(ObjectsConfig, TooManyMovingPartsAreRefusedAtTheObjectThatExceedsTheLimit) 
     EXPECT_EQ(configFaults(many), "");
     EXPECT_THAT(configFaults(many + object),
                 AllOf(StartsWith("test.toml:30:9: objects[14].model"), HasSubstr("more than 250")));
+    for (int i = 0; i < 12; ++i)
+        many += "[[objects]]\nshape = \"sphere\"\n";
+    EXPECT_EQ(configFaults(many), "") << "238 parts of models and 12 shapes must be accepted";
+    EXPECT_THAT(configFaults(many + "[[objects]]\n"),
+                AllOf(StartsWith("test.toml:28:9: objects[13].model"), HasSubstr("more than 250")));
 }
 
 TEST(ObjectsConfig, UnreadableModelsAreReportedWithLineAndColumn) {
