@@ -49,12 +49,19 @@ public:
             [&](const Bin& bin) { return value(std::exchange(before, bin.totals), bin.totals); });
     }
 
-    /// Returns how much a total grows per second, for each bin. The last bin covers only a part of
-    /// its time, so it becomes a gap in the chart.
+    /// Returns how much a total grows per second, for each bin, since the previous bin with
+    /// pictures. The last bin covers only a part of its time, so it becomes a gap in the chart.
     [[nodiscard]] std::vector<double> rate(std::uint64_t RunTotals::* total) const {
-        return full(changes([&](const RunTotals& before, const RunTotals& now) {
-            return (count(now.*total) - count(before.*total)) / history_.binS();
-        }));
+        double before = 0, seconds = 0;
+        std::vector<double> out;
+        for (const Bin& bin : history_.bins()) {
+            seconds += history_.binS();
+            out.push_back(kGap);
+            if (bin.frames == 0) continue;
+            const double now = count(bin.totals.*total);
+            out.back() = (now - std::exchange(before, now)) / std::exchange(seconds, 0);
+        }
+        return full(std::move(out));
     }
     [[nodiscard]] std::vector<double> full(std::vector<double> rates) const {
         if (rates.size() > 1) rates.back() = kGap;

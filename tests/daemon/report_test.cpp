@@ -1,5 +1,6 @@
 #include "base/line_chart.h"
 #include "daemon/report.h"
+#include "daemon/report_charts.h"
 #include "daemon/status.h"
 #include "daemon/thumbnail.h"
 #include "hal/image_codec.h"
@@ -113,6 +114,28 @@ TEST(Report, ChartsShowTheValuesOfTheRun) {
         EXPECT_THAT(html, HasSubstr(title));
     for (const char* title : {"not recorded<", "not written<", "Learned filters"})
         EXPECT_THAT(html, Not(HasSubstr(std::string(">") + title)));
+}
+
+/// A history of 30 pictures per second. Before the 16th picture, there is a stall of `stallS`, with
+/// 150 drops.
+RunHistory historyWithStall(double stallS) {
+    RunHistory history;
+    for (int i = 0; i < 30; ++i) {
+        RunMoment moment;
+        moment.shown = Timestamp::fromSeconds(100 + i / 30.0 + (i < 15 ? 0 : stallS));
+        moment.frameMs = moment.latencyMs = 10;
+        moment.totals.notTaken = i < 15 ? 0 : 150;
+        history.add(moment, {});
+    }
+    return history;
+}
+
+TEST(Report, DropsInAStallAreDividedByTheTimeOfTheStall) {
+    const std::string hundreds = ">500</text>";
+    EXPECT_THAT(runCharts(historyWithStall(0), 0), HasSubstr(hundreds))
+        << "150 drops within 0.1 s are 1500 drops per second";
+    EXPECT_THAT(runCharts(historyWithStall(5), 0), Not(HasSubstr(hundreds)))
+        << "150 drops within 5 s are 30 drops per second";
 }
 
 TEST(Report, ARunWithoutPicturesHasNumbersOnly) {
