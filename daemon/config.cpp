@@ -63,7 +63,7 @@ void readRecord(TomlReader& file, RecordConfig& record) {
 
 Config parseConfig(std::string_view toml, const std::string& fileName) {
     Config config;
-    TomlReader file(toml, fileName, configOptions());
+    TomlReader file(toml, fileName, configOptions(), "mfard --print-config");
     file.text("source", config.source, sourceFault);
     std::string recording;
     file.text("recording", recording);

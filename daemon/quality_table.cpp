@@ -130,7 +130,7 @@ mode = "detail"
 }  // namespace
 
 std::vector<QualityLevel> parseQualityLevels(std::string_view toml, const std::string& fileName) {
-    TomlReader file(toml, fileName, levelOptions());
+    TomlReader file(toml, fileName, levelOptions(), "docs/configuration.md");
     std::vector<QualityLevel> out;
     for (const std::string& prefix : file.sections("level", kMostLevels))
         out.push_back(readLevel(file, prefix));

@@ -88,8 +88,8 @@ double numberOf(const toml::node& node) {
 }  // namespace
 
 TomlReader::TomlReader(std::string_view text, std::string file,
-                       std::span<const OptionSection> table)
-    : file_(std::move(file)), table_(table) {
+                       std::span<const OptionSection> table, std::string_view list)
+    : file_(std::move(file)), table_(table), list_(list) {
     if (const auto excess = tomlExcess(text))
         throw ConfigError(
             fmt::format("{}:{}:{}: {}", file_, excess->line, excess->column, excess->what));
@@ -351,7 +351,7 @@ std::string TomlReader::suggestion(const std::string& name, bool isSection) cons
              dot = known.find('.', dot + 1))
             offer(known.substr(0, dot));
     }
-    if (nearest.empty()) return "; mfard --print-config prints all known ones";
+    if (nearest.empty()) return fmt::format("; {} lists all known ones", list_);
     return fmt::format("; the nearest known one is {}", isSection ? "[" + nearest + "]" : nearest);
 }
 

@@ -30,9 +30,11 @@ public:
     using NumbersCheck = std::function<std::optional<std::string>(std::span<const double>)>;
 
     /// `table` contains the types and ranges of all keys. Reading a key that is not in `table`
-    /// throws std::logic_error. `file` names the file in messages. Throws ConfigError if the syntax
-    /// is invalid or the text exceeds the limits of toml_bounds.h.
-    TomlReader(std::string_view text, std::string file, std::span<const OptionSection> table);
+    /// throws std::logic_error. `file` names the file in messages. `list` is what shows all known
+    /// keys to a user, e.g. a command. Throws ConfigError if the syntax is invalid or the text
+    /// exceeds the limits of toml_bounds.h.
+    TomlReader(std::string_view text, std::string file, std::span<const OptionSection> table,
+               std::string_view list);
 
     /// The following functions read the value of a key: "name", "section.name" or, in a list of
     /// sections, "section[0].name". If the value is absent or invalid, `out` is not changed.
@@ -88,6 +90,7 @@ private:
 
     std::string file_;
     std::span<const OptionSection> table_;
+    std::string list_;
     toml::table root_;
     std::vector<std::string> known_;
     std::vector<Fault> faults_;

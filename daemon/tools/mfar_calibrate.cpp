@@ -1,6 +1,8 @@
 #include "base/calibration/calibration_error.h"
 #include "base/calibration/plausible.h"
 #include "base/calibration/rig_files.h"
+#include "daemon/exit_code.h"
+#include "daemon/output_checks.h"
 #include "daemon/tools/calibrate/arguments.h"
 #include "daemon/tools/calibrate/collect.h"
 #include "daemon/tools/calibrate/output_folder.h"
@@ -101,10 +103,13 @@ void run(const CalibrateArguments& a) {
 
 int main(int argc, char** argv) {
     mfar::calibration::CalibrateParser parser;
-    CLI11_PARSE(parser.app, argc, argv);
     try {
+        parser.app.parse(argc, argv);
         mfar::calibration::run(parser.arguments);
-        return 0;
+        return mfar::afterOutput(0, "mfar-calibrate", 1);
+    } catch (const CLI::ParseError& error) {
+        if (parser.app.exit(error) != 0) return static_cast<int>(mfar::ExitCode::Usage);
+        return mfar::afterOutput(0, "mfar-calibrate", 1);
     } catch (const std::exception& e) {
         fmt::print(stderr, "mfar-calibrate: {}\n", e.what());
         return 1;

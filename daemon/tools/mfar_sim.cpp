@@ -1,4 +1,5 @@
 #include "base/progress.h"
+#include "daemon/exit_code.h"
 #include "daemon/output_checks.h"
 #include "daemon/tools/sim_arguments.h"
 
@@ -62,7 +63,8 @@ int main(int argc, char** argv) {
         const int status = arguments.list ? mfar::list() : mfar::simulate(arguments);
         return mfar::afterOutput(status, "mfar-sim", 1);
     } catch (const CLI::ParseError& error) {
-        return mfar::afterOutput(parser.app.exit(error), "mfar-sim", 1);
+        if (parser.app.exit(error) != 0) return static_cast<int>(mfar::ExitCode::Usage);
+        return mfar::afterOutput(0, "mfar-sim", 1);
     } catch (const std::exception& e) {
         fmt::print(stderr, "mfar-sim: {}\n", e.what());
         return 1;

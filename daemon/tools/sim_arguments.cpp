@@ -1,6 +1,7 @@
 #include "daemon/tools/sim_arguments.h"
 
 #include "daemon/number_range.h"
+#include "daemon/tools/command_failure.h"
 
 #include <array>
 
@@ -63,6 +64,7 @@ SimParser::SimParser() {
     app.add_option("--out", a.sim.out, "folder to write the recording into, new or empty");
     app.add_flag("--no-truth", a.noTruth, "do not write truth/, the ground truth");
     app.add_flag("--list", a.list, "print the names of all scenes and paths, then exit");
+    app.failure_message(commandFailure);
     app.callback([&a, stills] {
         if (!a.list && a.sim.out.empty()) throw CLI::RequiredError("--out");
         if (stills->count() == 0) a.sim.stillsHz = std::min(a.sim.stillsHz, a.rateHz);

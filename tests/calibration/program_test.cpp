@@ -53,7 +53,8 @@ TEST(MfarSim, InvalidArgumentsEndWithAMessageAndWriteNothing) {
     };
     for (const auto& [arguments, message] : cases) {
         const Outcome ran = execute(folder, fmt::format("{} {}", MFAR_SIM, arguments));
-        EXPECT_GE(ran.status, 100) << arguments;
+        EXPECT_EQ(ran.status, 64) << arguments;
+        EXPECT_EQ(ran.text.find("mfar-sim: "), 0U) << ran.text;
         EXPECT_NE(ran.text.find(message), std::string::npos) << ran.text;
         EXPECT_FALSE(fs::exists(recording)) << arguments;
     }
@@ -63,6 +64,20 @@ TEST(MfarSim, InvalidArgumentsEndWithAMessageAndWriteNothing) {
         EXPECT_EQ(ran.status, 1) << option;
         EXPECT_NE(ran.text.find("cannot be written"), std::string::npos) << ran.text;
     }
+}
+
+TEST(MfarCalibrate, InvalidArgumentsAndAFullOutputEndWithAMessage) {
+    const TempFolder folder;
+    const std::string calibrate = MFAR_CALIBRATE;
+    for (const char* arguments : {"", "recording", "recording --out out --max-offset 3", "--x"}) {
+        const Outcome ran = execute(folder, fmt::format("{} {}", calibrate, arguments));
+        EXPECT_EQ(ran.status, 64) << arguments;
+        EXPECT_EQ(ran.text.find("mfar-calibrate: "), 0U) << ran.text;
+    }
+    EXPECT_EQ(execute(folder, calibrate + " --help").status, 0);
+    const Outcome full = execute(folder, fmt::format("({} --help >/dev/full)", calibrate));
+    EXPECT_EQ(full.status, 1);
+    EXPECT_NE(full.text.find("cannot be written"), std::string::npos) << full.text;
 }
 
 TEST(MfarCalibrate, RecoversTheRigFromARecording) {

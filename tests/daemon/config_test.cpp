@@ -112,7 +112,7 @@ TEST(Config, ANameInQuotesThatContainsADotIsRefused) {
 
 TEST(Config, NoKeyIsSuggestedIfNoneIsSimilar) {
     EXPECT_EQ(configFaults("[light.sun]\nintensity = 3\n"),
-              "test.toml:2:1: unknown key light.sun.intensity; mfard --print-config prints all "
+              "test.toml:2:1: unknown key light.sun.intensity; mfard --print-config lists all "
               "known ones");
 }
 

@@ -63,6 +63,9 @@ TEST(QualityTable, FaultsAreReportedWithLineAndColumn) {
     EXPECT_EQ(faultOf(level + "flow2d.steps = 17\n").substr(0, 9), "file:4:16");
     EXPECT_EQ(faultOf(level + "ms2 = 1\n").substr(0, 8), "file:4:1");
     EXPECT_EQ(faultOf("[[level]]\nname = \"a\"\nms = nan\n").substr(0, 8), "file:3:6");
+    EXPECT_EQ(faultOf(level + "brightness = 1\n"),
+              "file:4:1: unknown key level[0].brightness; docs/configuration.md lists all known "
+              "ones");
 }
 
 TEST(QualityTable, LevelsAboveTheRequestedSuperResolutionModeAreRemoved) {

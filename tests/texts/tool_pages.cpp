@@ -96,7 +96,7 @@ std::string simManPage() {
          "depth and flow. Needs --out, unless --list is given.",
          {{"0", "success"},
           {"1", "the recording or standard output cannot be written, or OpenGL ES is missing"},
-          {"100 and more", kParser}}});
+          {"64", kParser}}});
 }
 
 std::string calibrateManPage() {
@@ -110,9 +110,9 @@ std::string calibrateManPage() {
          "calibration in mfard.toml.",
          {{"0", "success"},
           {"1", "no target is given, the recording or target cannot be read, the recording is not "
-                "sufficient "
-                "for a calibration, or the result cannot be written"},
-          {"100 and more", kParser}}});
+                "sufficient for a calibration, or the result or standard output cannot be "
+                "written"},
+          {"64", kParser}}});
 }
 
 }  // namespace mfar::test

@@ -1,6 +1,7 @@
 #include "daemon/tools/calibrate/arguments.h"
 
 #include "daemon/number_range.h"
+#include "daemon/tools/command_failure.h"
 
 namespace mfar::calibration {
 
@@ -29,6 +30,7 @@ CalibrateParser::CalibrateParser() {
         ->capture_default_str();
     app.add_flag("--k3", a.solve.k3,
                  "estimate the third radial distortion coefficient as well, for wide lenses");
+    app.failure_message(commandFailure);
 }
 
 }  // namespace mfar::calibration
