@@ -38,8 +38,10 @@ std::string describe(const GpioChip& chip) {
     return fmt::format("{} ({}, {} lines)", chip.name, chip.label, chip.lines.size());
 }
 
+constexpr const char* kNoChip = "this machine has no GPIO chip that programs can use";
+
 std::string listChips(const std::vector<GpioChip>& chips) {
-    if (chips.empty()) return "this machine has no GPIO chip that programs can use";
+    if (chips.empty()) return kNoChip;
     std::vector<std::string> texts;
     for (const GpioChip& chip : chips)
         texts.push_back(describe(chip));
@@ -47,6 +49,7 @@ std::string listChips(const std::vector<GpioChip>& chips) {
 }
 
 std::string listNames(const std::vector<const GpioChip*>& chips) {
+    if (chips.empty()) return kNoChip;
     std::vector<std::string> texts;
     for (const GpioChip* chip : chips) {
         std::vector<std::string> names;
@@ -61,6 +64,7 @@ std::string listNames(const std::vector<const GpioChip*>& chips) {
     return fmt::format("named lines: {}", fmt::join(texts, "; "));
 }
 
+/// Returns all chips if `wanted` is empty. Throws if no chip is called `wanted`.
 std::vector<const GpioChip*> chipsFor(const std::vector<GpioChip>& chips, std::string_view wanted) {
     // `wanted` may be a symbolic link to a chip. An absolute `wanted` replaces the folder.
     std::error_code error;
@@ -70,7 +74,7 @@ std::vector<const GpioChip*> chipsFor(const std::vector<GpioChip>& chips, std::s
     for (const GpioChip& chip : chips)
         if (wanted.empty() || wanted == chip.path || wanted == chip.name || device == chip.path)
             found.push_back(&chip);
-    if (!found.empty()) return found;
+    if (wanted.empty() || !found.empty()) return found;
     for (const GpioChip& chip : chips)
         if (wanted == chip.label) found.push_back(&chip);
     if (found.empty())
@@ -128,9 +132,6 @@ GpioAddress findGpioLine(const std::vector<GpioChip>& chips, std::string_view ch
         throw std::runtime_error(
             "no GPIO line is given for the trigger; set `line` in [cameras.trigger]");
     const std::vector<const GpioChip*> candidates = chipsFor(chips, chip);
-    if (candidates.empty())
-        throw std::runtime_error(
-            fmt::format("GPIO line '{}' cannot be found: {}", line, listChips(chips)));
     const std::optional<unsigned> offset = number(line);
     return offset ? byNumber(candidates, chip, *offset) : byName(candidates, line);
 }

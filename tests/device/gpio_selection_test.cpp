@@ -111,7 +111,9 @@ TEST(GpioSelection, ABusyLineIsReportedWithTheProgramThatUsesIt) {
 
 TEST(GpioSelection, MissingChipsAreReported) {
     EXPECT_THAT(faultOf({}, "gpiochip0", "2"), HasSubstr("no GPIO chip that programs can use"));
-    EXPECT_THAT(faultOf({}, "", "TRIGGER"), HasSubstr("no GPIO chip that programs can use"));
+    EXPECT_EQ(faultOf({}, "", "TRIGGER"), "no GPIO line is named 'TRIGGER'; this machine has no "
+                                          "GPIO chip that programs can use");
+    EXPECT_THAT(faultOf({}, "", "2"), HasSubstr("`chip` must be set"));
 }
 
 TEST(GpioSelection, AChipIsFoundThroughALink) {
