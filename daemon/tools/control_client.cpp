@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <sys/socket.h>
+#include <sys/stat.h>
 #include <sys/time.h>
 #include <sys/un.h>
 #include <unistd.h>
@@ -13,6 +14,7 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <grp.h>
 #include <string>
 
 namespace mfar {
@@ -24,6 +26,16 @@ using nlohmann::ordered_json;
 constexpr int kPatience = 15, kPatienceWithDisk = 600;
 constexpr std::size_t kLongestLine = 1U << 20U;
 constexpr std::uint64_t kMostData = 1ULL << 31U;
+
+/// Returns the name of the group whose members may use the socket. If the folder of the socket may
+/// not be searched, it is the folder's group.
+std::string groupOf(const std::filesystem::path& socket) {
+    struct stat info{};
+    if (stat(socket.c_str(), &info) != 0 && stat(socket.parent_path().c_str(), &info) != 0)
+        return "mfar";
+    const group* found = getgrgid(info.st_gid);
+    return found != nullptr ? found->gr_name : std::to_string(info.st_gid);
+}
 
 class Connection {
 public:
@@ -76,9 +88,10 @@ private:
         if (got == 0) fail("mfard closed the connection before its answer was complete");
         read_.append(part.data(), static_cast<std::size_t>(got));
     }
-    static std::string reason() {
+    [[nodiscard]] std::string reason() const {
         if (errno == ENOENT || errno == ECONNREFUSED) return "no mfard listens there";
-        if (errno == EACCES) return "no permission, the user must be root or in group mfar";
+        if (errno == EACCES)
+            return "no permission, the user must be root or in group " + groupOf(path_);
         return std::strerror(errno);
     }
     [[noreturn]] void fail(const std::string& why) const {
