@@ -21,9 +21,18 @@ std::optional<std::string> rateFault(double value) {
     return fmt::format("must be 0 or at least {} Hz", kLeastRate);
 }
 
-void readCamera(TomlReader& file, const std::string& section, CameraConfig& camera) {
+/// `other`: the camera that was read before, or null.
+void readCamera(TomlReader& file, const std::string& section, CameraConfig& camera,
+                const CameraConfig* other) {
     file.choice<CameraDriver>(section + "driver", camera.driver, kDrivers);
-    file.text(section + "camera", camera.camera);
+    // A name that fits several cameras is refused at run time, so equal names are one camera.
+    file.text(section + "camera", camera.camera,
+              [&](std::string_view name) -> std::optional<std::string> {
+                  if (other == nullptr || name.empty() || name != other->camera ||
+                      camera.driver != other->driver)
+                      return std::nullopt;
+                  return "is already the camera of [cameras.video]";
+              });
     file.integer(section + "width", camera.size.width);
     file.integer(section + "height", camera.size.height);
     file.number(section + "rate_hz", camera.rateHz, rateFault);
@@ -60,8 +69,8 @@ void readCameras(TomlReader& file, CamerasConfig& cameras) {
     std::string calibration;
     file.text("cameras.calibration", calibration);
     cameras.calibration = calibration;
-    readCamera(file, "cameras.video.", cameras.video);
-    readCamera(file, "cameras.still.", cameras.still);
+    readCamera(file, "cameras.video.", cameras.video, nullptr);
+    readCamera(file, "cameras.still.", cameras.still, &cameras.video);
     readLine(file, cameras.trigger);
 }
 

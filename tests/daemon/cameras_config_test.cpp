@@ -82,6 +82,16 @@ TEST(CamerasConfig, OnlyTheStillCameraMayBeTriggered) {
                 HasSubstr("must be 0 or at least 0.01 Hz"));
 }
 
+TEST(CamerasConfig, OneCameraForBothSensorsIsRefused) {
+    const std::string video = "[cameras.video]\ncamera = \"a\"\n[cameras.still]\n";
+    EXPECT_EQ(configFaults(video + "camera = \"a\"\n"),
+              "test.toml:4:10: cameras.still.camera = \"a\": is already the camera of "
+              "[cameras.video]");
+    EXPECT_EQ(configFaults(video + "camera = \"b\"\n"), "");
+    EXPECT_EQ(configFaults(video + "driver = \"v4l2\"\ncamera = \"a\"\n"), "");
+    EXPECT_EQ(configFaults("[cameras.video]\ncamera = \"\"\n[cameras.still]\ncamera = \"\"\n"), "");
+}
+
 TEST(CamerasConfig, AFormatForALibcameraCameraIsRefused) {
     EXPECT_EQ(configFaults("[cameras.still]\nformat = \"auto\"\n"), "");
     EXPECT_THAT(configFaults("[cameras.still]\nformat = \"NV12\"\n"), HasSubstr("libcamera"));

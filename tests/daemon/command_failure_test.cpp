@@ -38,5 +38,12 @@ TEST(CommandFailure, OtherFaultsKeepTheMessageOfTheParser) {
     EXPECT_THAT(messageOf("status now"), HasSubstr("not expected: now"));
 }
 
+TEST(CommandFailure, ASnapshotWhoseNameIsNotThatOfAPngFileIsRefused) {
+    for (const char* name : {"first.jpg", "first", "first.png.part"})
+        EXPECT_THAT(messageOf(std::string("snapshot ") + name), HasSubstr("must end with .png"));
+    for (const char* name : {"first.png", "a/FIRST.PNG", "-", "/dev/stdout", "/dev/null"})
+        EXPECT_EQ(messageOf(std::string("snapshot ") + name), "") << name;
+}
+
 }  // namespace
 }  // namespace mfar

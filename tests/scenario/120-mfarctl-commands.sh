@@ -19,6 +19,8 @@ says err.ctl 'no mfard listens'
 refused 64 explode
 refused 64 record
 refused 64
+refused 64 snapshot picture.jpg
+says err.ctl 'must end with .png'
 
 printf '[trigger]\nmode = "off"\n[superres]\nmode = "off"\n' >mfard.toml
 start --config mfard.toml --source synthetic:flat,rest --display png:frames --control control \
