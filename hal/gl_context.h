@@ -39,7 +39,7 @@ enum class GlDevice : std::uint8_t {
 };
 
 /// Creates a context and makes it current on the calling thread. Throws std::runtime_error with the
-/// name of the missing library or feature.
+/// name of the missing library or feature, or if MFAR_GL_DEVICE has another value than "software".
 [[nodiscard]] std::unique_ptr<GlContext> createGlContext(GlDevice device = GlDevice::Preferred);
 
 }  // namespace mfar

@@ -114,14 +114,20 @@ OpenedDisplay openDisplay(bool software) {
         "installed, and may this user read and write /dev/dri/renderD*?");
 }
 
+bool isSoftwareWanted() {
+    const char* value = std::getenv("MFAR_GL_DEVICE");
+    if (value == nullptr || *value == '\0') return false;
+    if (std::strcmp(value, "software") == 0) return true;
+    throw std::runtime_error("the environment variable MFAR_GL_DEVICE is \"" + std::string(value) +
+                             "\", but its only valid value is \"software\"");
+}
+
 OpenedDisplay sharedDisplay(GlDevice device) {
     static std::mutex mutex;
     static std::array<OpenedDisplay, 2> all{{{EGL_NO_DISPLAY, ""}, {EGL_NO_DISPLAY, ""}}};
     const std::lock_guard lock(mutex);
     [[maybe_unused]] static const bool areLoaded = (loadGlLibraries(), true);
-    const char* wanted = std::getenv("MFAR_GL_DEVICE");
-    const bool software =
-        device == GlDevice::Software || (wanted != nullptr && std::strcmp(wanted, "software") == 0);
+    const bool software = isSoftwareWanted() || device == GlDevice::Software;
     OpenedDisplay& opened = all[software ? 1 : 0];
     if (opened.display == EGL_NO_DISPLAY) opened = openDisplay(software);
     return opened;

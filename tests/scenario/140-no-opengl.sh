@@ -6,6 +6,16 @@
 record take 3 --source synthetic:flat --display none
 run 0 --recording take --size 1152x864 --frames 2 --engine simd --display png:with
 
+echo "a wrong value of MFAR_GL_DEVICE is reported"
+fault='MFAR_GL_DEVICE is "sofware", but its only valid value is "software"'
+for needing in "--recording take --engine gles" "--source synthetic:flat"; do
+    # shellcheck disable=SC2086 # $needing is a list of words
+    MFAR_GL_DEVICE=sofware run 69 $needing --frames 1 --display none
+    says err "error: .*$fault"
+done
+MFAR_GL_DEVICE=sofware run 0 --recording take --frames 1 --display none
+says err "warning: .*$fault"
+
 # The dynamic linker loads the first file with a library's name. Here this file is empty, so loading fails.
 mkdir hidden
 for library in libEGL.so.1 libGLESv2.so.2; do
