@@ -6,6 +6,7 @@ record run 4 --source synthetic:flat,pan
 run 0 --recording run --display png:shown --summary summary.json
 frames=$(grep -vc '^#' run/cam0/data.csv)
 [ "$frames" = 4 ] || fail "$frames frames were recorded instead of 4"
+says err '4 pictures in [0-9.]+ s, [0-9.]+ fps: end of the source'
 summary_has frames 4
 summary_has mailbox 0
 summary_has exit_reason '"end of the source"'
