@@ -191,7 +191,7 @@ void App::endControl() {
 bool App::writeResults(const std::string& reason, ExitCode code) {
     const nlohmann::ordered_json all = results(reason, static_cast<int>(code));
     // systemd writes the end of a service to the journal itself.
-    if (log_.style() != Log::Style::Journal)
+    if (code == ExitCode::Ok && log_.style() != Log::Style::Journal)
         log_.notice(fmt::format("{} pictures in {:.1f} s, {:.1f} fps: {}",
                                 all["frames"].get<std::uint64_t>(), all["seconds"].get<double>(),
                                 all["fps"].get<double>(), reason));

@@ -50,8 +50,11 @@ UnitPose restingPose(const RigidTransform& T_camera_video, const Pose& other, co
     UnitPose moving = unitPose(T_camera_video, other, frame);
     const RigidTransform T_other_frame = other.T_world_video.inverse() * frame.T_world_video;
     const Vector6 apart = logarithm(T_other_frame);
-    const Matrix6 covariance = relativeCovariance(other, frame, T_camera_video.translation.norm());
-    if (!(apart.dot(covariance.ldlt().solve(apart)) < kSamePose)) return moving;
+    // Without a baseline between the cameras, exact poses have a singular covariance.
+    const Eigen::LLT<Matrix6> covariance(
+        relativeCovariance(other, frame, T_camera_video.translation.norm()));
+    if (covariance.info() != Eigen::Success || !(apart.dot(covariance.solve(apart)) < kSamePose))
+        return moving;
     const Pose same{frame.time, {}};
     return unitPose(T_camera_video, same, same);
 }

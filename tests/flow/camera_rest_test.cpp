@@ -34,10 +34,11 @@ TEST(CameraRest, APersonInFrontOfARestingCameraDoesNotMoveIt) {
     rest.add(tilesWith(100), kStructure, frameTime(0));
     for (int i = 1; i < 200; ++i)
         rest.add(tilesWith(20), kStructure, frameTime(i));
-    EXPECT_TRUE(rest.restedSince(frameTime(0)));
+    EXPECT_FALSE(rest.restedSince(frameTime(0)));
+    EXPECT_TRUE(rest.restedSince(frameTime(1)));
     rest.add(tilesWith(30), kStructure, frameTime(200));
-    EXPECT_FALSE(rest.restedSince(frameTime(199)));
-    EXPECT_TRUE(rest.restedSince(frameTime(200)));
+    EXPECT_FALSE(rest.restedSince(frameTime(200)));
+    EXPECT_TRUE(rest.restedSince(frameTime(201)));
 }
 
 TEST(CameraRest, TilesThatChangeOneAfterTheOtherShowASlowMotion) {
@@ -48,7 +49,7 @@ TEST(CameraRest, TilesThatChangeOneAfterTheOtherShowASlowMotion) {
         tiles[static_cast<std::size_t>(i)].changed = true;
         rest.add(tiles, kStructure, frameTime(i));
     }
-    EXPECT_FALSE(rest.restedSince(frameTime(0)));
+    EXPECT_FALSE(rest.restedSince(frameTime(1)));
 }
 
 TEST(CameraRest, WithoutStructureNothingShowsThatTheCameraRests) {
@@ -58,7 +59,7 @@ TEST(CameraRest, WithoutStructureNothingShowsThatTheCameraRests) {
         tiles[i].structure = 0;
     rest.add(tiles, kStructure, frameTime(0));
     rest.add(tiles, kStructure, frameTime(1));
-    EXPECT_FALSE(rest.restedSince(frameTime(1)));
+    EXPECT_FALSE(rest.restedSince(frameTime(2)));
 }
 
 test::Scene panels() {
@@ -97,7 +98,7 @@ int framesAtRest(double step, double sigma, int frames) {
         const RgbPlanes now = noisy(panels().render(videoCamera(), T_camera_start), sigma, random);
         plan.update(now, drawn, i == 0);
         rest.add(plan.measured(), plan.leastStructure(), frameTime(i));
-        if (!rest.restedSince(frameTime(0))) return i;
+        if (!rest.restedSince(frameTime(1))) return i;
         for (int t = 0; t < static_cast<int>(plan.work().flags.size()); ++t)
             if (plan.work().flags[static_cast<std::size_t>(t)].changed != 0)
                 drawn.takeTile(now, t % plan.tileCount().width, t / plan.tileCount().width);
@@ -144,8 +145,10 @@ TEST(RestingPose, PosesThatAreSurelyApartAreUsed) {
     const Pose frame = trackedAt(test::motion({0, 0, 0}, {0.05, 0, 0}));
     EXPECT_EQ(restingPose(T_still_video, still, frame).unit,
               unitPose(T_still_video, still, frame).unit);
-    // Nothing is known of the length of a baseline of 0.
-    EXPECT_EQ(restingPose({}, trackedAt({}), frame).unit, unitPose({}, trackedAt({}), frame).unit);
+    EXPECT_EQ(restingPose({}, still, frame).unit, unitPose({}, still, frame).unit);
+    Pose exact;
+    exact.T_world_video = frame.T_world_video;
+    EXPECT_EQ(restingPose({}, {}, exact).unit, unitPose({}, {}, exact).unit);
 }
 
 }  // namespace

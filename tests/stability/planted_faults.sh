@@ -77,8 +77,8 @@ inHost() {
 }
 
 hostFaults() {
-    inHost pipeline/depth/depth_filter.cpp 'if (InverseDepthField::isSound(measured.inverseDepth[i], measured.variance[i]))' \
-        '' 'missing check for invalid measurements' depth-filter
+    inHost pipeline/depth/depth_filter.cpp 'InverseDepthField::isSound(measured.inverseDepth[i], measured.variance[i]))' \
+        'true)' 'missing check for invalid measurements' depth-filter
     inHost pipeline/depth/edge_snap.cpp 'const bool sound = InverseDepthField::isSound(in.inverseDepth[i], in.variance[i]);' \
         'const bool sound = true;' 'missing check for invalid depth' edges
     inHost pipeline/epipolar/epipolar_search.cpp 'return label > -kBeyond ? std::min(label, longest) : static_cast<float>(-kBeyond);' \
