@@ -15,6 +15,7 @@ constexpr double kLeastStructured = 0.1;
 void CameraRest::add(const std::vector<TileMeasure>& tiles, double leastStructure, Timestamp time) {
     changed_.resize(tiles.size(), kNever);
     ++frame_;
+    last_ = time;
     int structured = 0, changed = 0;
     for (std::size_t i = 0; i < tiles.size(); ++i) {
         if (tiles[i].changed) changed_[i] = frame_;

@@ -17,14 +17,17 @@ public:
     /// Adds a frame. `tiles` are its measurements, see WorkPlan::measured(). A tile has structure
     /// if its TileMeasure::structure exceeds `leastStructure`.
     void add(const std::vector<TileMeasure>& tiles, double leastStructure, Timestamp time);
-    /// True if the camera has rested from time `t` to the last frame, and at least one frame before
-    /// `t` shows the same view. False if the picture has too little structure to show a motion.
-    [[nodiscard]] bool restedSince(Timestamp t) const { return since_ && *since_ < t; }
+    /// True if the camera rested at time `t` and has rested since then: frames before and after `t`
+    /// show the same view. False if the picture has too little structure to show a motion.
+    [[nodiscard]] bool restedSince(Timestamp t) const {
+        return since_ && *since_ < t && t <= last_;
+    }
 
 private:
     long frame_ = 0;
-    std::vector<long> changed_;  // for each tile: the last frame in which it changed
+    std::vector<long> changed_;       // for each tile: the last frame in which it changed
     std::optional<Timestamp> since_;  // time of the first frame since which the camera rests
+    Timestamp last_;                  // time of the last frame
 };
 
 }  // namespace mfar
