@@ -103,13 +103,13 @@ void writeWholeFiles(std::span<const NewFile> files) {
     std::vector<NewFile> targets(files.begin(), files.end());
     for (NewFile& one : targets)
         if (!isDevice(one.file)) one.file = replacedBy(one.file);
-    const auto run = [&targets](const auto& step) {
-        for (const NewFile& one : targets) {
-            const int error = step(one);
+    const auto run = [&](const auto& step) {
+        for (std::size_t i = 0; i < targets.size(); ++i) {
+            const int error = step(targets[i]);
             if (error == 0) continue;
             for (const NewFile& each : targets)
                 unlink(partOf(each.file).c_str());
-            check(one.file, error);
+            check(files[i].file, error);
         }
     };
     run([](const NewFile& one) {

@@ -169,7 +169,8 @@ const FrameResult& Pipeline::run(const ImageView& video, Timestamp time,
 
     const PixelRect decides = s.placeObjects(pose, time);
     const TileWork& work = s.planFrame(frame);
-    s.rest.add(s.plan.measured(), s.plan.leastStructure(), time);
+    s.rest.add(s.plan.measured(), s.plan.leastStructure(),
+               s.plan.redrawnShare() - s.plan.changedShare(), time);
     const bool usesStill = s.newest.pictures != nullptr && s.quality.mode != SuperResMode::Off;
     const bool usesPose =
         usesStill && s.quality.alongLines && pose && s.epipolar && s.epipolar->matches(*pose);

@@ -85,7 +85,9 @@ void DepthStage::run(const Rows<const std::uint8_t>& luma, const Pose& pose,
 
 void DepthStage::forget(const PixelRect& where) {
     filter_.forget(where);
-    isLost_ = true;
+    // Outside of the measured rectangle, no depth is needed. If it is needed later, the rectangle
+    // grows, and its new part is measured anyway.
+    isLost_ = isLost_ || !common(where, measuredWhere_).empty();
 }
 
 // True if the view differs from the view of the last measurement.

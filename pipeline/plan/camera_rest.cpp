@@ -7,12 +7,17 @@ constexpr long kMemory = 64;  // number of frames for which a change of a tile i
 constexpr long kNever = -kMemory;
 // Largest share of the tiles with structure that may change while the camera rests.
 constexpr double kMostChanged = 0.25;
+// Largest number of recent frames that draw most tiles. New stills cause fewer, at two per second.
+constexpr double kMostRenewals = 6;
 // Smallest share of tiles with structure with which a motion of the camera is noticed.
 constexpr double kLeastStructured = 0.1;
 
 }  // namespace
 
-void CameraRest::add(const std::vector<TileMeasure>& tiles, double leastStructure, Timestamp time) {
+void CameraRest::add(const std::vector<TileMeasure>& tiles, double leastStructure,
+                     double renewedShare, Timestamp time) {
+    renewals_ *= 1 - 1.0 / kMemory;
+    if (renewedShare > kMostChanged) ++renewals_;
     changed_.resize(tiles.size(), kNever);
     ++frame_;
     last_ = time;
@@ -25,7 +30,7 @@ void CameraRest::add(const std::vector<TileMeasure>& tiles, double leastStructur
     }
     if (!(structured > kLeastStructured * static_cast<double>(tiles.size()))) {
         since_.reset();
-    } else if (!since_ || changed > kMostChanged * structured) {
+    } else if (!since_ || changed > kMostChanged * structured || renewals_ > kMostRenewals) {
         since_ = time;
         changed_.assign(tiles.size(), kNever);
     }

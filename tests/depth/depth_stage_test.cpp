@@ -229,6 +229,17 @@ TEST(DepthStage, AtRestForgottenDepthIsMeasuredAgain) {
     expectGood(walk.errors());
 }
 
+TEST(DepthStage, AtRestMotionBesideTheMeasuredRectangleCostsNoMeasurement) {
+    Walk walk;
+    walk.measureIn({40, 20, 200, 160});
+    walk.stage().renew();
+    walk.rest();
+    ASSERT_EQ(walk.stage().source(), DepthSource::Still);
+    walk.stage().forget(PixelRect{208, 80, 224, 96});
+    walk.rest();
+    EXPECT_EQ(walk.stage().source(), DepthSource::Carried);
+}
+
 TEST(DepthStage, AtRestAMovingRectangleDoesNotReduceTheVarianceOfKnownDepth) {
     Walk walk;
     walk.measureIn({40, 20, 200, 160});

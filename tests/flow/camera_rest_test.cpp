@@ -31,25 +31,25 @@ std::vector<TileMeasure> tilesWith(int changed) {
 
 TEST(CameraRest, APersonInFrontOfARestingCameraDoesNotMoveIt) {
     CameraRest rest;
-    rest.add(tilesWith(100), kStructure, frameTime(0));
+    rest.add(tilesWith(100), kStructure, 0, frameTime(0));
     for (int i = 1; i < 200; ++i)
-        rest.add(tilesWith(20), kStructure, frameTime(i));
+        rest.add(tilesWith(20), kStructure, 0, frameTime(i));
     EXPECT_FALSE(rest.restedSince(frameTime(0)));
     EXPECT_TRUE(rest.restedSince(frameTime(1)));
-    rest.add(tilesWith(30), kStructure, frameTime(200));
+    rest.add(tilesWith(30), kStructure, 0, frameTime(200));
     EXPECT_FALSE(rest.restedSince(frameTime(200)));
-    rest.add(tilesWith(0), kStructure, frameTime(202));
+    rest.add(tilesWith(0), kStructure, 0, frameTime(202));
     EXPECT_TRUE(rest.restedSince(frameTime(201)));
     EXPECT_FALSE(rest.restedSince(frameTime(203))) << "no frame shows yet where the camera is";
 }
 
 TEST(CameraRest, TilesThatChangeOneAfterTheOtherShowASlowMotion) {
     CameraRest rest;
-    rest.add(tilesWith(0), kStructure, frameTime(0));
+    rest.add(tilesWith(0), kStructure, 0, frameTime(0));
     for (int i = 1; i <= 30; ++i) {
         std::vector<TileMeasure> tiles = tilesWith(0);
         tiles[static_cast<std::size_t>(i)].changed = true;
-        rest.add(tiles, kStructure, frameTime(i));
+        rest.add(tiles, kStructure, 0, frameTime(i));
     }
     EXPECT_FALSE(rest.restedSince(frameTime(1)));
 }
@@ -59,8 +59,8 @@ TEST(CameraRest, WithoutStructureNothingShowsThatTheCameraRests) {
     std::vector<TileMeasure> tiles = tilesWith(0);
     for (std::size_t i = 5; i < tiles.size(); ++i)
         tiles[i].structure = 0;
-    rest.add(tiles, kStructure, frameTime(0));
-    rest.add(tiles, kStructure, frameTime(1));
+    rest.add(tiles, kStructure, 0, frameTime(0));
+    rest.add(tiles, kStructure, 0, frameTime(1));
     EXPECT_FALSE(rest.restedSince(frameTime(1)));
 }
 
@@ -90,7 +90,7 @@ RgbPlanes noisy(const LumaImage& light, double sigma, std::mt19937& random) {
 
 /// Plans frames of a camera that moves sideways by `step` [m] per frame. Returns the first frame
 /// after which the camera does not count as resting since the start, or `frames`.
-int framesAtRest(double step, double sigma, int frames) {
+int framesAtRest(double step, double sigma, int frames, bool drawsAll = false) {
     std::mt19937 random(7);
     WorkPlan plan(videoCamera().size);
     CameraRest rest;
@@ -98,8 +98,9 @@ int framesAtRest(double step, double sigma, int frames) {
     for (int i = 0; i < frames; ++i) {
         const RigidTransform T_camera_start = test::motion({0, 0, 0}, {step * i, 0, 0});
         const RgbPlanes now = noisy(panels().render(videoCamera(), T_camera_start), sigma, random);
-        plan.update(now, drawn, i == 0);
-        rest.add(plan.measured(), plan.leastStructure(), frameTime(i));
+        plan.update(now, drawn, i == 0 || drawsAll);
+        rest.add(plan.measured(), plan.leastStructure(), plan.redrawnShare() - plan.changedShare(),
+                 frameTime(i));
         if (i > 0 && !rest.restedSince(frameTime(1))) return i;
         for (int t = 0; t < static_cast<int>(plan.work().flags.size()); ++t)
             if (plan.work().flags[static_cast<std::size_t>(t)].changed != 0)
@@ -119,6 +120,17 @@ TEST(CameraRest, AMotionOfHalfAPixelIsNoticed) {
         for (const double sigma : {0.5, 2.0})
             EXPECT_LT(framesAtRest(pixelsPerFrame / 125, sigma, 100) * pixelsPerFrame, 0.6)
                 << pixelsPerFrame << " px per frame, noise " << sigma;
+}
+
+TEST(CameraRest, ASlowMotionIsNoticedAlsoIfEveryFrameIsDrawn) {
+    EXPECT_LT(framesAtRest(0.1 / 125, 1, 100, true), 12);
+}
+
+TEST(CameraRest, NewStillsDoNotMoveTheCamera) {
+    CameraRest rest;
+    for (int i = 0; i < 300; ++i)
+        rest.add(tilesWith(0), kStructure, i % 15 == 0 ? 1 : 0, frameTime(i));
+    EXPECT_TRUE(rest.restedSince(frameTime(1)));
 }
 
 /// A pose with standard deviations of 0.1 degrees and 3 mm.
