@@ -99,10 +99,11 @@ void PulseTrigger::end() {
     const Timestamp endDriven = Timestamp::now();
     try {
         line_->set(false);
-        if (loopback_) measure(endDriven);
     } catch (const std::runtime_error& error) {
         failure_ = error.what();
+        return;
     }
+    if (loopback_) measure(endDriven);
 }
 
 /// Returns nothing if the loopback line cannot be read, e.g. because its chip is unplugged. The

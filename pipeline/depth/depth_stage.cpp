@@ -60,22 +60,23 @@ void DepthStage::run(const Rows<const std::uint8_t>& luma, const Pose& pose,
     source_ = before.share < 1 ? DepthSource::Carried : DepthSource::None;
     const double brightness = brightnessOf(luma);
     const bool moved = hasMoved(pose, before.inverseDepth);
-    if (!where.empty() && (moved || isRenewed_ || !isMeasured(where))) {
+    const bool rechecks = !moved && isRenewed_;  // a new still shows the same view once more
+    if (!where.empty() && (moved || rechecks || !isMeasured(where))) {
         fixed_.clear();
-        if (!moved && !isRenewed_) fixKnown(where);
+        if (!moved && !rechecks) fixKnown(where);
         if (still && still->search.pixelsPerUnit() > 0 && still->lengthError < kMostLengthError) {
             measurement_.run(still->search, still->R_still_video, still->unit, still->cells, where,
                              measured_);
-            if (!moved && isRenewed_) filter_.forgetContradicted(measured_, where);
+            if (rechecks) filter_.forgetContradicted(measured_, where);
             filter_.fuse(measured_, where, fixed_);
             source_ = DepthSource::Still;
         }
         // A new still brings new evidence at rest, a keyframe does not.
-        if (!moved && isRenewed_) fixKnown(where);
+        if (rechecks) fixKnown(where);
         findNeeds(pose, brightness, source_ == DepthSource::Still ? still->unit : 0, where);
         searchKeyframe(luma, pose);
         if (source_ != DepthSource::None && source_ != DepthSource::Carried) {
-            if (moved || isRenewed_) measuredPose_ = pose.T_world_video;
+            if (moved || rechecks) measuredPose_ = pose.T_world_video;
             measuredWhere_ = where;
             isRenewed_ = isLost_ = false;
         }

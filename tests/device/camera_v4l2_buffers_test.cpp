@@ -236,13 +236,17 @@ TEST(CameraV4l2Buffers, PlanesMayBeginAfterTheStartOfTheirMemory) {
     EXPECT_EQ(camera.cameraCounters().broken, 1U);
 }
 
+std::vector<std::uint8_t> whiteJpeg() {
+    const std::vector<std::uint8_t> white(3UL * kPicture.width * kPicture.height, 255);
+    return test::jpegOf(white, kPicture, TJSAMP_422);
+}
+
 TEST(CameraV4l2Buffers, JpegsAreDecoded) {
     FakeV4l2 fake;
     fake.formats = {{V4L2_PIX_FMT_MJPEG, {kPicture}}};
     CameraV4l2 camera(fourBuffers(), fake);
     camera.start();
-    const std::vector<std::uint8_t> white(3UL * kPicture.width * kPicture.height, 255);
-    const std::vector<std::uint8_t> jpeg = test::jpegOf(white, kPicture, TJSAMP_422);
+    const std::vector<std::uint8_t> jpeg = whiteJpeg();
     const Timestamp before = Timestamp::now();
     fake.deliver({.jpeg = jpeg});
     const auto frame = camera.next(1s);
@@ -262,8 +266,7 @@ TEST(CameraV4l2Buffers, AJpegForWhichNoBufferIsFreeCountsAsMissedAndNotAsBroken)
     fake.formats = {{V4L2_PIX_FMT_MJPEG, {kPicture}}};
     CameraV4l2 camera(fourBuffers(), fake);
     camera.start();
-    const std::vector<std::uint8_t> white(3UL * kPicture.width * kPicture.height, 255);
-    const std::vector<std::uint8_t> jpeg = test::jpegOf(white, kPicture, TJSAMP_422);
+    const std::vector<std::uint8_t> jpeg = whiteJpeg();
     std::vector<Frame> held;
     for (int i = 0; i < 4; ++i) {
         ASSERT_TRUE(fake.deliver({.ageMs = 50 - i, .jpeg = jpeg}));
