@@ -229,7 +229,7 @@ TEST(DepthStage, AtRestForgottenDepthIsMeasuredAgain) {
     expectGood(walk.errors());
 }
 
-TEST(DepthStage, AtRestMotionBesideTheMeasuredRectangleCostsNoMeasurement) {
+TEST(DepthStage, AtRestForgottenDepthBesideTheMeasuredRectangleCausesNoMeasurement) {
     Walk walk;
     walk.measureIn({40, 20, 200, 160});
     walk.stage().renew();
@@ -260,7 +260,7 @@ TEST(DepthStage, AtRestAMovingRectangleDoesNotReduceTheVarianceOfKnownDepth) {
     EXPECT_GT(walk.known({24, 40, 40, 140}), 0.8 * 16 * 100) << "new parts are measured";
 }
 
-TEST(DepthStage, WhatTheStillDoesNotShowHasNoDepth) {
+TEST(DepthStage, MostPixelsThatTheStillDoesNotShowHaveNoDepth) {
     const CameraModel video = barrelCamera();
     const StereoRig rig{video, {{480, 360}, 640, 643, 241, 178, {}}, {}};
     const Scene scene = panelScene();
@@ -284,7 +284,7 @@ TEST(DepthStage, WhatTheStillDoesNotShowHasNoDepth) {
             (isSeen ? seenKnown : unseenKnown) += isKnown ? 1 : 0;
         }
     EXPECT_GT(seenKnown, 0.65 * seen);
-    EXPECT_LT(unseenKnown, 0.25 * unseen) << "0.6 if the still's border is not heeded";
+    EXPECT_LT(unseenKnown, 0.25 * unseen) << "the share is 0.6 if the still's border is ignored";
 }
 
 TEST(DepthStage, DepthIsForgottenOnRequest) {
