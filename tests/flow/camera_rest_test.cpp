@@ -29,7 +29,7 @@ std::vector<TileMeasure> tilesWith(int changed) {
     return out;
 }
 
-TEST(CameraRest, APersonInFrontOfARestingCameraDoesNotMoveIt) {
+TEST(CameraRest, APersonInFrontOfARestingCameraDoesNotCountAsMotion) {
     CameraRest rest;
     rest.add(tilesWith(100), kStructure, 0, frameTime(0));
     for (int i = 1; i < 200; ++i)
@@ -40,7 +40,8 @@ TEST(CameraRest, APersonInFrontOfARestingCameraDoesNotMoveIt) {
     EXPECT_FALSE(rest.restedSince(frameTime(200)));
     rest.add(tilesWith(0), kStructure, 0, frameTime(202));
     EXPECT_TRUE(rest.restedSince(frameTime(201)));
-    EXPECT_FALSE(rest.restedSince(frameTime(203))) << "no frame shows yet where the camera is";
+    EXPECT_FALSE(rest.restedSince(frameTime(203)))
+        << "no frame shows yet whether the camera rests then";
 }
 
 TEST(CameraRest, TilesThatChangeOneAfterTheOtherShowASlowMotion) {
@@ -89,7 +90,8 @@ RgbPlanes noisy(const LumaImage& light, double sigma, std::mt19937& random) {
 }
 
 /// Plans frames of a camera that moves sideways by `step` [m] per frame. Returns the first frame
-/// after which the camera does not count as resting since the start, or `frames`.
+/// after which the camera does not count as resting since the start, or `frames`. `drawsAll`: every
+/// frame is drawn as a whole.
 int framesAtRest(double step, double sigma, int frames, bool drawsAll = false) {
     std::mt19937 random(7);
     WorkPlan plan(videoCamera().size);
@@ -109,7 +111,7 @@ int framesAtRest(double step, double sigma, int frames, bool drawsAll = false) {
     return frames;
 }
 
-TEST(CameraRest, NoiseIsNoMotion) {
+TEST(CameraRest, NoiseDoesNotCountAsMotion) {
     for (const double sigma : {0.5, 2.0})
         EXPECT_EQ(framesAtRest(0, sigma, 60), 60) << sigma;
 }
@@ -126,7 +128,7 @@ TEST(CameraRest, ASlowMotionIsNoticedAlsoIfEveryFrameIsDrawn) {
     EXPECT_LT(framesAtRest(0.1 / 125, 1, 100, true), 12);
 }
 
-TEST(CameraRest, NewStillsDoNotMoveTheCamera) {
+TEST(CameraRest, TilesDrawnForNewStillsDoNotCountAsMotion) {
     CameraRest rest;
     for (int i = 0; i < 300; ++i)
         rest.add(tilesWith(0), kStructure, i % 15 == 0 ? 1 : 0, frameTime(i));

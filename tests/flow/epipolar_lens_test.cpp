@@ -133,7 +133,7 @@ TEST(EpipolarLens, ProjectionNeverFoldsBack) {
     }
 }
 
-TEST(EpipolarLens, RaysFarBesideThePictureStayOutsideIt) {
+TEST(EpipolarLens, RaysBeyondTheCornersStayOutsideThePicture) {
     for (const CameraModel& camera :
          {test::oddPlain(), test::oddBarrel(), pincushion(), fisheye()}) {
         const EpipolarLens lens(camera, 0);

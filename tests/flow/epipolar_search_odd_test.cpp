@@ -131,7 +131,7 @@ TEST(EpipolarSearchOdd, PosesWithoutOverlapAreRefused) {
     }
 }
 
-TEST(EpipolarSearchOdd, EveryRotationGivesAFiniteResultOrNone) {
+TEST(EpipolarSearchOdd, EveryRotationGivesAFiniteResultOrIsRefused) {
     const CameraModel camera = barrelOf({120, 90});
     const LumaImage picture = scene().render(camera, {});
     EpipolarSearch search = test::searchWith(camera, 2);
@@ -149,7 +149,7 @@ TEST(EpipolarSearchOdd, EveryRotationGivesAFiniteResultOrNone) {
     EXPECT_GT(searched, 10);
 }
 
-TEST(EpipolarSearchOdd, NonFinitePosesGiveNoParallax) {
+TEST(EpipolarSearchOdd, NonFinitePosesAreRefusedOrGiveNoParallax) {
     constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     const CameraModel camera = cameraOf({120, 90});

@@ -154,8 +154,8 @@ TEST(Smooth, AppliesTheSeparableMaskWithTheBorderRepeated) {
                         for (int i = -1; i <= 1; ++i)
                             sum += (i == 0 ? 1 - 2.0 * side : side) *
                                    (j == 0 ? 1 - 2.0 * side : side) * clampedAt(in, x + i, y + j);
-                    // Tolerance: weights are rounded to 1/256, an error of up to 0.002 in each
-                    // direction.
+                    // Tolerance: the side weights are rounded to 1/256 and have errors of up to
+                    // 0.002. Along each axis, this changes a pixel by up to 255 * 2 * 0.002.
                     ASSERT_NEAR(out.row(y)[x], sum, 0.5 + 255 * 4 * 0.002) << side;
                 }
             }

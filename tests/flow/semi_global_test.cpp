@@ -147,8 +147,8 @@ TEST(SemiGlobal, MatchesTheOracleWithSeveralSimdVectorsOfLabels) {
             expectTwin(randomProblem({33, 19}, vectors, reach, 10 + vectors));
 }
 
-// Sums of path costs are largest if each cost is zero or the maximum and penalties are at their
-// upper limits.
+// Sums of path costs are largest if each cost is zero or the maximum and Smoothness::jump is at its
+// upper limit.
 TEST(SemiGlobal, SumsOfPathCostsFitIntoBytes) {
     for (unsigned seed = 1; seed <= 3; ++seed) {
         Problem p = randomProblem({40, 40}, 1, 30, seed);
