@@ -102,7 +102,8 @@ TEST(EnlargerLearner, AToneCurveWithWhichStillsAreRefusedIsDropped) {
     EnlargerLearner learner = learned(darker, 2);
     const StillTone curve = learner.filters()->tone();
     ASSERT_FALSE(curve.isIdentity());
-    // The still has the video's exposure now. The curve makes most of it white.
+    // The exposure of the still now equals that of the video. So the curve makes most of the still
+    // white; here, all of it.
     const auto overexposed = [&](int seed) {
         MatchedPictures out = matchedPictures(sharpDiscs(seed), seeded({}, seed));
         for (int y = 0; y < out.still.size().height; ++y)
