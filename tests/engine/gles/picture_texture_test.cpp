@@ -27,7 +27,7 @@ double converted() {
 }
 
 // Tolerance: a bilinear filter with weights of 8 bits errs by up to one grey level in each chroma
-// channel.
+// channel. The conversion to RGB multiplies this error by up to 2.12.
 double chromaConverted() {
     return converted() + 2.2;
 }
@@ -187,7 +187,7 @@ TEST_F(PictureTexture, SharedMemoryIsReadWithoutACopy) {
     }
 }
 
-TEST_F(PictureTexture, MemoryOfRemovedCamerasIsReleased) {
+TEST_F(PictureTexture, OnlyTheNewestBuffersStayImported) {
     FakeImporter importer;
     gpu::PictureTexture picture;
     picture.setImporter(&importer);

@@ -50,7 +50,7 @@ TEST_F(PipelineFormats, GreyPicturesInEveryFormatGiveTheSameOutput) {
         }
 }
 
-TEST_F(PipelineFormats, ViewsThatCannotBeReadAreRefusedAndHarmNothing) {
+TEST_F(PipelineFormats, InvalidViewsAreRefusedAndTheNextFrameIsProcessed) {
     const PipelineCase c;
     const PaddedPicture video(PixelFormat::Nv12, c.rig.video.size, 1);
     ImageView noChroma = video.view(), shortRows = video.view();

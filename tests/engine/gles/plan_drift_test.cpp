@@ -69,8 +69,8 @@ struct NoisySensor {
 };
 
 struct DriftOutcome {
-    double stale = 0;  ///< mean square error of tiles that were not drawn, minus the noise
-    double changed = 0;
+    double stale = 0;    ///< mean squared change of light since a tile was drawn [grey levels^2]
+    double changed = 0;  ///< mean share of the tiles that count as changed
 };
 
 /// Runs frames and draws the tiles that the plan marks. Counts only the frames after the first
@@ -132,7 +132,7 @@ TEST_F(PlanDrift, SlowChangesLeaveNoStaleTiles) {
         {"faster", slopes(25, 0.5)},
         {"hardly any contrast", slopes(8, 0.3)},
         {"brighter", brightening(0.02, false)},
-        {"soon brighter", brightening(0.2, false)}};
+        {"quickly brighter", brightening(0.2, false)}};
     for (const double sigma : {0.5, 2.0})
         for (const auto& [name, scene] : scenes)
             EXPECT_LT(watch(scene, {sigma}, 4, 12).stale, 0.03 * (sigma * sigma + 1.0 / 12))

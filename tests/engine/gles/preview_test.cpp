@@ -106,8 +106,8 @@ TEST_F(Preview, SurfacesAroundAndBehindTheCameraAreDrawnCorrectly) {
     folding.fx = folding.fy = 130;
     folding.distortion = {-0.17, 0, 0, 0, 0};
     // The surfaces are a wall beside the camera, a wall 13 mm from the camera, and a floor that
-    // begins behind the camera. The tolerance is 5 %, because surfaces are drawn as flat cells that
-    // are as wide as a quarter of their distance. The lens would bend such a cell by a few percent.
+    // begins behind the camera. The tolerance is 5 %, because surfaces are drawn as flat cells. So
+    // near the camera, the lens would bend such a cell by a few percent.
     for (const CameraModel& camera : {lens(), folding}) {
         PreviewRenderer renderer(camera, kOutput);
         for (const VirtualObject& o : inWorld({

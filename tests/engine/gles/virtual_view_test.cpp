@@ -61,7 +61,7 @@ protected:
     static RigidTransform above(double x) {
         return {Eigen::Quaterniond(0, 1, 0, 0), {x, 0, kTable}};
     }
-    /// Largest coverage of a pixel by the virtual layer [grey levels of 255].
+    /// Largest alpha of a pixel of the virtual layer, 0 to 255.
     std::uint8_t darkest(const RigidTransform& T_world_video) {
         const std::vector<std::uint8_t> rgba =
             test::bytesOf(view_->traced()->render(T_world_video).colour);

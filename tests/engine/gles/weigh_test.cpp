@@ -99,8 +99,8 @@ twin::Cells constantCells(Size size, std::array<float, 4> value) {
     return out;
 }
 
-// The squared correlation of video and still is a half. Uniform flow then has the full weight;
-// changing flow has a quarter of the weight.
+// The squared correlation of video and still is a half. Changing flow then has about a quarter of
+// the weight of uniform flow.
 TEST_F(Weigh, ChangingFlowLowersTheWeightOfAnImperfectMatch) {
     const twin::Cells half = constantCells(kHalf, {0, 0, 0, 0});
     const twin::Cells matched = constantCells(kWhole, {7.07e4F, 1e5F, 1e5F, 1});
