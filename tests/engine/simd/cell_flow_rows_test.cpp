@@ -105,7 +105,7 @@ TEST(CellLandings, FlowEndsInTheNearestCell) {
     }
 }
 
-TEST(CellsHidden, CellsBehindANearerCellAtTheSamePixelAreOccluded) {
+TEST(CellsHidden, CellsBehindANearerCellWithTheSameLandingAreOccluded) {
     for (const std::size_t count : test::kLengths) {
         const auto landing = test::randomValues<std::int32_t>(count, -1.99, 4.9, 1);  // -1 to 4
         const Row nearest = test::randomValues<float>(5, 0, 1, 2),

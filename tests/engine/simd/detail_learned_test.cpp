@@ -71,7 +71,7 @@ TEST(DetailStepLearned, TilesWithoutStructureAreNotEnlargedByFilters) {
         }
 }
 
-// The weight is 1 in all cells except one, which is the left neighbour of a tile. Only the tiles
+// The weight is 1 in all cells except one, which lies at the right edge of its tile. Only the tiles
 // around this cell need the filters.
 TEST(DetailStepLearned, TilesWhoseWeightsAreAllOneMatchTheOracle) {
     const Size output{576, 432};

@@ -42,6 +42,7 @@ TEST(FilterBank, MirroringMapsAllGradientBinsOntoAQuarterOfThem) {
     for (const int bins : {8, 16})
         for (int bin = 0; bin < bins; ++bin) {
             const Symmetry same = Symmetry::of(bin, bins);
+            EXPECT_LT(same.unique, bins / 4) << bin;
             const double angle = ((bin + 0.5) / bins - 0.5) * 3.14159265358979;
             // The direction in the centre of the bin. It is mirrored like the pixels of the bin.
             double x = std::cos(angle), y = std::sin(angle);

@@ -134,7 +134,12 @@ TEST(LumaPyramids, RaysBehindTheStillCameraGetTheValueOfTheBorder) {
     StereoRig rig = rigOf(video, video);
     rig.T_still_video.rotation = Eigen::AngleAxisd(3, Eigen::Vector3d::UnitY());
     LumaPyramids pyramids(video, twoWorkers());
-    pyramids.buildStill(FlowPicture(video, 91).rows(), rig, 1);
+    FlowPicture still(video, 10);
+    for (int y = 0; y < video.height; ++y)
+        for (int x = 0; x < video.width; ++x)
+            if (x == 0 || y == 0 || x == video.width - 1 || y == video.height - 1)
+                still.at(x, y) = 91;
+    pyramids.buildStill(still.rows(), rig, 1);
     const Stored level(pyramids, pyramids.still()[0]);
     for (int y = 0; y < video.height; ++y)
         for (int x = 0; x < video.width; ++x)

@@ -61,7 +61,7 @@ TEST(StillNoise, TextureIsNotNoise) {
     EXPECT_LT(measured(texture(), 6), 6.5);
 }
 
-TEST(StillNoise, CleanOrSmallStillsHaveNoNoise) {
+TEST(StillNoise, TheMeasuredNoiseOfCleanOrTinyStillsIsNearZero) {
     EXPECT_LT(measured(plainScene(), 0), 0.3);
     EXPECT_EQ(measured(plainScene({19, 300}), 5), 0);
     EXPECT_EQ(measured(plainScene({300, 19}), 5), 0);

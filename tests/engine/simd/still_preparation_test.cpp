@@ -165,8 +165,8 @@ TEST(StillPreparation, ConstantStillStaysConstant) {
     }
 }
 
-/// Luma of a Y U V picture, computed from R G B without clamping. Chroma is interpolated between
-/// the pixels that share it.
+/// Luma of a Y U V picture, computed from its R G B values before they are clamped. Chroma is
+/// interpolated between its samples.
 Grey lumaOfYuv(const ImageView& p) {
     const YuvToRgb rows = yuvToRgb(p.matrix, p.range);
     const bool packed = p.format == PixelFormat::Yuyv, pairs = p.format == PixelFormat::Nv12;
