@@ -34,8 +34,8 @@ public:
     }
 };
 
-/// Reduces the contrast, so that no value leaves a byte's range when sharpening overshoots: shaders
-/// would clamp it, but the oracle does not.
+/// Reduces the contrast, so that no value leaves a byte's range when the video is enlarged along
+/// columns: shaders would clamp it there, but the oracle does not.
 inline DetailCase withRoom(DetailCase frame) {
     for (std::vector<std::uint8_t>* pixels : {&frame.videoPixels, &frame.stillPixels})
         for (std::uint8_t& byte : *pixels)

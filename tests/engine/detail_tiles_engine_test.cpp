@@ -35,8 +35,9 @@ TEST_P(DetailTilesTest, DetailEndsExactlyAtTheEdgeOfTheGivenTiles) {
     EXPECT_NE(drawn[0], drawn[1]);
 }
 
-// The still's position (look-up) of every cell changes, but only some tiles are drawn. The drawn
-// tiles must equal those of a whole frame, although their detail depends on neighbouring tiles too.
+// The look-up (position in the still) of every cell changes, but only some tiles are drawn. The
+// drawn tiles must equal those of a whole frame, although their detail depends on neighbouring
+// tiles too.
 void expectOnlyChangedTiles(const StepEngines& engines, const simd::Sizes& sizes,
                             const FilterBank* filters) {
     const auto& [video, stillSize, output] = sizes;

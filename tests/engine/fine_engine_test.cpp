@@ -52,7 +52,7 @@ struct FineInput {
     [[nodiscard]] Rows<const LookUpCell> lookUps() const {
         return {frame.lookUps.data(), frame.cells.width, frame.cells};
     }
-    /// The flow is even in the left third, bent but linear in the middle third, and curved in the
+    /// The flow is constant in the left third, linear in x in the middle third, and curved in the
     /// right third.
     [[nodiscard]] double flowAt(int x) const {
         const double third = frame.cells.width / 3.0;

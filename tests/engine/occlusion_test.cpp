@@ -194,9 +194,9 @@ TEST_P(OcclusionTest, OptionsOutOfRangeAreRefused) {
     }
 }
 
-/// A near object to the left of a straight edge. The edge runs through (26.3, 18) at an angle.
+/// A near object to the left of a straight edge through (26.3, 18) [video px].
 struct EdgeScene {
-    double degrees;
+    double degrees;        ///< angle between the edge and a column
     double contrast = 90;  ///< difference across the edge [grey levels]
     Size coarse, fine;
 

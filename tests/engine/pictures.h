@@ -48,7 +48,7 @@ void addNoise(TestPicture& picture, double sigma, unsigned seed);
 [[nodiscard]] double psnr(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b);
 
 [[nodiscard]] StereoRig plainRig(Size video, Size still);
-/// Two cameras with different distorting lenses, rotated against each other by some degrees.
+/// Two cameras with different lens distortion, rotated against each other by 1.7 degrees.
 [[nodiscard]] StereoRig bentRig(Size video, Size still);
 
 [[nodiscard]] gpu::Texture uploaded(const TestPicture& p, gpu::Filter f = gpu::Filter::Nearest);
