@@ -4,8 +4,9 @@
 
 namespace mfar::eval {
 
-/// Share of the pixels that the method made worse: their error exceeds that of bicubic enlargement
-/// by more than `tolerance` grey levels. All pictures are CV_64F in grey levels, of the same size.
+/// Share of the pixels of `picture` that are worse than bicubic enlargement: their error exceeds
+/// that of `bicubic` by more than `tolerance` grey levels. All pictures are CV_64F in grey levels,
+/// of the same size.
 [[nodiscard]] double harmRate(const cv::Mat& picture, const cv::Mat& bicubic, const cv::Mat& truth,
                               double tolerance = 2);
 
