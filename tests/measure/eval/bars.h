@@ -7,7 +7,7 @@
 
 namespace mfar::eval {
 
-/// A bar with its label. If `value` is NaN, the text "not measured" replaces the bar.
+/// A bar with its label. If `value` is not finite, the text "not measured" replaces the bar.
 struct Bar {
     std::string label;
     double value = 0;

@@ -41,7 +41,7 @@ TEST(Bars, EachMeasuredColumnOfAReportGetsAPanel) {
     EXPECT_EQ(panels[1].bars[0].dots.size(), 2U) << "one dot for each frame";
 }
 
-TEST(Bars, RowsWithMediansOfACommandGetNoDotAndNoPanelOfTheirOwn) {
+TEST(Bars, MedianRowsThatACommandAddsGetNoDotAndNoPanel) {
     Report report = twoMethods({"office"});
     report.add("office", "median", "ours", {10, 7, 30});
     const auto panels = barsOf(report);

@@ -14,7 +14,7 @@ struct Figure7Request {
                                          synthetic::Scene::Outdoor};
     std::vector<std::filesystem::path> recordings;
     int frames = 3;  ///< largest number of frames per recording or scene
-    /// Number of stills per scene from which filters are learned; 0: shipped filters.
+    /// Number of stills per scene or recording from which filters are learned; 0: shipped filters.
     int learn = 0;
     PictureMetrics metrics{{"psnr", "lpc_si", "lpc_si_tiles", "hdrvdp"}, {}};
     std::filesystem::path svg, save;

@@ -109,8 +109,8 @@ private:
 };
 
 /// mfar's flow: along epipolar lines if both poses are known, otherwise in two dimensions.
-/// The time is that of the pyramid, of the search along the lines and its refinement, or of the
-/// 2-D flow in both directions.
+/// The time includes the pyramid and the search: along the lines with its refinement, or in two
+/// dimensions in both directions.
 class ProductMethod final : public FlowMethod {
 public:
     ProductMethod(const StereoRig& rig, bool usePoses)
@@ -133,7 +133,7 @@ public:
         std::vector<float> confidence = pipeline_.readConfidence();
         out.confidence = cv::Mat(size_.height, size_.width, CV_32F, confidence.data()).clone();
         out.ms = medianOfThree([&] {
-            // Without it, the run would start from the flow that it found the last time.
+            // Without a new still, the search would start from the flow of the previous run.
             if (still_) still_->giveAsStill(pipeline_);
             const double all = methodMs([&] { shot.run(pipeline_); });
             return all * shareOfStages(pipeline_, kFlowStages);

@@ -10,7 +10,7 @@
 namespace mfar::eval {
 
 /// A video frame, its still and the true flow between them. The still is resampled to the video's
-/// geometry; then pixel p of the frame looks like pixel p + truth(p) of the still.
+/// geometry; then pixel p of the frame and pixel p + truth(p) of the still show the same point.
 struct FlowSample {
     std::string frame;  ///< number NN of a pair, or times <ns>_<ns> of a recording
     std::filesystem::path video, still, truth;  ///< `truth`: .flo, or .pfm with inverse depth

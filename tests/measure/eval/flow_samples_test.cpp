@@ -150,7 +150,7 @@ TEST(FlowSamples, FlowFromDepthContainsTheParallaxOfRigAndMotion) {
     EXPECT_THROW((void)loadTruth(set, set.samples.at(0)), EvalError);
 }
 
-TEST(FlowSamples, FlowFilesNamedForTimesWithoutPicturesAreRefused) {
+TEST(FlowSamples, FlowFilesNotNamedAfterTheTimesOfTwoPicturesAreRefused) {
     const TempFolder folder;
     writeRecording(folder / "r");
     for (const char* name : {"100_175.flo", "100.flo", "100_.flo", "_150.flo", "-100_150.flo",

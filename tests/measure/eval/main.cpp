@@ -57,9 +57,10 @@ constexpr const char* kFlowHelp =
     "The truth of a recording is the first of these that exists: truth/flow from video frames\n"
     "to stills; truth/inverse_depth with known poses, for a scene at rest (occluded pixels are\n"
     "found by projecting the truth into the still); truth/flow between video frames.\n"
-    "Flow leads from the frame to its reference, the still that superres would choose. It is\n"
-    "in video pixels: the still is first resampled to the video's geometry (rotation of the\n"
-    "rig and both lenses, no parallax).\n"
+    "Flow leads from the frame to the second picture that the file in truth/flow names or, with\n"
+    "truth/inverse_depth, to the still that superres would choose. Flow is in video pixels: the\n"
+    "still is first resampled to the video's geometry (rotation of the rig and both lenses, no\n"
+    "parallax).\n"
     "epe_px: mean end-point error where truth and result are known; bad1, bad2: share of the\n"
     "pixels with known truth that are off by more than 1 px, 2 px or have no result; ms:\n"
     "median time of three runs after one that warms up, without work per still. flow2d and\n"
@@ -75,9 +76,10 @@ constexpr const char* kFlowHelp =
     "the best. ause_rel: ause divided by the ause of a random order.";
 
 constexpr const char* kDepthHelp =
-    "Takes recordings with truth/inverse_depth and known poses, of a scene at rest. Frames,\n"
-    "their references, occluded pixels and times are those of the subcommand flow, but the\n"
-    "time of the method depth is that of a single run. Methods that find flow triangulate it.\n"
+    "Takes recordings with truth/inverse_depth and known poses, of a scene at rest. Stills,\n"
+    "occluded pixels and times are as for the subcommand flow with truth/inverse_depth, but\n"
+    "the time of the method depth is that of a single run. Methods that find flow triangulate\n"
+    "it.\n"
     "flow: mfar's flow along epipolar lines, triangulated in closed form; midpoint: the same\n"
     "flow, triangulated by the midpoint of the shortest line between both rays, as in the\n"
     "paper; sgbm, stereobm: see mfar-eval flow.\n"

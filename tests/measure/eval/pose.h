@@ -15,7 +15,7 @@ struct PoseRequest {
     /// corners are in NAME.txt.
     std::vector<std::filesystem::path> folders;
     std::vector<std::string> methods;  ///< from poseMethodNames(); not used for folders of pictures
-    int frames = 0;                    ///< number of frames per folder; 0: all
+    int frames = 0;                    ///< largest number of frames per folder; 0: all
     TrackerOptions tracker;
     ProgressPart progress{};
 };

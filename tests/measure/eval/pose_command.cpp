@@ -12,10 +12,10 @@ constexpr const char* kPoseHelp =
     "corners of its tags in NAME.txt.\n"
     "Columns for recordings: rot_deg, trans_mm: error of the camera's pose against the recorded "
     "pose; trans_percent: trans_mm in percent of the mean distance to the visible tags; "
-    "jitter_deg, jitter_mm: change of the error since the previous frame; ms: time to search tags "
-    "in the frame and to find its pose; missed: 1 if the frame has no pose; flips, only in rows "
-    "`median`: number of frames whose rotation error differs from that of the previous frame by "
-    "more than 3 degrees.\n"
+    "jitter_deg, jitter_mm: change of the error since the previous frame; tags: number of tags "
+    "from which the pose was found; ms: time to search tags in the frame and to find its pose; "
+    "missed: 1 if the frame has no pose; flips, only in rows `median`: number of frames whose "
+    "rotation error differs from that of the previous frame by more than 3 degrees.\n"
     "Columns for pictures: corner_px: root mean square distance of found corners from the given "
     "ones; found, missed, false: numbers of tags that were found, missed, and found by mistake.";
 

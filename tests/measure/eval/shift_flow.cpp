@@ -25,7 +25,7 @@ public:
         cv::createHanningWindow(window_, still_.size(), CV_32F);
     }
 
-    // Video pixel p looks like still pixel p + flow(p).
+    // Video pixel p and still pixel p + flow(p) show the same point.
     Result run(const Shot& frame) override {
         const cv::Mat video = greyFloats(frame.picture);
         cv::Point2d shift;

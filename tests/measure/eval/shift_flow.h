@@ -4,8 +4,8 @@
 
 namespace mfar::eval {
 
-/// A baseline that any flow method should beat: one shift of the whole picture, found by phase
-/// correlation.
+/// The simplest flow, which every other method should beat: one shift of the whole picture, found
+/// by phase correlation.
 [[nodiscard]] std::unique_ptr<FlowMethod> shiftFlow(const StereoRig& rig);
 
 }  // namespace mfar::eval

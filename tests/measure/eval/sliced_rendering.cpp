@@ -150,8 +150,7 @@ BudgetRun budgetRun(const SliceOptions& slices, Size size, double budgetMs, int 
     const auto period = std::chrono::nanoseconds(1'000'000'000 / 30);
     steady_clock::time_point next = steady_clock::now();
     RenderCounters counters;
-    // Gives up after four times as many frames, because the tracer then has no work or gets no
-    // processor time.
+    // After 4 * frames + 60 frames, the tracer has no work or gets no processor time.
     for (int frame = 0; counters.budget.frames < frames && frame < 4 * frames + 60; ++frame) {
         const double azimuth = kAzimuth + frame * degreesPerSecond / 30;
         renderer.update(render_scenes::viewFrom(size, azimuth), Timestamp{} + frame * period);

@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <map>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace mfar::eval {
@@ -46,7 +48,7 @@ TEST(MfarEvalSlicing, MeasuresAndPlotsEachSlicingMethod) {
         << csv;
     const auto rows = rowsOf(csv);
     const auto error = [&](const std::string& row) {
-        return rows.contains(row) ? std::stod(rows.at(row)[4]) : -1;
+        return rows.contains(row) ? std::stod(rows.at(row)[4]) : std::nan("");
     };
     for (const char* way : {"time", "spatial", "full"})
         EXPECT_EQ(error(fmt::format("{} 16", way)), error("time 16")) << "the same samples\n"
@@ -70,6 +72,8 @@ TEST(MfarEvalSlicing, InvalidRequestsEndWithAMessageAndStatus2) {
         const Outcome outcome =
             execute(folder, fmt::format("'{}' slicing {}", MFAR_EVAL, arguments));
         EXPECT_EQ(outcome.status, 2) << arguments;
+        const std::string_view words(arguments), option = words.substr(0, words.find(' '));
+        EXPECT_NE(outcome.text.find(option), std::string::npos) << outcome.text;
     }
     const Outcome outcome =
         execute(folder, fmt::format("'{}' slicing --width 16 --height 16 --samples 1 "

@@ -20,7 +20,7 @@ public:
     /// False: it does not. Set false if that still shows the frame's own view, see showsOwnView().
     void setMayUseOlder(bool may) { mayUseOlder_ = may; }
     [[nodiscard]] std::shared_ptr<const FilterBank> filters() const { return learner_.filters(); }
-    /// Prints one line on what was learned to stderr.
+    /// Prints one line to stderr that tells what was learned.
     void report(const char* program = "mfar-eval") const;
 
     void matched(const RgbPlanes& video, Rows<const std::uint8_t> still,

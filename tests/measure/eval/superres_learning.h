@@ -14,7 +14,7 @@ inline constexpr int kEachOnce = -1;
 
 /// Learns filters from recordings, as the daemon does. Each still is matched with the nearest frame
 /// that shows another view, then with the next-nearest, until request.learn matches are made.
-/// Prints a line on what was learned to stderr. Needs a current GL context.
+/// Prints one line to stderr that tells what was learned. Needs a current GL context.
 [[nodiscard]] std::shared_ptr<const FilterBank>
 learnedFilters(const SuperResRequest& request,
                const std::vector<std::filesystem::path>& recordings);

@@ -117,20 +117,21 @@ TEST(MfarEval, SuperResDegradesTheVideoForEveryMethod) {
 TEST(MfarEval, SuperResLearnsFromStillsBeforeItMeasures) {
     const TempFolder folder;
     writeRecording(folder / "tiny", true);
-    const auto learning = [&](const char* engine, const char* how) {
-        return execute(folder, fmt::format("MFAR_ENGINE={0} {1} superres {2}/tiny --no-still "
-                                           "--methods detail --frames 1 {3} {2}/tiny",
-                                           engine, MFAR_EVAL, folder.path().string(), how));
+    const std::string dir = folder.path().string();
+    const auto learning = [&](const char* engine, const std::string& how) {
+        return execute(folder, fmt::format("MFAR_ENGINE={} {} superres {}/tiny --no-still "
+                                           "--methods detail --frames 1 {}",
+                                           engine, MFAR_EVAL, dir, how));
     };
-    const Outcome elsewhere = learning("simd", "--learn-from");
+    const Outcome elsewhere = learning("simd", "--learn-from " + dir + "/tiny");
     ASSERT_EQ(elsewhere.status, 0) << elsewhere.text;
     EXPECT_NE(elsewhere.text.find("learned from"), std::string::npos) << elsewhere.text;
     // Returns the PSNR of the frame.
     const auto psnrOf = [&](const char* engine, const std::string& how) {
-        const Outcome ran = learning(engine, (how + "--csv out.csv").c_str());
+        const Outcome ran = learning(engine, how + "--csv " + dir + "/out.csv");
         EXPECT_EQ(ran.status, 0) << ran.text;
         EXPECT_EQ(ran.text.find("learned from") != std::string::npos, !how.empty()) << ran.text;
-        const auto table = readCsv("out.csv");
+        const auto table = readCsv(folder / "out.csv");
         const auto column = std::ranges::find(table.at(0), "psnr_db") - table.at(0).begin();
         return std::stod(table.at(1).at(static_cast<std::size_t>(column)));
     };

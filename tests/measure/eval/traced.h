@@ -18,7 +18,7 @@ struct TracedRequest {
     Size size{640, 480};
     double budgetMs = 8;  ///< processor time of the path tracer per frame
     int frames = 90;      ///< frames per path, at 30 per second
-    int every = 10;       ///< frames between comparisons; each compares two consecutive frames
+    int every = 10;       ///< frames between comparisons; flicker needs the next frame, too
     int truthSamples = 256;
     bool hdrVdp = false;
     std::filesystem::path truth;  ///< folder that keeps the truth for later runs; empty: not kept

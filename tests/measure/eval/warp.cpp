@@ -19,8 +19,8 @@
 namespace mfar::eval {
 namespace {
 
-// Number of frames in which a view is shown. During these frames, the warp traces pixels of
-// objects without a rendered sample, and pixels at edges.
+// Number of frames in which a view is shown. During these frames, pixels of objects without a
+// rendered sample, and pixels at edges, are traced.
 constexpr int kFrames = 12;
 constexpr double kInpaintRadius = 3;
 
