@@ -86,10 +86,10 @@ done
 holds "the bash completion is installed" test -s "$root/usr/share/bash-completion/completions/mfard"
 holds "programs are stripped" isNot grep -q debug_info <(readelf -S "$root/usr/bin/mfard")
 
-step "OpenGL ES is recommended, but no dependency"
+step "OpenGL ES is recommended, but not a dependency"
 for package in libegl1 libgl1-mesa-dri libgles2; do
     holds "$package is recommended" grep -qx "$package" <(field Recommends)
-    holds "$package is no dependency" isNot grep -qx "$package" <(field Depends)
+    holds "$package is not a dependency" isNot grep -qx "$package" <(field Depends)
 done
 holds "EGL is not installed" test -z "$(find "$root/usr/lib" -name 'libEGL.so*')"
 holds "without EGL mfard reports what to install" withoutGl
@@ -103,7 +103,7 @@ apt install /next.deb
 holds "the changed configuration stays" grep -qx 'seed = 7' "$root/etc/mfar/mfard.toml"
 holds "the new default configuration is beside it" \
     grep -q 'of the next version' "$root/etc/mfar/mfard.toml.dpkg-dist"
-holds "the service stays disabled" test ! -e "$enabled"
+holds "the service stays disabled" test ! -L "$enabled"
 
 step "Remove"
 inside systemctl enable mfard.service 2>/dev/null
