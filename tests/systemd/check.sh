@@ -77,7 +77,7 @@ grep -qx "WatchdogSec=$limit" "$unit" || fault "WatchdogSec is not the $limit s 
 # After these exit codes systemd does not restart mfard. isRestarted() must exclude the same codes,
 # because mfard waits before it ends only if it will be restarted.
 grep -qx 'RestartPreventExitStatus=64 65 66 78' "$unit" ||
-    fault "RestartPreventExitStatus differs from the codes of isRestarted()"
+    fault "RestartPreventExitStatus differs from the codes that isRestarted() excludes"
 
 # The service's resources must be limited. Its command ExecStopPost= must have no more rights than
 # the service.
