@@ -107,7 +107,7 @@ double lostInVideo(synthetic::Scene scene) {
     return psnr(up, high);
 }
 
-TEST(SyntheticPicture, TheStillShowsDetailThatTheVideoLacks) {
+TEST(SyntheticPicture, TheHighResolutionPictureShowsDetailThatTheVideoLacks) {
     const double office = lostInVideo(synthetic::Scene::Office);
     EXPECT_LT(office, 27);
     EXPECT_LT(lostInVideo(synthetic::Scene::Outdoor), 28);

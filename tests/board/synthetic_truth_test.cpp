@@ -12,7 +12,7 @@ constexpr std::array kAllScenes{Scene::Office, Scene::Shelf,  Scene::Outdoor,
                                 Scene::Flat,   Scene::Moving, Scene::Still};
 constexpr double kDegree = std::numbers::pi / 180;
 
-/// A viewpoint with a quarter of the video's resolution, which makes a test sixteen times faster.
+/// A viewpoint with a quarter of the video's width and height, so that a test is 16 times faster.
 Viewpoint small(const World& world, Path path, double t) {
     return {boardRig().video.scaledTo({160, 120}), cameraPose(world, path, 1, t), t};
 }
