@@ -27,7 +27,7 @@ TEST(CameraSelection, IdsTakePrecedenceOverModels) {
     EXPECT_EQ(chooseCamera({{"a", "b", ""}, {"b", "c", ""}}, {"b"}), 1U);
 }
 
-TEST(CameraSelection, WithoutANameTheSmallestOrLargestCameraIsChosen) {
+TEST(CameraSelection, WithoutANameTheCameraWithTheSmallestOrLargestPicturesIsChosen) {
     std::vector<ListedCamera> board = kBoard;
     for (ListedCamera& camera : board)
         camera.pixels = 1000;

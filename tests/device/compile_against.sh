@@ -64,7 +64,7 @@ objects libcamera hal/frame.cpp base/image_layout.cpp $(printf "hal/device/%s.cp
 parts="frame image_layout $parts"
 link camera-tests libcamera $parts libcamera_test $(printf "%s_test " $tested)
 link probe libcamera $parts libcamera_probe
-# Without this setting, libcamera logs its version and everything that it misses in a chroot.
+# Without this setting, libcamera logs its version and everything that is missing in a chroot.
 export LIBCAMERA_LOG_LEVELS="*:FATAL"
 ./camera-tests --gtest_brief=1
 ./probe

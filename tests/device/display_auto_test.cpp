@@ -226,7 +226,7 @@ TEST_F(AutoDisplay, IfADeviceRefusesPicturesTheNextDeviceShowsEveryPicture) {
     EXPECT_EQ(display_->fault(), std::nullopt);
 }
 
-TEST_F(AutoDisplay, TriesTheNextDeviceWhenTheSecondFlipNeverCompletes) {
+TEST_F(AutoDisplay, TriesTheNextDeviceWhenTheThirdPictureIsRefused) {
     kms_.presence = fbdev_.presence = Presence::Ready;
     kms_.refusesAfter = 2;
     EXPECT_GE(run(kSecond), 8);
@@ -266,7 +266,7 @@ TEST_F(AutoDisplay, OpensNothingWhenTheDevicesDoNotExist) {
     }
 }
 
-TEST_F(AutoDisplay, MissingScreensAreNoErrorsButInvalidScreenNamesAre) {
+TEST_F(AutoDisplay, InvalidScreenNamesAreRefused) {
     EXPECT_THROW((void)openScreen("kms:card0,17"), std::runtime_error);
     EXPECT_THAT(screenFault("kms:card0,17").value_or(""), HasSubstr("\"17\""));
 }

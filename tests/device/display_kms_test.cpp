@@ -155,7 +155,8 @@ TEST_F(KmsScreenTest, ThePictureStaysWhileTheContextIsRecreated) {
     EXPECT_TRUE(driver_.console);
 }
 
-// The report of the last flip must not remain: it would be taken for that of the next flip.
+// The event of the last flip must not remain unread. Otherwise it would be mistaken for the event
+// of the next flip.
 TEST_F(KmsScreenTest, AFlipEndsBeforeTheContextIsRecreated) {
     ASSERT_EQ(screen_.look(true), Presence::Ready);
     show();

@@ -88,7 +88,7 @@ TEST(ChooseMode, ImpossibleModesAreIgnored) {
 struct TalkingCard {
     TalkingCard() {
         std::array<int, 2> ends{};
-        if (pipe(ends.data()) != 0) throw std::runtime_error("no pipe");
+        if (pipe(ends.data()) != 0) throw std::runtime_error("pipe() failed");
         told = OwnedFd(ends[0]);
         tells = OwnedFd(ends[1]);
     }

@@ -1,6 +1,6 @@
 // Shows a test picture on a real screen and prints when the picture is shown and where. This
 // program runs on boards, and in a virtual machine whose host takes a screenshot. Usage:
-//   display_probe SCREEN PICTURES PPM SECONDS
+//   mfar-display-probe SCREEN PICTURES PPM SECONDS
 // SCREEN is as in openScreen(). The program waits for a screen, shows PICTURES pictures with a
 // moving bar, writes the last one to the file PPM as lastShown() returns it, and keeps it on the
 // screen for SECONDS. It prints every change of name().
@@ -126,11 +126,12 @@ void probe(const char* screen, const char* pictures, const std::string& ppm, con
 
 int main(int argc, char** argv) {
     try {
-        if (argc != 5) throw std::runtime_error("usage: display_probe SCREEN PICTURES PPM SECONDS");
+        if (argc != 5)
+            throw std::runtime_error("usage: mfar-display-probe SCREEN PICTURES PPM SECONDS");
         mfar::probe(argv[1], argv[2], argv[3], argv[4]);
         return 0;
     } catch (const std::exception& error) {
-        std::fprintf(stderr, "display_probe: %s\n", error.what());
+        std::fprintf(stderr, "mfar-display-probe: %s\n", error.what());
         return 1;
     }
 }

@@ -239,7 +239,7 @@ TEST_F(DisplayScaler, ScreenReaderReadsTexturesAndHostRows) {
     EXPECT_EQ(reader.last().pixels, fromTexture.pixels);
 }
 
-TEST_F(DisplayScaler, LastShownReturnsTheShownPicture) {
+TEST_F(DisplayScaler, ScreenReaderReturnsItsLastPicture) {
     const gpu::Texture from = picture({230, 172}, noise);
     ScreenScaler scaler;
     ScreenReader reader({128, 72}, scaler);

@@ -67,6 +67,7 @@ public:
     /// Fills a buffer and delivers it. Returns false if the stream is off or no buffer is queued.
     bool deliver(const FakePicture& picture = {});
     void unplug();
+    /// From now on, poll() reports POLLHUP. Calls to the driver still succeed.
     void hangUp();
     /// While `wanted` is true, driver calls that queue or dequeue buffers block.
     void hang(bool wanted);
@@ -89,7 +90,7 @@ public:
     /// If true, requests for more than mostBuffers buffers fail with ENOMEM. Otherwise mostBuffers
     /// buffers are granted.
     bool refusesMore = false;
-    int sizeFault = 0;
+    int sizeFault = 0;  ///< added to the size of a picture that the driver reports [bytes]
     std::uint32_t colorspace = V4L2_COLORSPACE_SRGB, quantization = V4L2_QUANTIZATION_DEFAULT;
     std::vector<FakeFormat> formats{{V4L2_PIX_FMT_YUYV, {{32, 24}, {64, 48}}}};
     std::vector<FakeControl> controls{};

@@ -11,7 +11,7 @@ TEST(FieldOfView, UncroppedModesShowTheWholeFieldOfView) {
         << "cropping for alignment must not count";
 }
 
-TEST(FieldOfView, CroppingInOneDirectionIsAllowed) {
+TEST(FieldOfView, CroppingToTheAspectRatioOfTheOutputIsAllowed) {
     EXPECT_TRUE(showsWholeField({1440, 1080}, {1920, 1080}, {640, 480}));
     EXPECT_TRUE(showsWholeField({4056, 2282}, {4056, 3040}, {1920, 1080}));
 }

@@ -55,7 +55,7 @@ TEST(FrameDrops, WithFrameNumbersDropsAreCountedExactlyAtAnyRate) {
     for (const auto period : {kPeriod, 2 * kPeriod, 5 * kPeriod}) {
         FrameDrops drops;
         Timestamp time{0};
-        std::uint32_t number = 4294967290;  // the frame number overflows after six frames
+        std::uint32_t number = 4294967290;  // the sixth frame has the number 0
         for (int i = 0; i < 100; ++i) {
             const int gap = i > 0 && i % 7 == 0 ? i % 5 : 0;
             time = time + period * (1 + gap);

@@ -57,7 +57,7 @@ TEST_F(LibcameraControls, ArraysAreSeparatedByCommas) {
     EXPECT_EQ(one("ColourGains", "1.5,2").get<libcamera::Span<const float>>()[1], 2.0F);
 }
 
-// AfMode stands for the modes of exposure and gain, which older versions of libcamera do not have.
+// Tests the focus, because older versions of libcamera have no separate modes of exposure and gain.
 TEST_F(LibcameraControls, AFixedValueEndsItsAutomaticMode) {
     const ControlInfoMap camera({{&controls::AfMode, ControlInfo(std::int32_t{0}, std::int32_t{2})},
                                  {&controls::LensPosition, ControlInfo(0.0F, 10.0F)}},

@@ -13,7 +13,7 @@ namespace mfar::test {
 struct PretendedDrm {
     bool connected = true;
     std::uint16_t width = 64, height = 48;
-    bool flips = true;
+    bool flips = true;    ///< false: flips never complete
     int otherEvents = 0;  ///< number of other events before the event of the flip, 10 ms apart
     bool refusesFlips = false;
     std::uint32_t missingPitch = 0;  ///< rows of dumb buffers are too short by this [bytes]
@@ -21,7 +21,7 @@ struct PretendedDrm {
     int blockingFlips = 0;  ///< number of flips for which the caller had to wait
     std::uint32_t shown = 0;
     /// A second connector exists, and its screen shows the first CRTC. The first connector has
-    /// none.
+    /// no CRTC.
     bool secondScreen = false;
     bool console = false;  ///< true while the console's picture is on the screen
 };

@@ -21,13 +21,13 @@
 //   future N      every N-th picture's time is one hour ahead
 //   skip N        N picture numbers are skipped when this word first appears
 //   restart       picture numbers restart at 0 when this word first appears
-//   plain         no fault, but pictures without time stamp
+//   plain         no fault, but the time is not drawn into the pictures
 //   triggered     no fault; one picture for each pulse of the trigger line
 // The file "gpiochip0" is a GPIO chip with the line TRIGGER:
 //   gone          unplugged
 //   busy          another program uses the line
 //   eio           setting the line fails
-// Pictures are noise on grey, with their time across the upper half, see pretended_picture.h. A
+// Pictures are noise on grey; their time is drawn across the upper half, see pretended_picture.h. A
 // picture without a free buffer gets no number.
 
 #include "tests/device/pretended_camera.h"

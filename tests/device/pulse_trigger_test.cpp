@@ -233,7 +233,7 @@ TEST(PulseTrigger, PulsesAreDrivenAndTimedEvenIfTheLoopbackIsUnplugged) {
 
 TEST(PulseTrigger, LoopbackTimesOfAnotherClockAreIgnored) {
     const auto wire = std::make_shared<Wire>();
-    // The loopback's times are in a clock like CLOCK_REALTIME, which is decades ahead.
+    // The loopback's times come from a clock like CLOCK_REALTIME, which is decades ahead.
     wire->clockOffset = std::chrono::hours(24 * 365 * 50);
     const auto trigger = triggerOn(wire, 50us, true);
     const Timestamp edge = trigger->fire();

@@ -326,8 +326,8 @@ private:
 
     Chance chance_;
     ModelledCamera ill_, sound_;
-    std::uint32_t cancelsAll_ =
-        0;  ///< average number of steps between cancellations of all requests
+    /// Average number of steps between cancellations of all requests.
+    std::uint32_t cancelsAll_ = 0;
     bool restarts_ = false;
     std::uint64_t served_ = 0;
 };
