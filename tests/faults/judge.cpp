@@ -23,8 +23,9 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// Limits that mfard promises, see daemon/budgets.h and systemd/mfard.service.in: age of a stale
-// picture (kStale), time to report a silent camera (kMarked), time to recover from a fault (kBack).
+// Limits that mfard promises, see daemon/budgets.h, hal/reopening_camera.h and
+// systemd/mfard.service.in: age of a stale picture (kStale), time to report a silent camera
+// (kMarked), time to recover from a fault (kBack).
 constexpr Ns kStale = 3 * kSecond, kMarked = 250 * kMs, kBack = 3 * kSecond;
 constexpr Ns kVideoBudget = 1500 * kMs, kWriter = 2500 * kMs;
 constexpr Ns kPicture = 2000 * kMs;
@@ -180,7 +181,7 @@ void Judge::judgeState(const ordered_json& said, Ns asked) {
     const bool isKnown = (calm_[Screen].active == 0 || stalled > kWriter) &&
                          (!repeats || calm_[VideoDevice].lasts(kRepeats, asked));
     // After the video camera has returned, the screen shows the old picture until the first new one
-    // is due, which is no fault. Later, judgeBlame() expects new pictures.
+    // is due. This is not a fault. Later, judgeBlame() expects new pictures.
     const bool isDue = calm_[Video].active > 0 || calm_[Video].lasts(kBack, asked);
     if (age(asked) > kStale + kSlack && isFine && isKnown && isDue)
         fail("the screen's picture is " + seconds(age(asked)) + " old, but status says ok");
@@ -262,7 +263,7 @@ void Judge::logSays(std::string_view text) {
     logBytes_ += text.size();
     std::string all(text.substr(0, text.find_last_not_of('\n') + 1));
     note("log: " + std::regex_replace(all, std::regex("\n"), "\n             log: "));
-    // While mfard ends, it logs the repetitions that it held back. They are no fault.
+    // While mfard ends, it logs the repetitions that it held back. This is not a fault.
     if (isEnding() || all.find("mfard.toml") != all.npos) return;
     // The message without its duration and without the number of suppressed messages.
     const std::string event =

@@ -1,4 +1,5 @@
-// Replaces calls to the service manager, the log and the disk, and calls that end the process.
+// Replaces calls to the service manager, the log, the disk and sockets, and calls that end the
+// process.
 
 #include "tests/faults/board.h"
 #include "tests/faults/judge.h"
