@@ -265,9 +265,9 @@ void Judge::logSays(std::string_view text) {
     note("log: " + std::regex_replace(all, std::regex("\n"), "\n             log: "));
     // While mfard ends, it logs the repetitions that it held back. This is not a fault.
     if (isEnding() || all.find("mfard.toml") != all.npos) return;
-    // The message without its duration and without the number of suppressed messages.
+    // The message without its duration and without the number of repetitions.
     const std::string event =
-        std::regex_replace(all, std::regex(R"( \((degraded|stalled|once)[^)]*\))"), "");
+        std::regex_replace(all, std::regex(R"( \((degraded|stalled|repeated)[^)]*\))"), "");
     const auto before = logged_.find(event);
     if (before != logged_.end() && now() - before->second < kSameLine - kSlack)
         fail("the log repeats the same message after " + seconds(now() - before->second));
