@@ -38,6 +38,7 @@ starts=$(sed -n 's/^StartLimitBurst=//p' "$reboot")
 wait=$(sed -n 's/^constexpr std::chrono::seconds kLongestWait{\([0-9]*\)};$/\1/p' \
     "$sources/../daemon/restart_pause.cpp")
 pause=$(sed -n 's/^RestartSec=//p' "$reboot")
+[[ -n $wait ]] || fault "the longest wait was not found in restart_pause.cpp"
 # A start takes up to 60 s (TimeoutStartSec=), then mfard waits, and ends after at most 5 s
 # (TimeoutStopSec=). Then systemd waits, too.
 ((60 * minutes > starts * (60 + wait + 5 + pause))) ||
