@@ -33,8 +33,8 @@ public:
     void answersNot(const std::string& why, Ns asked);
     void terminated();
     void ended(int code, bool inTime);
-    /// To be called without faults. Compares the counts of invalid pictures in `said` with those
-    /// that the cameras sent.
+    /// To be called while there are no faults. Compares the counts of invalid pictures in `said`
+    /// with those that the cameras sent.
     void stats(const nlohmann::ordered_json& said);
     void recording(const std::string& folder);
     /// Checks memory, descriptors and threads while there are no faults. The first call sets the
