@@ -197,8 +197,8 @@ TEST(Config, TextsWithTooDeepNestingOrTooManyValuesAreRefused) {
     EXPECT_EQ(configFaults(dots + " = 1\n"), "test.toml:1:67: a key has more than 32 parts");
     EXPECT_EQ(configFaults("pace = \"auto\"\n[" + dots + "]\n"),
               "test.toml:2:68: a key has more than 32 parts");
-    // Quotes in front of a dotted key must not hide the key from the check. Dots and brackets in a
-    // quoted text must not count as nesting.
+    // Quotes in front of a dotted key must not hide the key from the check. Dots in a comment or in
+    // a quoted text must not count as nesting.
     EXPECT_THAT(configFaults("a = [\"\"\"x\"\"\"\", {" + dots + " = 1}]\n"), HasSubstr("32 parts"));
     EXPECT_THAT(configFaults("a = ['''x'''', {" + dots + " = 1}]\n"), HasSubstr("32 parts"));
     EXPECT_EQ(configFaults("# " + dots + "\nrecording = \"" + dots + "\"\n"), "");

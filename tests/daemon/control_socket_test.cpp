@@ -157,7 +157,7 @@ TEST_F(ControlSocketTest, AnAnswerThatIsReadyWhenTheSocketClosesIsSent) {
         path, [&](std::string_view request, ControlRole role) -> ControlAnswer {
             asked.set_value();
             closes.get_future().wait();
-            // The destructor is now waiting for this answer.
+            // Gives the destructor time to begin its wait for this answer.
             std::this_thread::sleep_for(std::chrono::milliseconds(200));
             return echo(request, role);
         });
@@ -207,7 +207,7 @@ TEST_F(ControlSocketTest, AnotherUserIsAnObserver) {
 
 // The child process asks as a user who may not use the socket. This process has no other thread, so
 // the child may allocate memory.
-TEST_F(ControlSocketTest, AUserWithoutPermissionIsToldTheGroupOfTheSocket) {
+TEST_F(ControlSocketTest, TheErrorForAUserWithoutPermissionNamesTheGroupOfTheSocket) {
     if (geteuid() != 0) GTEST_SKIP() << "only root can become another user";
     constexpr gid_t kGroup = 1;
     const group* owner = getgrgid(kGroup);

@@ -7,7 +7,8 @@
 namespace mfar {
 namespace {
 
-/// Returns the times in [0, 60] at which something is due, with ticks once per `tick` [s].
+/// Returns the times from 0 to 60 [s after `first`] at which isDue() returns true. The ticks are
+/// `tick` [s] apart.
 std::vector<double> dueTimes(double interval, double tick, double first = 100) {
     DueTimes due;
     std::vector<double> out;
@@ -16,7 +17,7 @@ std::vector<double> dueTimes(double interval, double tick, double first = 100) {
     return out;
 }
 
-TEST(DueTimes, AMultipleOfTheTicksIsKeptExactly) {
+TEST(DueTimes, AnIntervalThatIsAMultipleOfTheTickIsKeptExactly) {
     for (const double interval : {1.0, 10.0, 12.0, 15.0}) {
         const auto times = dueTimes(interval, 1);
         ASSERT_GT(times.size(), 3U);
@@ -31,7 +32,7 @@ TEST(DueTimes, AnyOtherIntervalIsKeptInTheMean) {
     EXPECT_EQ(dueTimes(0.1, 0.1).size(), 601U);
 }
 
-TEST(DueTimes, AfterAPauseNothingIsMadeUpFor) {
+TEST(DueTimes, IntervalsMissedDuringAPauseAreSkipped) {
     DueTimes due;
     EXPECT_TRUE(due.isDue(1, 2));
     EXPECT_FALSE(due.isDue(2, 2));

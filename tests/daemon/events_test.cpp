@@ -29,7 +29,7 @@ TEST(Events, SignalsHaveTheirNumberAndComeBeforeWakeEvents) {
     EXPECT_EQ(events.wait().kind, Event::Kind::Wake);
 }
 
-TEST(Events, SignalsEndTheProcessWhileThisIsWanted) {
+TEST(Events, SignalsEndTheProcessWhileSignalsEndProcessExists) {
     Events events;
     EXPECT_EXIT(
         {

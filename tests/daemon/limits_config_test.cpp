@@ -121,7 +121,7 @@ TEST(Limits, CamerasWithLargePicturesAreRefused) {
     EXPECT_THAT(refusalOf(config), StartsWith("cameras: video of 640x480 and stills of 8192x8192"));
 }
 
-TEST(Limits, TheSimulatedBoardNeedsMemoryForItsPictures) {
+TEST(Limits, ASimulatedBoardWithLargePicturesIsRefused) {
     Config config;
     config.source = "synthetic:flat";
     config.limits.memoryMb = 64;

@@ -1,6 +1,6 @@
-// A session must create a new GL context after a loss in any shader or data transfer of a frame.
-// The session's last picture must nearly equal that of a run without a loss. The tests use a
-// libGLESv2 that loses contexts, see tests/device/faulty_moments.h.
+// A session must create a new GL context after a loss in any shader, texture upload, read or wait
+// of a frame. The session's last picture must nearly equal that of a run without a loss. The tests
+// use a libGLESv2 that loses contexts, see tests/device/faulty_moments.h.
 
 #include "daemon/session.h"
 #include "hal/virtual/recorder.h"
@@ -179,7 +179,7 @@ TEST_F(LostContext, RecoversFromAContextLostInAnyShader) {
     loseAtAll([](std::string_view moment) { return moment.starts_with("glUseProgram"); });
 }
 
-TEST_F(LostContext, RecoversFromAContextLostInAnyDataTransfer) {
+TEST_F(LostContext, RecoversFromAContextLostInAnyTextureUploadReadOrWait) {
     loseAtAll([](std::string_view moment) {
         return std::ranges::none_of(
             std::array{"glUseProgram", "glBufferSubData", "glDispatchCompute", "glDrawArrays"},

@@ -52,7 +52,7 @@ colour = [0.5, 0.5, 0.5]
         << "a single colour must apply to the whole object";
 }
 
-TEST(ObjectsConfig, OfTooManyObjectsOnlyTheNumberIsReported) {
+TEST(ObjectsConfig, IfThereAreTooManyObjectsOnlyTheirNumberIsReported) {
     std::string text;
     for (int i = 0; i < 65; ++i)
         text += "[[objects]]\nshape = \"sphere\"\n";

@@ -170,7 +170,7 @@ TEST(OptionTable, TheParserAcceptsTheWordsOfTheTable) {
     }
 }
 
-void whatIsReloadableNeedsNoRestart(const Key& key) {
+void onlyReloadableNeedsNoRestart(const Key& key) {
     if (isLevel(key) || key.section->kind != OptionSection::Kind::Always) return;
     std::string text = with(key, another(key));
     if (key.option->name == "format") text += "driver = \"v4l2\"\n";
@@ -191,10 +191,10 @@ void whatIsReloadableNeedsNoRestart(const Key& key) {
     }
 }
 
-TEST(OptionTable, ReloadableOptionsNeedNoRestart) {
+TEST(OptionTable, OnlyReloadableOptionsNeedNoRestart) {
     for (const Key& key : allKeys()) {
         SCOPED_TRACE(key.name());
-        whatIsReloadableNeedsNoRestart(key);
+        onlyReloadableNeedsNoRestart(key);
     }
 }
 

@@ -52,7 +52,7 @@ TEST(PoseConfig, WithRecordedPosesTheTagMapIsReadForTheObjects) {
     EXPECT_EQ(configuredTags(recorded).tags().size(), 1U);
 }
 
-TEST(PoseConfig, TheFamilyOfARosTagMapIsConfigured) {
+TEST(PoseConfig, TheFamilyOfARosTagMapComesFromTheConfiguration) {
     const test::TempFolder folder;
     test::writeFile(folder / "tags.yaml", "standalone_tags: [{id: 4, size: 0.3}]");
     PoseConfig pose{PoseOrigin::Tags, folder / "tags.yaml", {TagFamily::Tag25h9}};

@@ -9,7 +9,7 @@
 namespace mfar {
 namespace {
 
-TEST(ProcessUse, ProcessorTimeIncreases) {
+TEST(ProcessUse, WallTimeIncreasesAndProcessorTimeDoesNotDecrease) {
     const ProcessUse before = processUse();
     std::this_thread::sleep_for(std::chrono::milliseconds(60));
     const ProcessUse after = processUse();

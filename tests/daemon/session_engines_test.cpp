@@ -12,7 +12,7 @@
 namespace mfar {
 namespace {
 
-/// Passes the software renderer off as a GPU, because mfard does not choose a software renderer.
+/// Reports the software renderer as a GPU, because mfard does not choose a software renderer.
 class PretendedGpu final : public GlContext {
 public:
     void makeCurrent() override { real_->makeCurrent(); }
@@ -39,7 +39,7 @@ EngineChoice choiceForLargeStills(const EngineConfig& engine) {
     return chooseEngines(config, &gpu, rig, {1280, 960});
 }
 
-TEST(SessionEngines, StillsBeyondTheGpusLargestTextureAreForSimd) {
+TEST(SessionEngines, IfStillsExceedTheLargestTextureOfTheGpuAllStepsUseSimd) {
     EXPECT_EQ(choiceForLargeStills({}), EngineChoice::all(EngineKind::Simd));
 }
 

@@ -30,7 +30,8 @@ TEST(Stats, ACameraThatIsBeingOpenedIsNoFault) {
     stats.fault("still camera is missing");
     std::this_thread::sleep_for(std::chrono::milliseconds(550));
     stats.fault("still camera is missing");
-    EXPECT_EQ(stats.count().faults, 1U) << "a camera that is missing for long is a fault";
+    EXPECT_EQ(stats.count().faults, 1U)
+        << "a camera that is missing for more than 0.5 s is a fault";
     stats.fault({});
     const std::vector<StageTime> stages;
     stats.picture({{}, stages, {}, {}, {}});

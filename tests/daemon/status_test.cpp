@@ -14,7 +14,7 @@ using testing::Not;
 
 const std::vector<StageTime> kStages = {{"flow", 30}, {"superres", 10}};
 
-/// Shows pictures every 50 ms, each 20 ms after its exposure. The 21st is shown at 11.02 s.
+/// Shows pictures every 50 ms, each 20 ms after its frame's arrival. The 21st is shown at 11.02 s.
 void showPictures(Stats& stats, int count) {
     for (int i = 0; i < count; ++i) {
         FrameStats frame;
@@ -295,7 +295,7 @@ TEST(Status, LineReportsTheSourceOfTheLastPose) {
     EXPECT_THAT(statusLine(recorded.count(), {}, 1), HasSubstr(", tracked 100% |"));
 }
 
-TEST(Status, SummaryOfAnEmptyRunIsComplete) {
+TEST(Status, SummaryOfAnEmptyRunContainsNoNull) {
     Stats stats;
     const auto json = summary(stats.count(), {}, "error", 70);
     EXPECT_EQ(json.dump().find("null"), std::string::npos) << json.dump();

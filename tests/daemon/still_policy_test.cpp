@@ -110,10 +110,11 @@ TEST(StillPolicy, TheFirstFrameDoesNotCountAsMotion) {
     EXPECT_EQ(board.run(60, frame(0.1, 0)), 0);
 }
 
-TEST(StillPolicy, TheShareFromBeforeTheMotionIsIgnored) {
+TEST(StillPolicy, TheExplainedShareFromBeforeTheMotionIsIgnored) {
     Simulation board({});
     board.run(2, kRest);
-    EXPECT_EQ(board.run(kFrame / 2, frame(0.2, 0.8)), 0) << "0.2 is that of the frame before";
+    EXPECT_EQ(board.run(kFrame / 2, frame(0.2, 0.8)), 0)
+        << "the explained share 0.2 belongs to the frame before";
     EXPECT_EQ(board.run(5, frame(0.9, 0)), 0);
 }
 
@@ -271,7 +272,7 @@ TEST(StillPolicy, ALateStillIsNotMistakenForTheStillRequestedAgain) {
     EXPECT_FALSE(board.policy.pending());
 }
 
-TEST(StillPolicy, InModeRateTheTriggerFiresAtTheRateAccordingToTheTimesOfFrames) {
+TEST(StillPolicy, InModeRateTheTriggerFiresAtTheConfiguredRate) {
     TriggerConfig config;
     config.mode = TriggerMode::Rate;
     config.rateHz = 4;

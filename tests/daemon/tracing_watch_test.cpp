@@ -29,7 +29,7 @@ TEST(TracingWatch, WarnsOnceIfObjectsStayWithoutAPicture) {
     EXPECT_EQ(watch.atEnd(), std::nullopt);
 }
 
-TEST(TracingWatch, TimeWithoutObjectsInViewDoesNotCount) {
+TEST(TracingWatch, TheWaitBeginsWhenObjectsComeIntoView) {
     TracingWatch watch(8);
     EXPECT_EQ(watch.add(false, counters(0, 0), kStart), std::nullopt);
     EXPECT_EQ(watch.add(false, counters(0, 0), kStart + seconds(60)), std::nullopt);
@@ -38,7 +38,7 @@ TEST(TracingWatch, TimeWithoutObjectsInViewDoesNotCount) {
     EXPECT_NE(watch.add(true, counters(0, 0), kStart + seconds(66)), std::nullopt);
 }
 
-TEST(TracingWatch, TimeOutOfViewDoesNotCount) {
+TEST(TracingWatch, TheWaitBeginsAnewAfterObjectsWereOutOfView) {
     TracingWatch watch(8);
     EXPECT_EQ(watch.add(true, counters(0, 0), kStart), std::nullopt);
     EXPECT_EQ(watch.add(false, counters(0, 1), kStart + seconds(1)), std::nullopt);

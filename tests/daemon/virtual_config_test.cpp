@@ -77,7 +77,8 @@ TEST(LightConfig, EachLightReachesTheScene) {
     EXPECT_NE(lightingOf(light).environment->radiance, sky.environment->radiance)
         << "the sky must have its sun at the configured place";
     light.source = LightSource::File;
-    EXPECT_TRUE(lightingOf(light).environment->radiance.empty()) << "not the picture of the file";
+    EXPECT_TRUE(lightingOf(light).environment->radiance.empty())
+        << "the environment must be the picture of the file";
 }
 
 TEST(VirtualConfig, FaultsAreReportedWithLineAndColumn) {
@@ -126,7 +127,7 @@ TEST(LightConfig, WithoutASunSectionThereIsNoSun) {
     EXPECT_FALSE(parseConfig("[light]\nexposure = 1.0\n", "test.toml").light.sun);
 }
 
-TEST(LightConfig, PicturePathsAreRelativeToTheFile) {
+TEST(LightConfig, PicturePathsAreRelativeToTheConfiguration) {
     const test::TempFolder folder;
     const std::vector<std::uint8_t> png =
         test::rgbaPng({2, 1}, {{{255, 255, 255, 255}}, {{0, 0, 0, 255}}});
