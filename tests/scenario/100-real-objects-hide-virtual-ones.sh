@@ -1,6 +1,6 @@
 #!/bin/bash
-# A virtual object must keep its position relative to the tags, be hidden by nearer real objects,
-# and change with the configuration while mfard runs.
+# A virtual object must be shown in front of farther real objects and be hidden by nearer ones. When
+# the configuration is read again, the objects must change.
 . "$(dirname "$0")/lib.sh"
 
 ctl="$(dirname "$sim")/mfarctl"
@@ -52,7 +52,7 @@ head -n 2 near.toml >none.toml
 last none --config none.toml
 summary_has depth_tiles 0
 cmp plain.raw none.raw ||
-    fail "without objects the picture differs from that without the configuration"
+    fail "a configuration without objects changes the picture"
 
 echo "SIGHUP reads the objects again"
 cp none.toml live.toml

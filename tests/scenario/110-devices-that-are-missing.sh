@@ -1,6 +1,5 @@
 #!/usr/bin/env bash
-# Without its cameras mfard must run and keep looking for them. Picture and log must report what is
-# missing. A service must stay alive.
+# Without its cameras, mfard must run and show pictures. The log must name the missing cameras.
 . "$(dirname "$0")/lib.sh"
 
 cat >mfard.toml <<'END'
@@ -31,8 +30,7 @@ says err 'no such chip'
 sed -i '/trigger/,$d' mfard.toml
 run 0 --config mfard.toml --release-trigger
 
-# A missing calibration, or one of other picture sizes, is an error. mfard waits for missing devices
-# but not for a calibration.
+# mfard waits for missing devices, but a missing calibration is an error.
 sed -i '1a [cameras]\ncalibration = "lenses"' mfard.toml
 run 66 --config mfard.toml
 says err 'lenses'

@@ -84,7 +84,7 @@ stats
 awk -v age="$(counts video distinct_age_s)" 'BEGIN {exit !(age < 1)}' ||
     fail "the video camera has sent no new picture for a second"
 
-echo "frames that are broken, short, or have impossible times are counted and not shown"
+echo "frames that are broken, short, or have impossible times are counted; the video continues"
 says_of video90 error 3 short 5 backward 7 future 11
 until_true at_least video broken 10
 until_true at_least video bad_times 10

@@ -15,19 +15,19 @@ pids+=($!)
 until_true test -S notify
 export NOTIFY_SOCKET=$PWD/notify WATCHDOG_USEC=10000000 MFAR_PRETENDED_V4L2=$work/cameras
 heard() { grep -Eq -- "$1" heard; }
-meals() { grep -c '^WATCHDOG=1$' heard || true; }
-fed() { [ "$(meals)" -gt $((before + $1)) ]; }
+notifications() { grep -c '^WATCHDOG=1$' heard || true; }
+notified() { [ "$(notifications)" -gt $((before + $1)) ]; }
 status() { timeout 10 "$ctl" --socket control status; }
 status_says() { status | grep -Eq -- "$1"; }
-is_fed() {
-    before=$(meals)
-    until_true fed 2
+is_notified() {
+    before=$(notifications)
+    until_true notified 2
 }
 # Fails if mfard notifies the watchdog within four seconds. Usually mfard notifies it every second.
-is_hungry() {
-    before=$(meals)
+is_not_notified() {
+    before=$(notifications)
     sleep 4
-    fed 0 && fail "mfard still notifies the watchdog although $1"
+    notified 0 && fail "mfard still notifies the watchdog although $1"
     true
 }
 
@@ -42,17 +42,17 @@ start_hangable() {
 
 echo "the video driver hangs: status and messages name the thread; mfard stops notifying the watchdog"
 start_hangable
-is_fed
+is_notified
 echo hang >cameras/video90
 until_true status_says '^health +stalled for .*: the .*capture thread hangs'
 until_true heard '^STATUS=the .*capture thread hangs \(stalled for [0-9.]+ s, last picture [0-9.]+ s ago\)'
 says err 'warning: the .*capture thread hangs \(stalled for'
-is_hungry "the driver hangs"
+is_not_notified "the driver hangs"
 
 echo "the driver's call returns after all: mfard notifies the watchdog again"
 : >cameras/video90
 until_true status_says '^health +ok'
-is_fed
+is_notified
 
 echo "SIGTERM ends mfard while the driver hangs"
 echo hang >cameras/video90
@@ -102,6 +102,6 @@ sed -i 's/video90/video92/' mfard.toml
 LD_PRELOAD=$pretended start --config mfard.toml --display none --control control
 until_true started
 until_true status_says '^health +degraded for .*: video camera: '
-is_fed
+is_notified
 kill -TERM "$pid"
 ends_with 0 1500

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# The wall clock steps by an hour and by ten years, as on a board that gets the time late. No frame
-# may be lost or become stale. Recordings must stay complete and separate. Usage:
+# The wall clock steps by an hour and by ten years, as on a board that gets the time late. mfard
+# must continue to show frames, refuse none of them and write no warning. The times in a recording
+# must increase, and each start must record into its own folder. Usage:
 # 250-wall-clock-steps.sh MFARD MFAR-SIM PRETENDED.so CLOCK.so
 . "$(dirname "$0")/lib.sh"
 

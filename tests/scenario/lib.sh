@@ -1,7 +1,7 @@
 # Common functions of the scenarios. Usage of a scenario: NNN-name.sh MFARD MFAR-SIM LIBRARY, with
-# the paths of two programs and of the library built from tests/device/pretended_v4l2.cpp. Each
-# scenario works in its own folder. MFAR_PATIENCE (default 1) multiplies all time limits, for
-# sanitizers and slow machines.
+# the paths of two programs and of the library built from tests/device/pretended_v4l2.cpp. A
+# scenario with other arguments names them in its header. Each scenario works in its own folder.
+# MFAR_PATIENCE (default 1) multiplies all time limits, for sanitizers and slow machines.
 
 set -eu -o pipefail
 
@@ -77,15 +77,15 @@ no_complaint() {
 
 # ends_with EXIT-CODE LIMIT-MS: mfard in the background must end with this code within this time.
 ends_with() {
-    local begin code=0 took
+    local begin code=0 took hangs=$((30 * patience))
     begin=$(milliseconds)
-    # Polls the process table instead of waiting for the process. So this check fails after 30 s if
-    # mfard hangs.
-    while kill -0 "$pid" 2>/dev/null && [ $(($(milliseconds) - begin)) -lt 30000 ]; do
+    # Polls the process table instead of waiting for the process. So this check fails if mfard
+    # hangs.
+    while kill -0 "$pid" 2>/dev/null && [ $(($(milliseconds) - begin)) -lt $((1000 * hangs)) ]; do
         sleep 0.02
     done
     took=$(($(milliseconds) - begin))
-    kill -0 "$pid" 2>/dev/null && fail "mfard did not end within 30 s"
+    kill -0 "$pid" 2>/dev/null && fail "mfard did not end within $hangs s"
     wait "$pid" || code=$?
     echo "mfard ended with exit code $code after $took ms"
     [ "$code" = "$1" ] || fail "mfard ended with exit code $code instead of $1"
