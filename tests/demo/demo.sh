@@ -28,12 +28,12 @@ echo "3/3  pictures"
 cat <<EOF
 
 In $out:
-  comparison.png    upscaled video, result and truth, with a magnified detail
+  comparison.png    enlarged video, result and truth, with a magnified part
   occlusion.png     a virtual ball behind real things: drawn over everything, mfar's result, truth
   virtual.png       a path traced jar on the desk, while the camera moves and at rest
   depth.png         depth of the desk, truth and error
   confidence.png    confidence of the match of each video pixel
-  tile_classes.png  which work each tile needed
+  tile_classes.png  the work that each tile needed
   video.avi         what the daemon showed, at half size
   summary.json      the daemon's times and counters
 EOF

@@ -58,7 +58,7 @@ std::string_view name(TileClass tileClass) {
 
 cv::Mat comparisonPicture(const Shown& shown) {
     const std::array<Column, 3> columns{
-        Column{withPsnr("Video, upscaled", shown.upscaled, shown.truth), shown.upscaled},
+        Column{withPsnr("Enlarged video", shown.upscaled, shown.truth), shown.upscaled},
         Column{withPsnr("mfar", shown.result, shown.truth), shown.result},
         Column{"Truth", shown.truth}};
     return columnsWithDetail(columns, mostDetailed(shown, detailSize(shown.truth.size())));

@@ -45,11 +45,11 @@ void row(const std::string& what, const std::string& upscaled, const std::string
 
 void printTable(const Quality& q, std::string_view engine) {
     fmt::print("\n");
-    row(fmt::format("means over {} frames", q.frames), "video upscaled", "mfar");
+    row(fmt::format("means over {} frames", q.frames), "enlarged video", "mfar");
     row("PSNR [dB]", fmt::format("{:.2f}", q.upscaledPsnrDb),
         fmt::format("{:.2f}", q.resultPsnrDb));
     row("SSIM", fmt::format("{:.4f}", q.upscaledSsim), fmt::format("{:.4f}", q.resultSsim));
-    row("pixels worse than upscaled video [%]", "", fmt::format("{:.2f}", 100 * q.harmRate));
+    row("pixels worse than enlarged video [%]", "", fmt::format("{:.2f}", 100 * q.harmRate));
     row("mean confidence, 0 to 1", "", fmt::format("{:.3f}", q.meanConfidence));
     row(fmt::format("time of a frame [ms], engine {}", engine), "",
         fmt::format("{:.1f}", q.frameMs));
@@ -113,7 +113,7 @@ void run(const Request& request) {
     const mfar::Recording recording = mfar::loadRecording(request.recording);
     mfar::Progress progress;
     const mfar::ProgressPart all(progress);
-    // mfard uses the same engine unless the GPU is slower than the CPU.
+    // mfard measures which assignment of steps to engines is fastest. Here, all steps run on one.
     const mfar::EngineKind engine =
         context->isSoftware() ? mfar::EngineKind::Simd : mfar::EngineKind::Gles;
     const DemoRun run =

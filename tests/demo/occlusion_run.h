@@ -15,7 +15,7 @@ namespace mfar::demo {
 /// Means over the frames that have a true depth, pose and picture, without the first eight frames.
 struct OcclusionQuality {
     int frames = 0;
-    double absrel = 0;        ///< median over the picture of |z - true z| / true z
+    double absrel = 0;        ///< median of |z - true z| / true z over pixels with known depth
     double completeness = 0;  ///< share of the picture with known depth
     double overlap = 0;       ///< intersection over union of the shown and the truly visible object
     double boundary = 0;      ///< mean distance of the shown outline from the true one [video px]
