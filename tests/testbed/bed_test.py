@@ -68,7 +68,7 @@ class Pictures(unittest.TestCase):
                                      (3, 1)])
             a.held = True
             self.assertEqual([a(t, 2)[0] for t in (0, 0.11, 0.29)], [0, 0, 0])
-            # Successive pictures differ in the first column of luma.
+            # Successive pictures of a held film differ in the first column of luma.
             row = bytes([1]) + bytes(SIZE[0] - 1)
             self.assertEqual(a(0.11, 3), SIZE[1] * row + bytes(FRAME - len(SIZE[1] * row)))
 

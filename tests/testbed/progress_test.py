@@ -22,8 +22,8 @@ class Output(io.StringIO):
 
 
 def shown_by_shell(commands, terminal):
-    """Runs commands in bash with progress.sh. Standard error is a terminal or a pipe; its text is
-    returned."""
+    """Runs commands in bash with progress.sh. Returns what they write to standard error, which is a
+    terminal or a pipe."""
     script = f'. {TOOLCHAINS}/progress.sh; {commands}'
     if not terminal:
         return subprocess.run(['bash', '-euc', script], stderr=subprocess.PIPE, check=True).stderr.decode()
