@@ -102,7 +102,7 @@ TEST(CarriedLight, NewSamplesSoonOutweighTheLightFromBeforeAChangeOfLighting) {
 TEST(CarriedLight, SurfacesWithUnchangedLightAreTracedOnce) {
     Driver driver({Slicing::Time, 2, 1, 0, 2}, kProduct);
     driver.size = {192, 144};
-    // The black ball casts a shadow, but reflects no light.
+    // The black ball casts a shadow, but reflects hardly any light.
     const auto sunlit = std::make_shared<Scene>(*render_scenes::stillLife());
     sunlit->lighting.environment = nullptr;
     sunlit->objects.resize(1);

@@ -27,7 +27,7 @@ Mesh moved(Mesh mesh, const Eigen::Vector3f& by) {
     return mesh;
 }
 
-/// A square of half side `side` that faces down, at `height` over a ground of albedo 0.5.
+/// A square lamp of half side `side` that faces down, at `height` over a ground of albedo 0.5.
 std::shared_ptr<Scene> lampOverGround(float side, float height, const Eigen::Vector3f& emission) {
     auto out = std::make_shared<Scene>();
     Mesh mesh = square(side, height);
@@ -56,12 +56,12 @@ RenderView ofGround(const Eigen::Vector3d& point) {
 }
 
 struct Estimate {
-    double mean = 0, deviation = 0;  ///< mean and standard deviation of the pixels' luminances
-    double error() const { return deviation / 16; }
+    double mean = 0, deviation = 0;  ///< mean and standard deviation of the pixels' radiances
+    double error() const { return deviation / 16; }  ///< standard error of the mean of 256 pixels
 };
 
-/// Mean and deviation of the pixels' luminances. All pixels must see almost the same point, and
-/// their noise must be independent.
+/// Traces 256 pixels. A pixel's radiance is the mean of its three colours. All pixels must see
+/// almost the same point, and their noise must be independent.
 Estimate estimateOf(const std::shared_ptr<const Scene>& scene, const RenderView& view, int samples,
                     PathTracerOptions options = {}) {
     options.seed = 5;

@@ -208,7 +208,7 @@ TEST(Film, LayeredPictureDoesNotMixSurfacesAtEdges) {
     EXPECT_EQ(mixed.light, layered.light);
 }
 
-TEST(Film, AFilteredShadowIsNeverBrighterThanNoShadow) {
+TEST(Film, AFilteredShadowThatTakesMoreThanAllLightIsBlack) {
     Film film({1, 1});
     film.setCentre(0, {{2, kCatcherId}});
     film.add(0, catcherSample({0.1F, 0.1F, 0.1F}, {0.5F, 0.5F, 0.5F}));

@@ -129,7 +129,7 @@ TEST(PathTracer, RussianRouletteDoesNotChangeTheMeanRadiance) {
     EXPECT_NEAR(a, b, 0.006F);
 }
 
-/// Radiance of a horizontal surface towards `wo`, by quadrature over the scene's lights.
+/// Radiance of a horizontal surface towards `wo`, by quadrature over the environment, without sun.
 Eigen::Vector3f byQuadrature(const Lighting& lighting, const SurfaceLook& look,
                              const Eigen::Vector3f& wo) {
     const SurfaceScatter scatter(look, wo);

@@ -11,6 +11,7 @@ namespace {
 
 constexpr Size kResolvedSize{64, 48};
 
+/// The parameter is true if the noise filter is used.
 struct PictureResolving : testing::TestWithParam<bool> {
     PictureResolving()
         : view(render_scenes::viewFrom(kResolvedSize, 20)), tracer(render_scenes::stillLife()),
@@ -55,7 +56,7 @@ TEST_P(PictureResolving, OrderOfPortionsDoesNotChangeThePicture) {
     expectSame(parts, whole);
 }
 
-TEST_P(PictureResolving, EmptyFilmGivesAnEmptyPicture) {
+TEST_P(PictureResolving, EmptyBoundsGiveAnEmptyPicture) {
     RenderedPicture out;
     PictureResolver resolver;
     resolver.begin(film, view, {}, {}, GetParam(), out);

@@ -13,7 +13,7 @@ namespace mfar::render_scenes {
 [[nodiscard]] Mesh sphere(const Eigen::Vector3f& centre, float radius, int rings = 32);
 /// A square from (-side, -side) to (side, side) at height z that faces up.
 [[nodiscard]] Mesh square(float side, float z);
-/// A material that emits light and reflects none.
+/// A black material that emits light. It reflects only a little light, as black varnish does.
 [[nodiscard]] Material lampOf(const Eigen::Vector3f& emission);
 [[nodiscard]] ShadowCatcher ground(float side, float albedo);
 [[nodiscard]] Model modelOf(Mesh mesh, const Material& material);

@@ -46,14 +46,14 @@ TEST(ShadowCatcher, SphereBlocksTheShareOfTheSkyGivenByItsFormFactor) {
 }
 
 TEST(ShadowCatcher, PenumbraIsTheCoveredShareOfTheSunsDisc) {
-    // The edge of a large roof covers half of the sun's disc, as seen from this point.
+    // Seen from the ground at x = 0, a large roof covers half of the sun's disc.
     auto scene = std::make_shared<Scene>();
     Mesh roof = square(5, 1);
     for (Eigen::Vector3f& p : roof.positions)
         p.x() += 5;
-    Material black;
-    black.doubleSided = true;
-    scene->objects.push_back(objectOf(modelOf(roof, black)));
+    Material material;
+    material.doubleSided = true;
+    scene->objects.push_back(objectOf(modelOf(roof, material)));
     scene->catcher = ground(20, 0.5F);
     scene->lighting.sun = Sun{{0, 0, 1}, {1, 1, 1}, 0.05F};
     PathTracerOptions directly;
@@ -67,7 +67,7 @@ TEST(ShadowCatcher, PenumbraIsTheCoveredShareOfTheSunsDisc) {
     EXPECT_NEAR(ratio(0), 0.5, 0.01);
     EXPECT_NEAR(ratio(-1.1 * r), 1, 1e-6);
     EXPECT_NEAR(ratio(1.1 * r), 0, 1e-6);
-    // Area of a circular segment that begins half a radius from the centre.
+    // Share of a disc that lies beyond a chord at half a radius from the centre.
     const double part = (std::acos(0.5) - 0.5 * std::sqrt(0.75)) / std::numbers::pi;
     EXPECT_NEAR(ratio(0.5 * r), part, 0.01);
 }

@@ -172,7 +172,7 @@ TEST(Slices, AllPixelsHaveEqualSamplesAfterEachFullTurnOfTimeSlices) {
         const auto isSampled = [](const auto& pixel) { return pixel.second > 0; };
         sampled.push_back(static_cast<int>(std::ranges::count_if(picture.samples(), isSampled)));
         EXPECT_EQ(picture.samples().size(), slices.pixels())
-            << "each pixel was traced in the first turn";
+            << "the first turn must trace every pixel";
         if (turns.back() == 0) continue;
         for (const auto& [pixel, samples] : picture.samples())
             EXPECT_EQ(samples, turns.back()) << pixel;

@@ -90,9 +90,8 @@ struct Cells {
 TEST(SurfaceScatter, SamplesFollowTheirDensity) {
     for (const SurfaceLook& look : looks({0.8F, 0.5F, 0.3F}))
         for (const float mu : {0.2F, 0.9F}) {
-            if (look.roughness < 0.3F && !look.matt)
-                continue;  // the lobe is too sharp for the
-                           // quadrature
+            // Narrower lobes are too sharp for the quadrature.
+            if (look.roughness < 0.3F && !look.matt) continue;
             const Cells cells(look, mu);
             for (std::size_t i = 0; i < cells.sampled.size(); ++i)
                 EXPECT_NEAR(cells.sampled[i], cells.expected[i], 0.004)

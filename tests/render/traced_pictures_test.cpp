@@ -30,7 +30,7 @@ TEST(NextStep, StepDependsOnTheChangesOfTheView) {
              {0.3, {}, Start},        // the change is above the limit of 0.25
              {kInfinite, {}, Start},  // the shown picture is useless from this view
              {1.1, 0.9, Continue},    // the camera approaches the next picture's view
-             {0.6, 2.0, Start},       // the shown picture serves meanwhile
+             {0.6, 2.0, Start},       // the shown picture is nearer and serves meanwhile
              {0.1, 0.7, Drop},        // the camera came back to the shown picture's view
              {0.2, 0.7, Continue},    // the camera came back only in part
              // The camera moves fast, but is closer to the next picture's view than to the shown
@@ -149,7 +149,7 @@ TEST(TracedPictures, ReturningCameraGetsItsEarlierPictureRefined) {
     EXPECT_TRUE(driver.shows(20));
 }
 
-TEST(TracedPictures, MovingCamerasGetPicturesOfPredictedViews) {
+TEST(TracedPictures, PictureOfAMovingCameraIsFinishedIfItIsNearerThanTheShownOne) {
     Driver driver(kThirtyTwo);
     driver.look(20);
     driver.settle();
@@ -164,7 +164,7 @@ TEST(TracedPictures, MovingCamerasGetPicturesOfPredictedViews) {
     EXPECT_TRUE(driver.shows(33));
 }
 
-TEST(TracedPictures, ReversingCameraDiscardsThePredictedPicture) {
+TEST(TracedPictures, ReversingCameraDiscardsTheNextPicture) {
     Driver driver(kThirtyTwo);
     driver.look(20);
     driver.settle();

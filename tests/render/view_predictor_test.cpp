@@ -58,7 +58,7 @@ TEST(ViewPredictor, PredictionStaysWithinItsLimits) {
     EXPECT_GT(way, 0.09 * 5 * kDegree);
 }
 
-TEST(ViewPredictor, CameraAtRestOrWithOnePoseIsPredictedToStay) {
+TEST(ViewPredictor, CameraWithFewerThanTwoPosesIsPredictedToStay) {
     ViewPredictor predictor;
     expectNear(predictor.predict(1, 1), {}, 1e-12, 1e-12);
     predictor.add(onCircle(1, 20), Timestamp::fromSeconds(1));
