@@ -311,7 +311,7 @@ TEST_F(GltfFiles, AModelInMemoryThatNamesFilesIsRefused) {
                 HasSubstr("references to other files are not allowed"));
 }
 
-TEST_F(GltfFiles, BufferFilesOfAnotherSizeThanStatedAreRefused) {
+TEST_F(GltfFiles, MissingModelsAndBufferFilesOfAnotherSizeAreRefused) {
     write("model/data.bin", "short");
     EXPECT_THAT(faultWithUri("data.bin"), HasSubstr("mismatch"));
     EXPECT_THAT(faultOf([&] { (void)loadGltf(folder_.path() / "none.glb"); }),

@@ -171,7 +171,7 @@ TEST(GltfMotion, KeyframesAreCountedWhereverTheyAreStored) {
             return false;
         }
     };
-    EXPECT_TRUE(loads(10)) << "five keyframes as read and in the path of the node";
+    EXPECT_TRUE(loads(10)) << "each of the five keyframes counts as read and in the node's path";
     EXPECT_FALSE(loads(9));
     EXPECT_FALSE(loads(4));
 }
