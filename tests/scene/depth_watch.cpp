@@ -41,8 +41,8 @@ cv::Mat DepthWatch::trueDepth(Timestamp time) const {
     return out;
 }
 
-// Returns rho / true rho in the previous frame, for the measured pixel nearest to the point's
-// position in that frame.
+// Returns inverse depth / true inverse depth in the previous frame, at the measured pixel nearest
+// to a point's position in that frame. `rho`: true inverse depth of the point in the new frame.
 double DepthWatch::ratioBefore(int x, int y, double rho, const RigidTransform& pose) const {
     const CameraModel& video = board_.rig().video;
     const Eigen::Vector3d p =

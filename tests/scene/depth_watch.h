@@ -14,9 +14,11 @@ namespace mfar::test {
 struct DepthState {
     double absrel = 0;        ///< |z - true z| / true z where z is known; NaN: known nowhere
     double completeness = 0;  ///< share of the pixels with known depth
-    double sigma = 0;  ///< standard deviation of rho that the pipeline reports, as a share of rho
-    /// Change of rho / true rho since the previous frame, at the same points of the scene. Only
-    /// points with known depth in both frames count; 0 if there are none.
+    /// Standard deviation of the inverse depth that the pipeline reports, as a share of the inverse
+    /// depth.
+    double sigma = 0;
+    /// Change of inverse depth / true inverse depth since the previous frame, at the same points of
+    /// the scene. Only points with known depth in both frames count; 0 if there are none.
     double change = 0;
 };
 
@@ -30,12 +32,13 @@ public:
     [[nodiscard]] DepthState look(const Pipeline& pipeline, Timestamp time);
 
 private:
+    /// Returns the true inverse depth at the measured pixels; 0 elsewhere.
     [[nodiscard]] cv::Mat trueDepth(Timestamp time) const;
     [[nodiscard]] double ratioBefore(int x, int y, double rho, const RigidTransform& pose) const;
 
     const SyntheticBoard& board_;
     VirtualObject object_;
-    cv::Mat ratio_;  // rho / true rho of the previous frame; 0: unknown
+    cv::Mat ratio_;  // inverse depth / true inverse depth of the previous frame; 0: unknown
     std::optional<RigidTransform> pose_;
 };
 

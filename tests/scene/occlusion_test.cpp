@@ -74,7 +74,7 @@ TEST_P(Occlusion, RealObjectsOccludeAVirtualOneUpToTheirEdges) {
 
 class Rest : public Occlusion {};
 
-/// Intersection over union of the truly visible part of the object and that in a pipeline's output.
+/// Intersection over union of the object's truly visible part and the part that a pipeline shows.
 double overlapOf(const Pipeline& pipeline, const VirtualTruth& truth) {
     return occlusionScore(
                shownAtVideo(shownObjects(pipeline), {truth.visible.cols, truth.visible.rows}),
