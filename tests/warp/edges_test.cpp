@@ -83,7 +83,7 @@ TEST_F(WarpEdgesGl, EdgesFadeInAndVanishWithTheFirstMotion) {
     EXPECT_NEAR(meanAt(2), 255, 0.5);
     EXPECT_NEAR(meanAt(2.2), before, 10);
     EXPECT_NEAR(meanAt(2), before, 10)
-        << "pixels requested for an earlier pose at rest are not shown";
+        << "pixels requested for an earlier pose at rest must not be shown";
 }
 
 TEST_F(WarpEdgesGl, RenderedEdgesThatArriveAfterACameraMotionAreIgnored) {
@@ -93,7 +93,7 @@ TEST_F(WarpEdgesGl, RenderedEdgesThatArriveAfterACameraMotionAreIgnored) {
     const auto moved = test::bytesOf(s.warp.run(test::orbit(3)).colour);
     s.warp.answer(test::answered(s.scene, *request));
     EXPECT_EQ(test::bytesOf(s.warp.run(test::orbit(3)).colour), moved);
-    EXPECT_TRUE(s.edgesAt(3)) << "the late answer does not prevent the next request";
+    EXPECT_TRUE(s.edgesAt(3)) << "the late answer must not prevent the next request";
 }
 
 TEST_F(WarpEdgesGl, ModesThatDoNotRenderHolesRequestNoEdges) {

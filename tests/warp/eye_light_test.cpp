@@ -51,7 +51,8 @@ struct OfGles {
     gpu::Texture rays = rayTexture(test::mirrorCamera());
 };
 
-/// Light words and half floats are each rounded by up to 1/256 of a pixel's largest channel.
+/// Rounding to light words changes a value by up to 1/256 of the pixel's largest channel, rounding
+/// to half floats by less.
 void expectNear(const std::vector<float>& texels, std::size_t pixel, std::array<float, 3> wanted) {
     const float most = *std::ranges::max_element(wanted);
     for (std::size_t c = 0; c < 3; ++c)

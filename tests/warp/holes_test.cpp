@@ -79,7 +79,7 @@ TEST_F(WarpHolesGl, AnsweredPixelsAreReusedAfterTheCameraMoved) {
     const auto second = s.requestAt(kTurn + 1.5);
     const std::size_t left = second ? second->pixels.size() : 0;
     EXPECT_LT(left, request->pixels.size() / 3)
-        << "only pixels that the further rotation uncovers are requested";
+        << "only pixels that the further rotation uncovers may be requested";
 }
 
 TEST_F(WarpHolesGl, WhileTheCameraRestsNoPixelIsRequestedTwice) {

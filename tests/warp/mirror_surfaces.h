@@ -51,8 +51,8 @@ inline MirrorLight smoothLightAndSun() {
     return out;
 }
 
-/// A traced picture whose pixels mirror the light of smoothLight(), each with its own normal,
-/// roughness and distance.
+/// A traced picture whose pixels mirror the given light, each with its own normal, roughness and
+/// distance. Their light must be set with setLight().
 struct MirrorSurfaces {
     std::vector<Eigen::Vector3f> points, normals;
     std::vector<float> roughness;
@@ -92,6 +92,7 @@ struct MirrorSurfaces {
     [[nodiscard]] Eigen::Vector3f seenFrom(const Eigen::Vector3d& eye, std::size_t i) const {
         return (eye.cast<float>() - points[i]).normalized();
     }
+    /// Light that pixel `i` mirrors from the sky of smoothLight() to `eye`, times the exposure.
     [[nodiscard]] Eigen::Vector3f skyFor(const Eigen::Vector3d& eye, std::size_t i) const {
         const Eigen::Vector3f wo = seenFrom(eye, i);
         const Eigen::Vector3f towards = 2 * normals[i].dot(wo) * normals[i] - wo;

@@ -107,7 +107,8 @@ TEST(MovingMirrors, HighlightsOfTheSunMove) {
     EXPECT_GT(bright, 10);
 }
 
-// Where the sun's light is weak, it is contained only once in the light from another position.
+// Half of all light is hidden. Where the sun's light is weak, sky and sun get the same visible
+// share, and the sun's light must not be counted twice.
 TEST(MovingMirrors, HiddenHalvesOfSkyAndWeakSunMoveTogether) {
     MirrorLight light = test::smoothLightAndSun();
     light.sunIrradiance = {1.5F, 1.5F, 1.5F};

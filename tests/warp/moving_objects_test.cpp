@@ -33,7 +33,7 @@ struct Moving {
         picture.poses = posesOf(before);
         warp.setTracedPicture(tracedPicture(picture));
     }
-    /// The balls when the second one has moved by a tenth of its radius.
+    /// The balls when the second one has moved by about a tenth of its radius.
     [[nodiscard]] CastScene after() const {
         CastScene out = before;
         out.balls[1].centre += 0.1 * out.balls[1].radius * Eigen::Vector3d(1, 0.5, 0.3);
@@ -92,14 +92,14 @@ TEST_F(WarpMovingGl, HolesOfATurnedObjectAreRenderedAtItsPose) {
     Moving s({.filling = HoleFilling::Rerender, .fadeFrames = 0});
     std::vector<RigidTransform> poses = posesOf(s.before);
     poses[1].rotation = Eigen::AngleAxisd(1.5, Eigen::Vector3d::UnitZ());
-    const auto meanAlpha = [&] {
+    const auto alphaSum = [&] {
         const auto rgba = test::bytesOf(s.warp.run(test::orbit(0), poses).colour);
         double sum = 0;
         for (std::size_t i = 3; i < rgba.size(); i += 4)
             sum += rgba[i];
         return sum;
     };
-    const double open = meanAlpha();
+    const double open = alphaSum();
     glFinish();
     const auto request = s.warp.takeRequest();
     ASSERT_TRUE(request);
@@ -108,10 +108,10 @@ TEST_F(WarpMovingGl, HolesOfATurnedObjectAreRenderedAtItsPose) {
     HoleAnswer answer = test::answered(s.before, *request);
     answer.poses = request->poses;
     s.warp.answer(answer);
-    EXPECT_GT(meanAlpha(), open + 255 * 100);
+    EXPECT_GT(alphaSum(), open + 255 * 100);
     // The rendered pixels turn with the ball.
     poses[1].rotation = Eigen::AngleAxisd(1.55, Eigen::Vector3d::UnitZ());
-    EXPECT_GT(meanAlpha(), open + 255 * 90);
+    EXPECT_GT(alphaSum(), open + 255 * 90);
 }
 
 }  // namespace

@@ -47,7 +47,7 @@ Truth truthAt(const TracedScene& scene, const CameraModel& camera, const RigidTr
     return out;
 }
 
-/// Mean squared errors [grey levels] of sRGB bytes against a linear colour.
+/// Mean squared error [grey levels^2] of sRGB bytes against a linear colour.
 double squares(const std::array<double, 3>& shown, const Eigen::Vector3d& linear) {
     double sum = 0;
     for (std::size_t c = 0; c < 3; ++c)

@@ -129,8 +129,8 @@ TEST(SurfaceRaster, TrianglesBehindTheCameraAreClipped) {
         }
 }
 
-/// A square with a mask of 2x2 texels, of which those in `shown` are opaque. Pixel (x, y) shows
-/// the texture's coordinates ((x - 39.51) / 40, (y - 19.51) / 40).
+/// A square with a mask of 2x2 texels. The texels in `shown` are opaque. Pixel (x, y) shows the
+/// texture's coordinates ((x - 39.51) / 40, (y - 19.51) / 40).
 Scene maskedSquare(std::initializer_list<std::size_t> shown) {
     auto model = std::make_shared<Model>();
     model->meshes.push_back(shards(5, 3));

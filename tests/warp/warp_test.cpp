@@ -225,7 +225,7 @@ TEST_F(WarpGl, LayersOfOddSizesAreWarped) {
     }
 }
 
-TEST_F(WarpGl, MeshesOfManyTrianglesAreSimplifiedAndLookTheSame) {
+TEST_F(WarpGl, MeshesOfManyTrianglesAreWarped) {
     const CastScene scene{{{{0, 0, 0.1}, 0.09}}, true, 1};
     const auto engine = test::warpEngine();
     Warp warp(test::bentCamera(kLayer), kLayer, *engine, {.filling = HoleFilling::PushPull});
