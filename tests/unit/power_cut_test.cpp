@@ -151,7 +151,7 @@ StereoRig smallRig() {
     return rig;
 }
 
-/// Records 12 pictures, 4 stills and 12 poses. The recorder's thread synchronises as often as
+/// Records 12 video pictures, 4 stills and 12 poses. The recorder synchronises as often as
 /// possible. Returns the log.
 std::vector<Operation> record(const fs::path& folder) {
     journal().begin(folder);
@@ -172,7 +172,8 @@ std::vector<Operation> record(const fs::path& folder) {
 }
 
 /// A possible state on disk of a file that was growing from `safe` to `now`: with a part of the new
-/// bytes, or with the new length but without the new bytes.
+/// bytes, or with zeros in place of this part. If the file was not growing but replaced, it is the
+/// old or the new file.
 std::string part(const std::string& safe, const std::string& now, std::mt19937& random) {
     if (!now.starts_with(safe)) return random() % 2 == 0 ? safe : now;
     const std::size_t more = random() % (now.size() - safe.size() + 1);
@@ -224,7 +225,7 @@ std::size_t safeRows(const std::vector<Operation>& operations, std::size_t count
             rows += static_cast<std::size_t>(std::ranges::count(written->bytes, '\n'));
         if (std::holds_alternative<Synced>(operations[i])) safe = rows;
     }
-    return safe > 0 ? safe - 1 : 0;  // without the line of headings
+    return safe > 0 ? safe - 1 : 0;  // without the heading
 }
 
 /// Number of synchronisations after each addition of rows to `list`, before the next addition.
@@ -290,10 +291,12 @@ TEST_F(PowerCut, SynchronisedDataReadsBackAfterACutAtAnyMoment) {
     EXPECT_GT(read, 300);  // many cuts leave at least one picture
 }
 
+// The recorder synchronises twice between two additions of rows: first the rows that were added,
+// then the pictures of the next rows.
 TEST_F(PowerCut, RowsAreSynchronisedBeforeTheNextPictures) {
     std::vector<int> syncs = syncsAfterRows(operations_, (whole_ / "cam0/data.csv").string());
     ASSERT_GT(syncs.size(), 2U);
-    ++syncs.back();  // The end counts as a synchronisation, because no pictures follow.
+    ++syncs.back();  // no pictures follow the last rows, so one synchronisation is enough there
     EXPECT_THAT(syncs, testing::Each(testing::Ge(2)));
 }
 

@@ -96,7 +96,7 @@ TEST(ProgressPart, ANestedPartShowsItsShareOfTheWhole) {
     EXPECT_THAT(out.taken(), HasSubstr(" 69 %  shelf, product, frame 2 of 2"));
 }
 
-TEST(ProgressPart, APartWithoutAProgressPrintsNothing) {
+TEST(ProgressPart, APartWithoutAProgressCanBeShown) {
     ProgressPart().part(0, 0, "none").show(0, 0, "none");
 }
 

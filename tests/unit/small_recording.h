@@ -24,8 +24,8 @@ constexpr Size kSmallVideo{16, 12};
 constexpr Size kSmallStill{32, 24};
 
 inline std::string smallSensorYaml(Size size, double rateHz, double x) {
-    // Tests use these line numbers: 2 T_BS, 5 data of T_BS, 9 rate_hz, 10 resolution, 12
-    // intrinsics.
+    // Tests use these line numbers: 5 data of T_BS, 9 rate_hz, 10 resolution, 11 camera_model, 12
+    // intrinsics, 13 distortion_model, 14 distortion_coefficients.
     return fmt::format("sensor_type: camera\n"
                        "T_BS:\n"
                        "  cols: 4\n"

@@ -23,8 +23,8 @@ struct Sensor {
     std::deque<Frame> ready;
     std::vector<Timestamp> pulses;
     int loans = 0;
-    int busy = 0;   ///< number of pulses that the trigger refuses next
-    int blind = 0;  ///< number of pulses that expose no still next
+    int busy = 0;   ///< number of next calls of fire() that throw TriggerBusy
+    int blind = 0;  ///< number of next pulses that expose no still
     bool stopped = false;
     int rests = 0;
     bool high = false;  ///< true from a pulse until endPulse()
