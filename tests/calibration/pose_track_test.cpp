@@ -66,7 +66,7 @@ TEST(PoseTrack, EndsOfTheTrackAndNeighboursOfAMissingFrameHaveNoPose) {
     EXPECT_FALSE(known(9.5));
 }
 
-TEST(PoseTrack, FramesAreMissingAlsoIfEveryThirdOneIs) {
+TEST(PoseTrack, MissingFramesAreNoticedIfEveryThirdFrameIsMissing) {
     PoseTrack track;
     for (int i = 0; i < 60; ++i)
         if (i % 3 != 2) track.add(at(i / 30.), {});

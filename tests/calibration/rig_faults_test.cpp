@@ -151,7 +151,7 @@ TEST(RigFiles, DeeplyNestedOrVeryLongFilesAreRefusedBeforeParsing) {
     }
 }
 
-// Root may read every file, so a name that is too long stands for a file that may not be read.
+// The name is too long. A file without read permission would not do, because root may read it.
 TEST(RigFiles, APathThatCannotBeLookedUpIsRefused) {
     const std::string name(300, 'a');
     EXPECT_NE(faultOf(name).find(name), std::string::npos);

@@ -74,7 +74,8 @@ TEST(Calibrate, ClockOffsetsOfManyFrameIntervalsAreFound) {
 }
 
 TEST(Calibrate, AClockOffsetBeyondTheSearchIsRefused) {
-    // The first fits nearly, the second bends the poses, the third looks like a shorter offset.
+    // The largest accepted offset is 0.25 s. With -0.4 s, the stills nearly fit the video; -0.6 s
+    // distorts the poses; 0.7 s looks like a smaller offset.
     for (const double offset : {-0.4, -0.6, 0.7}) {
         Motion motion;
         motion.offset = offset;
@@ -94,9 +95,9 @@ TEST(Calibrate, ARecordingThatHasLostVideoFramesIsUsed) {
     }
 }
 
-TEST(Calibrate, FewStillsThatTheVideoSawAreNotTakenForOutliers) {
+TEST(Calibrate, IfOnlyAFewStillsHaveVideoTheyAreNotOutliers) {
     BothViews views = makeViews(kGrid, {});
-    // The video saw the target during a third of the stills.
+    // The video sees the target only in the first third of the recording.
     const auto end = views.video.views[views.video.views.size() / 3].time;
     std::erase_if(views.video.views, [&](const TargetView& v) { return v.time > end; });
     const Calibration found = calibrate(kGrid, views.video, views.still, {});

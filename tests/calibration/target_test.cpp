@@ -115,7 +115,7 @@ void expectCorners(const Target& target, const Scene& scene, const std::vector<C
         bias += error / static_cast<double>(corners.size());
     }
     EXPECT_LT(std::sqrt(sum / static_cast<double>(corners.size())), 0.08);
-    EXPECT_LT(bias.norm(), 0.03);  // an error of half a pixel would fail here
+    EXPECT_LT(bias.norm(), 0.03);
 }
 
 /// A grid as Kalibr prints it. Each tag is rotated by `turn` quarter turns and has a border of
