@@ -9,11 +9,11 @@
 
 namespace mfar::test {
 
-/// A driver whose answers are bytes of a script, within the kernel's rules for drivers. It returns
-/// an error or fills the structure of a call. It does not change the caller's pointers, and it
-/// returns only new descriptors. The first byte of each call selects the answer: 0 to 7 are errors;
-/// 8 to 127 are answers of a correct camera; for larger values the script fills the structure.
-/// After the end of the script all answers are correct.
+/// A simulated driver. The bytes of a script determine its answers, within the kernel's rules for
+/// drivers: it returns an error or fills the structure of a call, it does not change the caller's
+/// pointers, and it returns only new descriptors. At each call, the next byte selects the answer:
+/// 0 to 7 are errors, 8 to 127 the answer of a correct camera; for larger values, the following
+/// bytes fill the structure. After the end of the script, all answers are correct.
 class ScriptedV4l2 final : public V4l2Api {
 public:
     explicit ScriptedV4l2(std::span<const std::uint8_t> script) : script_(script) {}

@@ -6,8 +6,9 @@
 #include <stdexcept>
 #include <string_view>
 
-/// The interface of a fuzz target: it reads one input and returns 0. A fault ends the process: one
-/// that a sanitizer reports, or an exception that the tested header does not document.
+/// The interface of a fuzz target: it reads one input and returns 0. If there is a fault, the
+/// process ends: by the report of a sanitizer, or by an exception that the tested header does not
+/// document.
 // NOLINTNEXTLINE(readability-identifier-naming): libFuzzer requires this name
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
