@@ -13,10 +13,12 @@
 namespace mfar::twin {
 
 struct Classified {
-    int number;
-    double margin;
+    int number;     ///< of the class
+    double margin;  ///< Thresholds::margin()
 };
 
+/// Finds the bins of several values. margin() is the smallest distance of a value from a border
+/// between bins; if it is tiny, rounding may decide.
 class Thresholds {
 public:
     template <class Range>

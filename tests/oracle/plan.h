@@ -17,6 +17,8 @@ struct TileChange {
     /// For each cell, row by row: absolute value of the mean difference, and mean of the absolute
     /// difference. Each is the largest value over the channels.
     std::array<double, 16> mean{}, absolute{};
+    /// Variance that noise gives to a cell's mean difference [grey levels^2]. Maximum over the
+    /// channels.
     double cellNoise = 0;
     double noise = 0;  ///< standard deviation of the luma's noise [grey levels]
     /// Squared mean plus squared slopes of the cells' mean differences, divided by the variance

@@ -35,8 +35,8 @@ struct TwoViews {
     [[nodiscard]] Eigen::Vector3d baseline() const {
         return T_b_a.rotation.conjugate() * T_b_a.translation;
     }
-    /// Direction of the epipolar line, towards nearer points. Its length is that of the baseline's
-    /// component across the ray.
+    /// Direction of the epipolar line, towards nearer points: the baseline, projected along the ray
+    /// onto the plane z = 0 of camera a.
     [[nodiscard]] Eigen::Vector2d line(const Eigen::Vector2d& pixel) const {
         const Eigen::Vector3d t = baseline();
         return t.head<2>() - rayA(pixel) * t.z();
@@ -48,7 +48,7 @@ struct FlowDepth {
 };
 
 /// Inverse depth rho = (u . e) / (|e|^2 - b_z (u . e)), its standard deviation, and the component
-/// of the flow normal to e. u: flow in normalised coordinates; e: line(); b: baseline().
+/// of the flow normal to e [px]. u: flow in normalised coordinates; e: line(); b: baseline().
 inline FlowDepth depthFromFlow(const TwoViews& views, const Eigen::Vector2d& pixel,
                                const Eigen::Vector2d& flow, double flowSigma) {
     const double focal = std::sqrt(views.b.fx * views.b.fy);
