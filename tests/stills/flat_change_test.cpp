@@ -19,7 +19,7 @@ using Bytes = std::vector<std::uint8_t>;
 
 constexpr int kFlatFrom = 768, kChangedFrom = 832;  // columns of the still
 constexpr int kShift = 24;                          // motion of the video camera [px of the still]
-constexpr int kComparedCells = 40;  // the cells left of the flat part, without a margin
+constexpr int kComparedCells = 40;  // columns of cells; 48 are left of the flat part
 
 /// Keeps the look-ups with which the last frame was drawn.
 struct LastLookUps final : MatchListener {

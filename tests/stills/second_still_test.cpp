@@ -126,7 +126,7 @@ TEST_F(SecondStill, IsMatchedInNoMoreTilesThanItsConfiguredShare) {
     setStill(pipeline, whole_);
     run(pipeline);
     setStill(pipeline, part_);
-    EXPECT_EQ(run(pipeline).matchedSecond, 10) << "5 % of 192 tiles";
+    EXPECT_EQ(run(pipeline).matchedSecond, 10) << "5 % of 192 tiles, rounded up";
     pipeline.setQuality({.secondShare = 0});
     EXPECT_EQ(run(pipeline).matchedSecond, 0);
     pipeline.setQuality({.secondShare = 0.1});
@@ -208,7 +208,7 @@ TEST_F(SecondStillTest, AllEnginesGiveTheSamePicture) {
     }
 }
 
-TEST_F(SecondStill, ADifferentExposureDoesNotIncreaseTheError) {
+TEST_F(SecondStill, ReducesTheErrorAlsoIfItsExposureDiffers) {
     const Bytes dark = bytesOf(twin::greyOf(kDiscsStill, [&](int x, int y) {
         return 255 * 0.7 * std::pow(scene_.at(x, y) / 255, 1.3);
     }));
@@ -223,7 +223,7 @@ TEST_F(SecondStill, ADifferentExposureDoesNotIncreaseTheError) {
     EXPECT_LT(error(two, false), 1.02 * error(one, false));
 }
 
-TEST_F(SecondStill, ADifferentSceneDoesNotIncreaseTheError) {
+TEST_F(SecondStill, OfAnotherSceneDoesNotIncreaseTheError) {
     const Bytes other = bytesOf(sharpDiscs(5));
     Pipeline one = made(0), two = made(1);
     for (Pipeline* pipeline : {&one, &two}) {
