@@ -118,7 +118,7 @@ TEST(CornerRefiner, CornersInUniformPicturesStayUnchanged) {
         EXPECT_EQ(detection.corners, made.corners);
     }
     for (Eigen::Vector2d& corner : made.corners)
-        corner.array() -= 139.5;  // a corner beyond the picture's edge
+        corner.array() -= 139.5;  // moves three corners out of the picture
     TagDetection detection = made;
     CornerRefiner().refine(GrayPicture(camera.size, 90).view(), camera, detection);
     EXPECT_EQ(detection.corners, made.corners);

@@ -111,8 +111,10 @@ TEST(TagMap, ReadsAnAprilTagRosBundleAndTurnsItsTagFrame) {
 TEST(TagMap, ASingleStandaloneTagIsTheOriginOfTheWorld) {
     const TagMap map =
         tagMapFromRosYaml("standalone_tags: [{id: 4, size: 0.3}]", "t.yaml", TagFamily::Tag25h9);
-    ASSERT_NE(map.find({TagFamily::Tag25h9, 4}), nullptr);
-    EXPECT_EQ(map.find({TagFamily::Tag25h9, 4})->size, 0.3);
+    const MappedTag* tag = map.find({TagFamily::Tag25h9, 4});
+    ASSERT_NE(tag, nullptr);
+    EXPECT_EQ(tag->size, 0.3);
+    EXPECT_EQ(tag->T_world_tag.translation, Eigen::Vector3d(0, 0, 0));
 }
 
 TEST(TagMap, BrokenBundlesAreRefusedWithFileAndLine) {

@@ -234,7 +234,7 @@ TEST(Tracker, HalfATagAndAGrazingTagGiveNoPose) {
     }
 }
 
-TEST(Tracker, BlackWhiteAndSaturatedPicturesGiveNoPose) {
+TEST(Tracker, BlackWhiteAndCheckeredPicturesGiveNoPose) {
     Tracker tracker = trackerFor(mapOf(world()));
     for (const int value : {0, 255})
         EXPECT_FALSE(
