@@ -86,7 +86,7 @@ float squaredNormal(const Vector2f& ray, const Vector2f& v) {
 }
 
 /// Flow from the ray `a` of view a to the ray `b` of view b, after the rotation is removed. Empty
-/// if `b` points behind view a.
+/// unless z of `b`, rotated into view a, exceeds kNearPlane.
 std::optional<Vector2f> residualFlow(const Motion& motion, const SplitVector& a,
                                      const SplitVector& b) {
     const Vector3f head3 = b.head.homogeneous();

@@ -13,7 +13,7 @@ namespace mfar {
 
 enum class TriangulationMethod {
     Flow,      ///< closed form from the flow along the epipolar line
-    Midpoint,  ///< the paper's: midpoint of the shortest line between both rays
+    Midpoint,  ///< the paper's method: midpoint of the shortest line between both rays
 };
 
 struct TriangulationOptions {
