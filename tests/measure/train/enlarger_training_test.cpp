@@ -84,7 +84,7 @@ TEST(TrainingPair, VideoIsAreaAveragedAndTheTargetIsTheCubicsError) {
     double most = 0;
     for (int x = 64; x < 80; ++x)
         most = std::max(most, std::abs(pair.target(x, 8)));
-    EXPECT_GT(most, 10) << "the edge is blurred";
+    EXPECT_GT(most, 10) << "the target lacks the cubic's error at the edge";
 }
 
 }  // namespace

@@ -27,7 +27,12 @@ TEST(MfarTrainEnlarger, TooFewSharpPicturesAreRefusedAndNothingIsWritten) {
         EXPECT_NE(ran.text.find(message), std::string::npos) << ran.text;
         EXPECT_EQ(test::readFile(folder / "kept"), "filters") << recordings;
     }
-    const Outcome ran = train("absent", "nowhere/file");
+}
+
+TEST(MfarTrainEnlarger, AnOutputFileInAMissingFolderIsRefused) {
+    const TempFolder folder;
+    const Outcome ran = execute(folder, fmt::format("cd '{}' && '{}' absent --out nowhere/file",
+                                                    folder.path().string(), MFAR_TRAIN_ENLARGER));
     EXPECT_NE(ran.status, 0);
     EXPECT_NE(ran.text.find("nowhere/file cannot be written"), std::string::npos) << ran.text;
 }
