@@ -12,7 +12,7 @@ namespace mfar::bench {
 [[nodiscard]] std::string curvesCsv(const Curves& curves);
 
 /// Chart with logarithmic axes: time on x, bad-1 on y. Each method has a panel and each knob a
-/// line. A ring marks the default value of a knob.
+/// line. A ring marks the point where all knobs have their defaults.
 [[nodiscard]] std::string curvesSvg(const Curves& curves);
 
 /// Writes curves.csv and curves.svg into `folder`. Throws EvalError if this fails.

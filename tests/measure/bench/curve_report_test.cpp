@@ -62,7 +62,7 @@ TEST(WriteCurves, TheErrorNamesTheFileThatCannotBeWritten) {
     mfar::test::writeFile(folder / "file", "");
     try {
         writeCurves(twoCurves(), folder / "file");
-        FAIL() << "the given folder is a file";
+        FAIL() << "a file was accepted as the folder";
     } catch (const eval::EvalError& e) {
         EXPECT_NE(std::string(e.what()).find("curves.csv"), std::string::npos);
     }

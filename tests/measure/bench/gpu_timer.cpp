@@ -5,8 +5,8 @@
 namespace mfar::gpu {
 namespace {
 
-// EXT_disjoint_timer_query and ARB_timer_query give these constants the same values. The core
-// header lacks them.
+// Constants of EXT_disjoint_timer_query, which the core header lacks. ARB_timer_query gives
+// kTimeElapsed the same value and lacks kGpuDisjoint.
 constexpr GLenum kTimeElapsed = 0x88BF;
 constexpr GLenum kGpuDisjoint = 0x8FBB;
 

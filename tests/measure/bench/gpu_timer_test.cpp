@@ -21,7 +21,8 @@ TEST_F(GpuTimer, ReportsAPlausibleTimeIfAvailable) {
         EXPECT_FALSE(ms.has_value());
         return;
     }
-    // The result may come a little later, and there is none if the GPU has changed its clock.
+    // The result may be late. It is missing if the GPU has changed its clock, so the measurement is
+    // repeated.
     for (int i = 0; !ms && i < 100; ++i) {
         std::this_thread::sleep_for(std::chrono::milliseconds(10));
         if (i % 10 == 9) {

@@ -104,7 +104,7 @@ void drawCurves(const Options& o, Progress& progress) {
 
 void addOptions(CLI::App& app, Options& o) {
     app.add_option("--recording", o.recording,
-                   "use the frames and stills of this recording instead of the synthetic board's");
+                   "use the frames and stills of this recording instead of synthetic ones");
     app.add_option("--frames", o.frames, "number of frames per case (default 40, with --quick 4)")
         ->check(CLI::Range(1, 100000));
     app.add_option("--mode", o.mode, "super-resolution mode, see superres.mode in mfard's manual")

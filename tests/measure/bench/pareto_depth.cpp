@@ -69,7 +69,7 @@ public:
 
     void measure(const ParetoRun& run, bool scored, WayTimes& out) {
         const CurveSample& shots = sample_.shots;
-        // Setting the still again discards the depth of the previous run.
+        // Depth is measured only once while the camera rests, but again after each new still.
         pipeline_.setStill(eval::viewOf(still_), shots.still.time, shots.still.pose);
         const double ms = msOf(run.clock, [&] {
             pipeline_.run(eval::viewOf(frame_), shots.frame.time, shots.frame.pose);

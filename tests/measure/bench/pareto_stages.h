@@ -34,8 +34,9 @@ struct ParetoRun {
 
 /// Run time and bad-1 (share of pixels with an error above 1 px) of the flow of single frames. Each
 /// frame is the first one after a new still. Methods: every setting of flowKnobs(), combinations of
-/// settings, and OpenCV's flow algorithms. If `withPoses` is true, samples without poses are
-/// skipped; if no sample remains, the stage has no points.
+/// settings, and OpenCV's flow algorithms. If `withPoses` is true, OpenCV's stereo matchers are
+/// measured, too, and samples without poses are skipped; if no sample remains, the stage has no
+/// points.
 [[nodiscard]] ParetoStage flowStage(const std::vector<CurveSample>& samples, bool withPoses,
                                     const ParetoRun& run);
 

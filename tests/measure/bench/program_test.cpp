@@ -204,12 +204,16 @@ TEST(MfarBench, GovernorIsMeasuredWithTheRequestedDeadline) {
     EXPECT_NE(said.find("detail"), std::string::npos) << said;
 }
 
+TEST(MfarBench, AFailureToWriteTheOutputEndsWithStatus1) {
+    const std::string program = MFAR_BENCH;
+    EXPECT_EQ(WEXITSTATUS(std::system((program + " --help >/dev/full 2>/dev/null").c_str())), 1);
+}
+
 TEST(MfarBench, InvalidArgumentsEndWithStatus2) {
     const std::string program = MFAR_BENCH;
     EXPECT_EQ(WEXITSTATUS(std::system((program + " --recording /absent 2>/dev/null").c_str())), 2);
     EXPECT_EQ(WEXITSTATUS(std::system((program + " --quick --frames 1 2>/dev/null").c_str())), 2);
     EXPECT_EQ(WEXITSTATUS(std::system((program + " --json /absent/x 2>/dev/null").c_str())), 2);
-    EXPECT_EQ(WEXITSTATUS(std::system((program + " --help >/dev/full 2>/dev/null").c_str())), 1);
     EXPECT_EQ(WEXITSTATUS(std::system((program + " --mode magic 2>/dev/null").c_str())), 2);
     EXPECT_EQ(WEXITSTATUS(std::system((program + " --data /tmp 2>/dev/null").c_str())), 2);
     EXPECT_EQ(WEXITSTATUS(std::system((program + " skip --cases none 2>/dev/null").c_str())), 2);

@@ -57,13 +57,13 @@ std::string verdicts(const SkipReport& report) {
 
 std::string skipTable(const SkipReport& report) {
     std::string out =
-        fmt::format("With all skips: time of a frame [ms], number of tiles in which depth was "
-                    "searched, number of frames with an object in view, share of changed tiles\n"
+        fmt::format("With all skips: time of a frame [ms], number of tiles that need depth, "
+                    "number of frames with an object in view, share of tiles drawn again\n"
                     "{:<14}{:>9}{:>13}{:>9}{:>10}\n",
-                    "case", "ms", "depth tiles", "in view", "changed");
+                    "case", "ms", "depth tiles", "in view", "redrawn");
     for (const SkipCase& c : report.cases)
         out += fmt::format("{:<14}{:>9.2f}{:>13}{:>9}{:>9.1f}%\n", c.scene, c.ms, c.depthTiles,
-                           c.framesInView, 100 * c.changed);
+                           c.framesInView, 100 * c.redrawn);
     out +=
         "\nTime of a frame [ms] with and without each skip, and the accuracy that the skip loses "
         "(bad-1, overlap: percentage points; losses above 0.1 are marked)\n";

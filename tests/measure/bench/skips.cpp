@@ -186,7 +186,7 @@ public:
         ms_.push_back(ms);
         total_.depthTiles += stats_.depthTiles;
         total_.framesInView += stats_.objectsInView ? 1 : 0;
-        total_.changed += pipeline_.readStats().redrawn;
+        total_.redrawn += pipeline_.readStats().redrawn;
     }
 
     void score(const FrameTruth& truth) {
@@ -215,7 +215,7 @@ public:
         SkipCase out = total_;
         out.scene = case_.name;
         out.ms = ms();
-        out.changed /= static_cast<double>(std::max<std::size_t>(ms_.size(), 1));
+        out.redrawn /= static_cast<double>(std::max<std::size_t>(ms_.size(), 1));
         return out;
     }
     [[nodiscard]] const Errors& errors() const { return errors_; }

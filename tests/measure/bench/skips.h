@@ -28,9 +28,9 @@ struct SkipResult {
 struct SkipCase {
     std::string scene;
     double ms = 0;
-    long depthTiles = 0;    ///< number of tiles in which depth was searched, summed over the frames
+    long depthTiles = 0;    ///< number of tiles that need real depth, summed over the frames
     long framesInView = 0;  ///< number of frames with an object in view
-    double changed = 0;     ///< mean share of tiles whose video changed since they were drawn
+    double redrawn = 0;     ///< mean share of tiles that were drawn again for any reason
 };
 
 struct SkipReport {
@@ -54,7 +54,8 @@ struct SkipRequest {
 [[nodiscard]] SkipReport measureSkips(const SkipRequest& request);
 
 /// Table of the cases and of the skips. Skips that lose more than 0.1 dB or 0.1 percentage points
-/// are marked. A list tells in which cases each skip saves time.
+/// are marked. A list names the cases in which a skip saves more than 2 % of the time, and those in
+/// which it loses more than these limits.
 [[nodiscard]] std::string skipTable(const SkipReport& report);
 [[nodiscard]] std::string skipCsv(const SkipReport& report);
 [[nodiscard]] std::string skipSvg(const SkipReport& report);

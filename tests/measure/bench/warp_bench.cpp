@@ -55,8 +55,8 @@ private:
     RenderedPicture picture_;
 };
 
-/// Times cv::remap for a rotation about the optical axis. As in the warp, neighbouring pixels of
-/// the result come from neighbouring pixels of the source, so memory is read in a similar order.
+/// Times cv::remap for a small rotation about the first pixel. As in the warp, neighbouring pixels
+/// of the result come from neighbouring pixels of the source, so memory is read in a similar order.
 Summary timeRemap(Size size, int runs) {
     const cv::Mat4b from(size.height, size.width, cv::Vec4b(90, 120, 60, 255));
     cv::Mat2f map(from.size());

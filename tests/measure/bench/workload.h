@@ -30,7 +30,7 @@ struct Workload {
     StereoRig rig;
     std::vector<cv::Mat> stills;
     std::vector<cv::Mat> frames;
-    std::vector<std::size_t> stillOf;
+    std::vector<std::size_t> stillOf;  ///< for each frame, the index of its still in `stills`
     /// Poses of the video camera at each frame and at each still. An unknown pose is an empty
     /// entry. If all are unknown, the vector may be empty.
     std::vector<std::optional<Pose>> framePoses{}, stillPoses{};
@@ -42,8 +42,8 @@ struct Workload {
 inline constexpr int kLessons = 4;
 
 /// Synthetic textured plane seen by a hand-held camera, with one still before the frames.
-/// Consecutive frames differ by about 4 video pixels, a small rotation and sensor noise. Repeated
-/// calls give equal pictures.
+/// Consecutive frames differ by up to 5 video pixels at 640x480, a small rotation and sensor noise.
+/// Repeated calls give equal pictures.
 [[nodiscard]] Workload syntheticWorkload(Size video, Size still, int frames, int lessons = 0);
 
 /// The synthetic board's office seen by a hand-held camera, with exact poses: one still, then
