@@ -22,7 +22,7 @@ fi
 rm -rf "$out"
 mkdir -p "$out"
 
-# measured FILE COMMAND...: runs COMMAND and writes its table to FILE.
+# measured FILE COMMAND...: runs COMMAND and writes its table to FILE. A COMMAND that ends with `none` is not run.
 measured() {
     local file=$out/$1
     shift
@@ -36,7 +36,7 @@ measured() {
     fi
 }
 
-# median LINE [N]: prints the median [ms] in the first (N-th) such line of mfar-bench's table.
+# median LINE [N]: prints the median [ms] from mfar-bench's table, from the first (N-th) row with the name LINE.
 median() {
     awk -v line="$1" -v n="${2:-1}" \
         'index($0, line " ") == 1 && --n == 0 { sub(line, ""); print $1; exit }' "$out/times.txt"
