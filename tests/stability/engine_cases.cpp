@@ -1,6 +1,6 @@
 // Runs both engines on the same hostile input. In each step, both engines read what GLES computed
 // in the previous step. Otherwise one different decision of a search would make all later steps
-// differ.
+// differ. Exception: the detail step of each engine reads that engine's own pictures of the still.
 #include "pipeline/engine/engine.h"
 #include "pipeline/enlarge/filter_bank.h"
 #include "pipeline/plan/work_plan.h"

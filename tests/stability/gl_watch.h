@@ -20,9 +20,10 @@ public:
     GlWatch(const GlWatch&) = delete;
     GlWatch& operator=(const GlWatch&) = delete;
 
-    /// The caller calls this after each frame, whose passes process `pixels` pixels each. For every
-    /// pass that ran since the last call, adds `pixels` to the pass's count in `checks`, or the
-    /// number of written pixels if it is larger. Adds the faults of these passes to `checks`.
+    /// Must be called after each frame. `pixels`: number of pixels that each pass of the frame
+    /// processes. For every pass that ran since the last call, adds `pixels` to the pass's count in
+    /// `checks`, or the number of pixels that the pass wrote if that is larger. Adds the faults of
+    /// these passes to `checks`.
     void frame(Checks& checks, long pixels);
 
 private:

@@ -114,7 +114,9 @@ void Run::runCase(const Case& one, std::uint64_t seed, Scale scale) {
     failures_ += faults.empty() ? 0 : 1;
     if (!faults.empty())
         fmt::print("repeat: ./run stress --seed {} --case {}{}\n", seed, one.name,
-                   scale == Scale::Product ? " --full" : "");
+                   scale == Scale::Product ? " --full"
+                   : scale == Scale::Tests ? " --small"
+                                           : "");
 }
 
 // Runs cases that balance_ chooses, until `until` [minutes]. Each run has its own seed, because a

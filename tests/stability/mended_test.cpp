@@ -113,8 +113,9 @@ TEST(Mended, EpipolarFlowAcceptsPicturesWithOneColumnOrRowOfCells) {
     }
 }
 
-// The error of a tracked pose is a quarter of the baseline or more if the baseline is that of the
-// rig alone. Real things then hid nothing.
+// If the camera rests, the baseline is only the distance between the rig's cameras. The error of a
+// tracked pose is a quarter of this baseline or more. When such poses were used, no real thing hid
+// a virtual object.
 TEST(Mended, AtRestEpipolarFlowUsesTheRigAlone) {
     const CameraModel camera = smallCamera({64, 48});
     EpipolarFlow flow({camera, camera, {Eigen::Quaterniond::Identity(), {0.02, 0, 0}}},

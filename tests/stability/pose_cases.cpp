@@ -145,8 +145,8 @@ void hostileTracker(Context& c) {
     }
 }
 
-// Unprojecting and then projecting a pixel must give the same pixel. Rays outside the lens model's
-// valid range (beyond the rim) must not fall into the picture.
+// Unprojecting and then projecting a pixel must give the same pixel. LensProjection must give
+// finite results for all points, also for rays outside the lens model's valid range.
 void lenses(Context& c) {
     const CameraModel camera = c.hostile.camera(c.hostile.size(1, 2000));
     const LensProjection lens(camera);

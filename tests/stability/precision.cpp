@@ -85,8 +85,8 @@ void triangulation(TriangulationMethod method, const char* what) {
     table.print();
 }
 
-/// Runs superres_assess.comp with zero flow. Returns for each cell: the position in the still that
-/// shows the cell's centre, minus the centre scaled to still pixels.
+/// Runs superres_assess.comp with zero flow. Returns four numbers for each cell. The last two are
+/// the position in the still that shows the cell's centre, minus the centre scaled to still pixels.
 std::vector<float> assessedStillPixels(const StereoRig& rig) {
     const Size cells = cellsOf(rig.video.size);
     const TestPicture even(rig.video.size, PixelFormat::Rgba8, 128);

@@ -237,8 +237,8 @@ void hostileFilters(Context& c) {
     c.checks.through("median3x3", pixelsOf(size));
 }
 
-// First labels of windows: `far` stands for windows that share no label with any other window,
-// except with windows of the same first label.
+// Returns a random first label for the window of each pixel. Few windows begin at a label of `far`.
+// These windows share no label with other windows, except those with the same first label.
 std::vector<std::int16_t> firstLabels(Hostile& hostile, Size size, const std::array<int, 2>& far) {
     std::vector<std::int16_t> base(pixelsOf(size));
     for (auto& b : base) {
@@ -275,7 +275,7 @@ void hostileAggregation(Context& c) {
         });
         return out;
     };
-    // How far a window is from the others has no influence if they have no label in common.
+    // The distance between two windows that have no label in common must have no influence.
     const std::vector<float> near = indices({-200, 300}), far = indices({-32768, 32000});
     for (std::size_t i = 0; i < far.size(); ++i) {
         c.checks.within(far[i], -0.5, 16 * vectors - 0.5, "index of a label in its search window");

@@ -93,8 +93,10 @@ double bound(const twin::TwoViews& views, const twin::FlowDepth& truth, double f
     return truth.sigma * 2e-6 * focal / flowSigma + 2e-6 * std::abs(truth.inverseDepth);
 }
 
-bool isTold(const twin::TwoViews& views, const Vector2d& pixel, const Vector2d& flow,
-            const twin::FlowDepth& truth) {
+/// True if the flow ends in view b, and if the point is in front of both cameras and not near the
+/// epipole. Other points are not compared with the oracle.
+bool isComparable(const twin::TwoViews& views, const Vector2d& pixel, const Vector2d& flow,
+                  const twin::FlowDepth& truth) {
     const Vector2d q = pixel + flow, end(views.b.size.width - 1, views.b.size.height - 1);
     const Vector2d e = views.line(pixel);
     const double z = (views.T_b_a.rotation * views.rayA(pixel).homogeneous() +
@@ -110,7 +112,7 @@ void checkAgainstTwin(Context& c, const SurfaceScene& s, const Points& points, d
             const std::size_t i = static_cast<std::size_t>(y) * s.views.a.size.width + x;
             const Vector2d pixel(x, y), flow(s.flow[2 * i], s.flow[2 * i + 1]);
             const auto truth = twin::depthFromFlow(s.views, pixel, flow, flowSigma);
-            if (!isTold(s.views, pixel, flow, truth)) continue;
+            if (!isComparable(s.views, pixel, flow, truth)) continue;
             const double off = points[i].inverseDepth - truth.inverseDepth;
             c.checks.within(std::abs(off) / bound(s.views, truth, flowSigma), 0, 1,
                             "error of inverse depth, as a share of its bound");
@@ -205,7 +207,7 @@ void exchangedTriangulation(Context& c) {
             const std::size_t i = static_cast<std::size_t>(y) * back.a.size.width + x;
             const Vector2d q(x, y), f(flow[2 * i], flow[2 * i + 1]), p = q + f;
             const auto here = twin::depthFromFlow(back, q, f, options.flowSigma);
-            if (!isTold(back, q, f, here)) continue;
+            if (!isComparable(back, q, f, here)) continue;
             const auto there = twin::depthFromFlow(s.views, p, -f, options.flowSigma);
             const double z = (s.views.T_b_a.rotation * s.views.rayA(p).homogeneous() +
                               there.inverseDepth * s.views.T_b_a.translation)

@@ -153,7 +153,7 @@ void hostileWarp(Context& c) {
         if (c.hostile.chance(0.1)) warp.dropTracedPicture();
     }
     if (c.hostile.chance(0.5)) return;
-    // edges are sharpened only if the camera rests
+    // Edges are sharpened only if the camera rests.
     const RigidTransform rest = from * c.hostile.gentle(0.3);
     for (int frame = 0; frame < 12; ++frame)
         showFrame(c, warp, balls, rest, spoilt);
