@@ -88,7 +88,7 @@ TEST(SyntheticWorld, FirstViewShowsEveryTagUnoccluded) {
         Viewpoint view = small(world, Path::Rest, 0);
         view.camera = boardRig().video;
         const RigidTransform T_camera_world = view.T_world_camera.inverse();
-        const FloatImage rho = inverseDepth(world, view);
+        const FloatImage inverse = inverseDepth(world, view);
         for (const Tag& tag : world.tags) {
             const Eigen::Vector3d p = T_camera_world * tag.T_world_tag.translation;
             const Eigen::Vector2d q = view.camera.project({p.x() / p.z(), p.y() / p.z()});
@@ -98,7 +98,7 @@ TEST(SyntheticWorld, FirstViewShowsEveryTagUnoccluded) {
             const Eigen::Vector3d n =
                 (T_camera_world.rotation * tag.T_world_tag.rotation) * Eigen::Vector3d::UnitZ();
             const double expected = n.dot(ray(view.camera, x, y)) / n.dot(p);
-            EXPECT_NEAR(rho.at(x, y), expected, 1e-6 * expected) << name(scene) << tag.id;
+            EXPECT_NEAR(inverse.at(x, y), expected, 1e-6 * expected) << name(scene) << tag.id;
         }
     }
 }
@@ -107,7 +107,7 @@ TEST(SyntheticTruth, FlowIsTheReprojectionOfInverseDepth) {
     for (const Scene scene : {Scene::Office, Scene::Shelf, Scene::Outdoor}) {
         const World world = makeWorld(scene, 3);
         const Viewpoint a = small(world, Path::Handheld, 0.4), b = small(world, Path::Orbit, 1.3);
-        const FloatImage rho = inverseDepth(world, a);
+        const FloatImage inverse = inverseDepth(world, a);
         const FlowImage flow = flowBetween(world, a, b);
         const RigidTransform T_b_a = b.T_world_camera.inverse() * a.T_world_camera;
         int checked = 0;
@@ -115,7 +115,7 @@ TEST(SyntheticTruth, FlowIsTheReprojectionOfInverseDepth) {
             for (int x = 0; x < 160; ++x) {
                 if (!known(flow.at(x, y))) continue;
                 const Eigen::Vector3d q =
-                    T_b_a.rotation * ray(a.camera, x, y) + rho.at(x, y) * T_b_a.translation;
+                    T_b_a.rotation * ray(a.camera, x, y) + inverse.at(x, y) * T_b_a.translation;
                 const Eigen::Vector2d p = b.camera.project({q.x() / q.z(), q.y() / q.z()});
                 ASSERT_NEAR(p.x() - x, flow.at(x, y)[0], 2e-4);
                 ASSERT_NEAR(p.y() - y, flow.at(x, y)[1], 2e-4);
@@ -148,14 +148,14 @@ TEST(SyntheticTruth, FlowOfOccludedAndOutsidePixelsIsUnknown) {
     const Viewpoint a = small(world, Path::Rest, 0);
     Viewpoint b = a;
     b.T_world_camera.translation += Eigen::Vector3d(0.08, 0, 0);
-    const FloatImage rho = inverseDepth(world, a);
-    const FloatImage rhoThere = inverseDepth(world, b);
+    const FloatImage inverse = inverseDepth(world, a);
+    const FloatImage inverseThere = inverseDepth(world, b);
     const FlowImage flow = flowBetween(world, a, b);
     const RigidTransform T_b_a = b.T_world_camera.inverse() * a.T_world_camera;
     int hidden = 0;
     for (int y = 0; y < 120; ++y) {
         for (int x = 0; x < 160; ++x) {
-            const Eigen::Vector3d q = (T_b_a * (ray(a.camera, x, y) / rho.at(x, y)).eval());
+            const Eigen::Vector3d q = (T_b_a * (ray(a.camera, x, y) / inverse.at(x, y)).eval());
             const Eigen::Vector2d p = b.camera.project({q.x() / q.z(), q.y() / q.z()});
             const int px = static_cast<int>(std::lround(p.x()));
             const int py = static_cast<int>(std::lround(p.y()));
@@ -169,7 +169,7 @@ TEST(SyntheticTruth, FlowOfOccludedAndOutsidePixelsIsUnknown) {
             for (int i = 0; i < 9; ++i) {
                 const int nx = std::clamp(px + i % 3 - 1, 0, 159);
                 const int ny = std::clamp(py + i / 3 - 1, 0, 119);
-                behind = behind && rhoThere.at(nx, ny) > 1.05 / q.z();
+                behind = behind && inverseThere.at(nx, ny) > 1.05 / q.z();
             }
             if (behind) {
                 EXPECT_FALSE(known(flow.at(x, y))) << x << " " << y;

@@ -19,10 +19,10 @@ struct Range {
     double far, near;
 };
 
-// Range of the inverse depths `rho` without the farthest and nearest 1 % of the pixels.
-Range rangeOf(const cv::Mat& rho) {
+// Range of the inverse depths without the farthest and nearest 1 % of the pixels.
+Range rangeOf(const cv::Mat& inverseDepth) {
     std::vector<float> values;
-    for (const float value : cv::Mat_<float>(rho))
+    for (const float value : cv::Mat_<float>(inverseDepth))
         if (value > 0) values.push_back(value);
     std::sort(values.begin(), values.end());
     return {values[values.size() / 100], values[values.size() - 1 - values.size() / 100]};
@@ -38,13 +38,13 @@ cv::Mat colours(const cv::Mat& shares, const cv::Mat& known) {
     return out;
 }
 
-cv::Mat depthColours(const cv::Mat& rho, const Range& range) {
-    return colours((rho - range.far) / (range.near - range.far), rho > 0);
+cv::Mat depthColours(const cv::Mat& inverseDepth, const Range& range) {
+    return colours((inverseDepth - range.far) / (range.near - range.far), inverseDepth > 0);
 }
 
-cv::Mat errorColours(const cv::Mat& rho, const cv::Mat& truth) {
-    const cv::Mat known = (rho > 0) & (truth > 0);
-    return colours(cv::abs(truth / rho - 1) / kMostError, known);
+cv::Mat errorColours(const cv::Mat& inverseDepth, const cv::Mat& truth) {
+    const cv::Mat known = (inverseDepth > 0) & (truth > 0);
+    return colours(cv::abs(truth / inverseDepth - 1) / kMostError, known);
 }
 
 void addScale(cv::Mat& canvas, cv::Point corner, const std::string& from, const std::string& to) {

@@ -18,9 +18,9 @@ DepthFilter filterOf() {
     return {kCamera, std::make_shared<Workers>(2)};
 }
 
-InverseDepthField evenField(float rho, float sigma) {
+InverseDepthField evenField(float inverseDepth, float sigma) {
     InverseDepthField out(kCamera.size);
-    std::fill(out.inverseDepth.begin(), out.inverseDepth.end(), rho);
+    std::fill(out.inverseDepth.begin(), out.inverseDepth.end(), inverseDepth);
     std::fill(out.variance.begin(), out.variance.end(), sigma * sigma);
     return out;
 }
@@ -36,13 +36,13 @@ TEST(DepthFilter, MeasurementNoiseIsAveragedOverTheFrames) {
     double before = 0, after = 0;
     for (int frame = 0; frame < 12; ++frame) {
         InverseDepthField measured = evenField(1, 0.05F);
-        for (float& rho : measured.inverseDepth)
-            rho += noise(random);
+        for (float& inverseDepth : measured.inverseDepth)
+            inverseDepth += noise(random);
         filter.predict({}, 1.0 / 30);
         filter.fuse(measured, kWhole);
         after = 0;
-        for (const float rho : filter.field().inverseDepth)
-            after += std::abs(rho - 1);
+        for (const float inverseDepth : filter.field().inverseDepth)
+            after += std::abs(inverseDepth - 1);
         if (frame == 0) before = after;
     }
     EXPECT_LT(after, 0.45 * before);

@@ -52,11 +52,11 @@ LaidOver byKernels(const twin::Scene& scene, const LaidLayer& layer,
                    const CompositeOptions& options) {
     const Size video = scene.video.size, output = scene.picture.size;
     LayerPixels pixels(layer);
-    AlignedRows<float> rho(video), sigma(video), z(layer.size);
+    AlignedRows<float> inverseDepth(video), sigma(video), z(layer.size);
     AlignedRows<std::uint32_t> colour(layer.size);
     for (int y = 0, i = 0; y < video.height; ++y)
         for (int x = 0; x < video.width; ++x, ++i) {
-            rho[y][x] = static_cast<float>(scene.real[i].inverseDepth);
+            inverseDepth[y][x] = static_cast<float>(scene.real[i].inverseDepth);
             sigma[y][x] = static_cast<float>(scene.real[i].sigma);
         }
     for (int y = 0; y < layer.size.height; ++y) {
@@ -69,7 +69,7 @@ LaidOver byKernels(const twin::Scene& scene, const LaidLayer& layer,
         std::memcpy(picture[y], &scene.picture.bytes[4UL * y * output.width], 4UL * output.width);
     const RgbPlanes planes = planesOf(scene.video);
     simd::OcclusionStep step(video, output, layer.size, options, std::make_shared<Workers>(2));
-    step.run({colour.rows(), z.rows(), layer.bounds}, {rho.rows(), sigma.rows()}, planes,
+    step.run({colour.rows(), z.rows(), layer.bounds}, {inverseDepth.rows(), sigma.rows()}, planes,
              picture.rows());
     LaidOver out{output, {}, {}};
     for (int y = 0; y < output.height; ++y) {

@@ -37,13 +37,13 @@ TEST_P(OcclusionSizes, VisibilityMatchesTheOracleAtEverySize) {
     const auto& [engine, sides] = GetParam();
     const auto& [video, output] = sides;
     std::mt19937 random(5);
-    std::uniform_real_distribution<double> rho(0.3, 0.7), sigma(0.002, 0.05), unit(0, 1);
+    std::uniform_real_distribution<double> inverseDepth(0.3, 0.7), sigma(0.002, 0.05), unit(0, 1);
     const Waves waves(3, 6, 50, 40);
     const double step = static_cast<double>(video.width) / output.width;
     twin::Scene scene{
         waves.shoot(video, {}), waves.shoot(output, {.step = step, .footprint = step}), {}};
     for (int i = 0; i < video.width * video.height; ++i) {
-        scene.real.push_back({rho(random), sigma(random)});
+        scene.real.push_back({inverseDepth(random), sigma(random)});
         if (unit(random) < 0.1) scene.real.back().inverseDepth = kNan;
         if (unit(random) < 0.1) scene.real.back().sigma = 0;
     }

@@ -25,10 +25,10 @@ struct TwoViews {
             T_b_a.rotation.conjugate() * b.unproject(pixel).homogeneous().eval();
         return ray / ray.z();
     }
-    /// Flow from `pixel` of a to b, for a point at inverse depth `rho`.
-    [[nodiscard]] Eigen::Vector2d flow(const Eigen::Vector2d& pixel, double rho) const {
+    /// Flow from `pixel` of a to b, for a point at inverse depth `inverseDepth`.
+    [[nodiscard]] Eigen::Vector2d flow(const Eigen::Vector2d& pixel, double inverseDepth) const {
         const Eigen::Vector3d point =
-            T_b_a.rotation * rayA(pixel).homogeneous().eval() + rho * T_b_a.translation;
+            T_b_a.rotation * rayA(pixel).homogeneous().eval() + inverseDepth * T_b_a.translation;
         return b.project(point.hnormalized()) - pixel;
     }
     /// Translation of T_b_a, rotated into the coordinates of camera a.
@@ -47,8 +47,9 @@ struct FlowDepth {
     double inverseDepth, sigma, residual;
 };
 
-/// Inverse depth rho = (u . e) / (|e|^2 - b_z (u . e)), its standard deviation, and the component
-/// of the flow normal to e [px]. u: flow in normalised coordinates; e: line(); b: baseline().
+/// Inverse depth (u . e) / (|e|^2 - b_z (u . e)), its standard deviation, and the
+/// component of the flow normal to e [px]. u: flow in normalised coordinates; e: line(); b:
+/// baseline().
 inline FlowDepth depthFromFlow(const TwoViews& views, const Eigen::Vector2d& pixel,
                                const Eigen::Vector2d& flow, double flowSigma) {
     const double focal = std::sqrt(views.b.fx * views.b.fy);

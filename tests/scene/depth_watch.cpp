@@ -42,11 +42,13 @@ cv::Mat DepthWatch::trueDepth(Timestamp time) const {
 }
 
 // Returns inverse depth / true inverse depth in the previous frame, at the measured pixel nearest
-// to a point's position in that frame. `rho`: true inverse depth of the point in the new frame.
-double DepthWatch::ratioBefore(int x, int y, double rho, const RigidTransform& pose) const {
+// to a point's position in that frame. `inverseDepth`: true inverse depth of the point in the new
+// frame.
+double DepthWatch::ratioBefore(int x, int y, double inverseDepth,
+                               const RigidTransform& pose) const {
     const CameraModel& video = board_.rig().video;
     const Eigen::Vector3d p =
-        pose_->inverse() * (pose * (video.unproject({x, y}).homogeneous() / rho));
+        pose_->inverse() * (pose * (video.unproject({x, y}).homogeneous() / inverseDepth));
     if (!(p.z() > 0)) return 0;
     const Eigen::Vector2d q = video.project(p.hnormalized()) / kStep;
     const cv::Point at = kStep * cv::Point(cvRound(q.x()), cvRound(q.y()));
@@ -57,14 +59,14 @@ DepthState DepthWatch::look(const Pipeline& pipeline, Timestamp time) {
     const cv::Mat truth = trueDepth(time);
     const RigidTransform pose = board_.pose(time).T_world_video;
     const InverseDepthField& field = pipeline.inverseDepth();
-    cv::Mat rho(truth.size(), CV_32F, cv::Scalar(0)), ratio = rho.clone();
+    cv::Mat inverseDepth(truth.size(), CV_32F, cv::Scalar(0)), ratio = inverseDepth.clone();
     std::vector<double> sigmas, changes;
     for (int y = 0; y < truth.rows; y += kStep) {
         for (int x = 0; x < truth.cols; x += kStep) {
             const auto i = static_cast<std::size_t>(y) * truth.cols + x;
             const float wanted = truth.at<float>(y, x);
             if (!(wanted > 0) || !field.isKnown(i) || !(field.inverseDepth[i] > 0)) continue;
-            rho.at<float>(y, x) = field.inverseDepth[i];
+            inverseDepth.at<float>(y, x) = field.inverseDepth[i];
             ratio.at<float>(y, x) = field.inverseDepth[i] / wanted;
             sigmas.push_back(std::sqrt(field.variance[i]) / field.inverseDepth[i]);
             const double before = pose_ ? ratioBefore(x, y, wanted, pose) : 0;
@@ -74,7 +76,7 @@ DepthState DepthWatch::look(const Pipeline& pipeline, Timestamp time) {
     ratio_ = ratio;
     pose_ = pose;
     const cv::Mat all(truth.size(), CV_8U, cv::Scalar(255));
-    const eval::DepthError error = eval::depthError(rho, truth, 1, all);
+    const eval::DepthError error = eval::depthError(inverseDepth, truth, 1, all);
     return {error.absrel, error.completeness, medianOf(sigmas), medianOf(changes)};
 }
 

@@ -34,7 +34,8 @@ public:
 private:
     /// Returns the true inverse depth at the measured pixels; 0 elsewhere.
     [[nodiscard]] cv::Mat trueDepth(Timestamp time) const;
-    [[nodiscard]] double ratioBefore(int x, int y, double rho, const RigidTransform& pose) const;
+    [[nodiscard]] double ratioBefore(int x, int y, double inverseDepth,
+                                     const RigidTransform& pose) const;
 
     const SyntheticBoard& board_;
     VirtualObject object_;

@@ -53,7 +53,7 @@ SceneShots::SceneShots(synthetic::Scene scene, synthetic::Path path, int framesL
 std::vector<bool> SceneShots::movingTiles() const {
     const CameraModel& camera = board->rig().video;
     const Size size = camera.size;
-    const FloatImage rho = board->inverseDepth(frame.time());
+    const FloatImage inverseDepth = board->inverseDepth(frame.time());
     const FlowImage flow = board->flow(View::Video, frame.time(), View::StillAtVideo, still.time());
     // `unturn` gives the still's camera the orientation of the video camera. So the rig's rotation
     // does not count as motion.
@@ -66,9 +66,10 @@ std::vector<bool> SceneShots::movingTiles() const {
     for (int y = 0; y < size.height; ++y)
         for (int x = 0; x < size.width; ++x) {
             const std::size_t i = static_cast<std::size_t>(y) * size.width + x;
-            if (!(rho.values[i] > 0) || !std::isfinite(flow.vectors[i][0])) continue;
+            if (!(inverseDepth.values[i] > 0) || !std::isfinite(flow.vectors[i][0])) continue;
             const Eigen::Vector2d ray = camera.unproject({1. * x, 1. * y});
-            const Eigen::Vector3d now = Eigen::Vector3d(ray.x(), ray.y(), 1) / rho.values[i];
+            const Eigen::Vector3d now =
+                Eigen::Vector3d(ray.x(), ray.y(), 1) / inverseDepth.values[i];
             const Eigen::Vector3d then = unturn * (T_still_video * (T_then_now * now));
             const Eigen::Vector2d rigid = camera.project(then.head<2>() / then.z());
             const double off =

@@ -17,11 +17,12 @@ std::shared_ptr<Workers> depthWorkers() {
 
 InverseDepthField fieldOf(Context& c, Size size, double unit, double spoilt) {
     InverseDepthField out(size);
-    const double rho = c.hostile.logarithmic(0.1, 10) / unit;
+    const double inverseDepth = c.hostile.logarithmic(0.1, 10) / unit;
     for (std::size_t i = 0; i < out.inverseDepth.size(); ++i) {
         if (c.hostile.chance(0.2)) continue;
-        out.inverseDepth[i] = static_cast<float>(rho * c.hostile.real(0.9, 1.1));
-        out.variance[i] = static_cast<float>(std::pow(rho * c.hostile.logarithmic(1e-4, 0.3), 2));
+        out.inverseDepth[i] = static_cast<float>(inverseDepth * c.hostile.real(0.9, 1.1));
+        out.variance[i] =
+            static_cast<float>(std::pow(inverseDepth * c.hostile.logarithmic(1e-4, 0.3), 2));
         if (c.hostile.chance(spoilt)) out.inverseDepth[i] = static_cast<float>(c.hostile.bad());
         if (c.hostile.chance(spoilt)) out.variance[i] = static_cast<float>(c.hostile.bad());
     }
@@ -63,9 +64,9 @@ void carriedDepth(Context& c) {
     const double unit = c.hostile.pick({1e-3, 1.0, 1e3});
     DepthFilter filter(camera, depthWorkers());
     InverseDepthField plane(size);
-    const double rho = 0.5 / unit;
-    std::ranges::fill(plane.inverseDepth, static_cast<float>(rho));
-    std::ranges::fill(plane.variance, static_cast<float>(std::pow(0.01 * rho, 2)));
+    const double inverseDepth = 0.5 / unit;
+    std::ranges::fill(plane.inverseDepth, static_cast<float>(inverseDepth));
+    std::ranges::fill(plane.variance, static_cast<float>(std::pow(0.01 * inverseDepth, 2)));
     filter.predict({}, 0.03);
     filter.fuse(plane, {0, 0, size.width, size.height});
     RigidTransform ahead;

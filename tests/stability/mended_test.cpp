@@ -25,27 +25,27 @@ CameraModel smallCamera(Size size = {8, 6}) {
     return {size, 10, 10, 0.5 * (size.width - 1), 0.5 * (size.height - 1), {}};
 }
 
-InverseDepthField fieldOf(Size size, float rho, float variance) {
+InverseDepthField fieldOf(Size size, float inverseDepth, float variance) {
     InverseDepthField out(size);
-    out.inverseDepth.assign(out.inverseDepth.size(), rho);
+    out.inverseDepth.assign(out.inverseDepth.size(), inverseDepth);
     out.variance.assign(out.variance.size(), variance);
     return out;
 }
 
 TEST(Mended, InvalidMeasurementsAreIgnored) {
     const PixelRect whole{0, 0, 8, 6};
-    for (const auto& [rho, variance] : {std::pair(kNan, 0.01F),
-                                        {kInf, 0.01F},
-                                        {-1.0F, 0.01F},
-                                        {0.5F, kNan},
-                                        {0.5F, -0.01F},
-                                        {0.5F, 0.0F}}) {
+    for (const auto& [inverseDepth, variance] : {std::pair(kNan, 0.01F),
+                                                 {kInf, 0.01F},
+                                                 {-1.0F, 0.01F},
+                                                 {0.5F, kNan},
+                                                 {0.5F, -0.01F},
+                                                 {0.5F, 0.0F}}) {
         DepthFilter filter(smallCamera(), oneWorker());
         filter.predict({}, 0.03);
         filter.fuse(fieldOf({8, 6}, 0.5F, 0.01F), whole);
-        filter.fuse(fieldOf({8, 6}, rho, variance), whole);
-        filter.fuse(fieldOf({8, 6}, rho, variance), whole);
-        EXPECT_EQ(filter.field().inverseDepth[20], 0.5F) << rho << ", " << variance;
+        filter.fuse(fieldOf({8, 6}, inverseDepth, variance), whole);
+        filter.fuse(fieldOf({8, 6}, inverseDepth, variance), whole);
+        EXPECT_EQ(filter.field().inverseDepth[20], 0.5F) << inverseDepth << ", " << variance;
         EXPECT_EQ(filter.field().variance[20], 0.01F);
     }
 }
@@ -84,9 +84,11 @@ TEST(Mended, AnInvalidTimeDoesNotIncreaseTheVariance) {
 TEST(Mended, EdgeSnapKeepsInvalidDepthUnknown) {
     EdgeSnap snap({8, 6}, oneWorker());
     const TestPicture picture({8, 6});
-    for (const auto& [rho, variance] : {std::pair(kNan, 0.01F), {kInf, 0.01F}, {0.5F, -1.0F}}) {
-        const auto& out = snap.run(fieldOf({8, 6}, rho, variance), picture.view(), {0, 0, 8, 6});
-        EXPECT_FALSE(out.isKnown(20)) << rho << ", " << variance;
+    for (const auto& [inverseDepth, variance] :
+         {std::pair(kNan, 0.01F), {kInf, 0.01F}, {0.5F, -1.0F}}) {
+        const auto& out =
+            snap.run(fieldOf({8, 6}, inverseDepth, variance), picture.view(), {0, 0, 8, 6});
+        EXPECT_FALSE(out.isKnown(20)) << inverseDepth << ", " << variance;
         EXPECT_EQ(out.inverseDepth[20], 0);
     }
 }

@@ -286,16 +286,16 @@ void measuredRow(Context& c) {
     std::vector<std::int32_t> landing(count);
     for (auto& to : landing)
         to = c.hostile.integer(-1, 15);
-    Row rho(count), variance(count);
+    Row inverseDepth(count), variance(count);
     simd::measureRow({raysX.data(), raysY.data(), s.data(), landing.data(), nearest.data()}, rule,
-                     count, rho.data(), variance.data());
+                     count, inverseDepth.data(), variance.data());
     for (std::size_t i = 0; i < count; ++i) {
         const double depth = 1 - static_cast<double>(s[i]) * rule.t[2];
         const double over =
             landing[i] < 0 ? -1.0 : static_cast<double>(s[i]) + rule.slack - nearest[landing[i]];
         if (std::abs(over) < 1e-5 || std::abs(depth - rule.leastDepth) < 1e-3) continue;
         if (!(over > 0 && depth > rule.leastDepth)) {
-            c.checks.require(rho[i] == 0, "unknown inverse depth is not 0");
+            c.checks.require(inverseDepth[i] == 0, "unknown inverse depth is not 0");
             c.checks.require(variance[i] == std::numeric_limits<float>::infinity(),
                              "variance of unknown depth is not infinite");
             continue;
@@ -306,7 +306,7 @@ void measuredRow(Context& c) {
         if (way < 1e-2) continue;
         const double sigma = rule.error / way / (depth * depth) * rule.perUnit;
         const double wanted = std::max(s[i] / depth * rule.perUnit, 0.0);
-        c.checks.within(rho[i] - wanted, -1e-4 * (rule.perUnit + wanted),
+        c.checks.within(inverseDepth[i] - wanted, -1e-4 * (rule.perUnit + wanted),
                         1e-4 * (rule.perUnit + wanted), "measured inverse depth");
         c.checks.within(variance[i] / (sigma * sigma), 0.998, 1.002, "measured variance");
     }

@@ -161,8 +161,9 @@ void hostileRefinement(Context& c) {
     const bool far = c.hostile.chance(0.2);
     for (int i = c.hostile.integer(0, 300); i > 0; --i) {
         const Eigen::Vector2d ray(c.hostile.real(-1, 1), c.hostile.real(-1, 1));
-        const double rho = far ? 0 : c.hostile.real(0, 1);
-        const Eigen::Vector3d p = truth.rotation * ray.homogeneous() + rho * truth.translation;
+        const double inverseDepth = far ? 0 : c.hostile.real(0, 1);
+        const Eigen::Vector3d p =
+            truth.rotation * ray.homogeneous() + inverseDepth * truth.translation;
         RayMatch match{ray, p.head<2>() / p.z()};
         if (c.hostile.chance(0.1)) match.still.x() += c.hostile.real(-1, 1);
         if (c.hostile.chance(0.02)) match.still.y() = c.hostile.bad();

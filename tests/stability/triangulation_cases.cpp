@@ -55,7 +55,7 @@ struct SurfaceScene {
     std::vector<float> flow;
 };
 
-double rhoAt(const Vector2d& pixel, double unit) {
+double inverseDepthAt(const Vector2d& pixel, double unit) {
     return (0.4 + 0.3 * std::sin(0.11 * pixel.x()) + 0.2 * std::cos(0.07 * pixel.y())) / unit;
 }
 
@@ -63,7 +63,7 @@ std::vector<float> flowOf(const twin::TwoViews& views, double unit) {
     std::vector<float> flow;
     for (int y = 0; y < views.a.size.height; ++y)
         for (int x = 0; x < views.a.size.width; ++x) {
-            const Vector2d f = views.flow(Vector2d(x, y), rhoAt(Vector2d(x, y), unit));
+            const Vector2d f = views.flow(Vector2d(x, y), inverseDepthAt(Vector2d(x, y), unit));
             flow.push_back(static_cast<float>(f.x()));
             flow.push_back(static_cast<float>(f.y()));
         }
@@ -143,10 +143,10 @@ void scaledTriangulation(Context& c) {
     const Points one = triangulate(c, s.views, s.flow, options);
     const Points other = triangulate(c, large.views, large.flow, options);
     for (std::size_t i = 0; i < one.size(); ++i) {
-        const double rho = one[i].inverseDepth, sigma = one[i].sigma;
-        c.checks.within(other[i].inverseDepth * scale, rho * (1 - 1e-4) - 1e-6,
-                        rho * (1 + 1e-4) + 1e-6, "inverse depth in a scaled world");
-        if (rho > 0 && sigma < 1e5)
+        const double inverseDepth = one[i].inverseDepth, sigma = one[i].sigma;
+        c.checks.within(other[i].inverseDepth * scale, inverseDepth * (1 - 1e-4) - 1e-6,
+                        inverseDepth * (1 + 1e-4) + 1e-6, "inverse depth in a scaled world");
+        if (inverseDepth > 0 && sigma < 1e5)
             c.checks.within(other[i].sigma * scale / sigma, 0.999, 1.001,
                             "sigma in a scaled world");
         c.checks.within(other[i].residual - one[i].residual, -2e-3, 2e-3,

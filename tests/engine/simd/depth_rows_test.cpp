@@ -56,17 +56,18 @@ TEST(MoveRow, MovesPointsAndTheirVariance) {
         const Row raysY = test::randomValues<float>(count, -0.6, 0.6, 2);
         const Row x = test::randomValues<float>(count, -0.5, 0.5, 3);
         const Row y = test::randomValues<float>(count, -0.5, 0.5, 4);
-        const Row rho = test::randomValues<float>(count, 0, 4, 5);
+        const Row inverseDepth = test::randomValues<float>(count, 0, 4, 5);
         Row variance = test::randomValues<float>(count, 0.01, 0.1, 6);
         for (std::size_t i = 0; i < count; i += 4)
             variance[i] = kInfinity;
         std::vector<std::int32_t> pixel(count);
-        Row toX(count), toY(count), toRho(count), toVariance(count);
+        Row toX(count), toY(count), toInverseDepth(count), toVariance(count);
         PixelRect bounds;
-        moveRow(lens, kPicture, motion, rule,
-                {raysX.data(), raysY.data(), x.data(), y.data(), rho.data(), variance.data()},
-                count, {pixel.data(), toX.data(), toY.data(), toRho.data(), toVariance.data()},
-                bounds);
+        moveRow(
+            lens, kPicture, motion, rule,
+            {raysX.data(), raysY.data(), x.data(), y.data(), inverseDepth.data(), variance.data()},
+            count, {pixel.data(), toX.data(), toY.data(), toInverseDepth.data(), toVariance.data()},
+            bounds);
         PixelRect expectedBounds;
         for (std::size_t i = 0; i < count; ++i) {
             if (pixel[i] >= 0) {
@@ -75,9 +76,9 @@ TEST(MoveRow, MovesPointsAndTheirVariance) {
             }
             const auto turned = test::turned(
                 motion.turn, {raysX[i] + rule.pixelX * x[i], raysY[i] + rule.pixelY * y[i], 1});
-            const double z = turned.z + rho[i] * motion.move[2];
-            const auto q = test::project(lens, (turned.x + rho[i] * motion.move[0]) / z,
-                                         (turned.y + rho[i] * motion.move[1]) / z);
+            const double z = turned.z + inverseDepth[i] * motion.move[2];
+            const auto q = test::project(lens, (turned.x + inverseDepth[i] * motion.move[0]) / z,
+                                         (turned.y + inverseDepth[i] * motion.move[1]) / z);
             // Near the smallest valid depth, rounding decides whether the point is valid.
             if (std::abs(z - rule.leastDepth) < 0.05) continue;
             const int expected = pixelOf(q, variance[i] < kInfinity && z > rule.leastDepth);
@@ -85,8 +86,8 @@ TEST(MoveRow, MovesPointsAndTheirVariance) {
             ASSERT_EQ(pixel[i], expected) << i << " of " << count;
             if (expected < 0) continue;
             const double slope = turned.z / (z * z);
-            ASSERT_NEAR(toRho[i], rho[i] / z, 1e-4 * rho[i] / z + 1e-6);
-            const double grown = variance[i] + rule.growth * rho[i] * rho[i];
+            ASSERT_NEAR(toInverseDepth[i], inverseDepth[i] / z, 1e-4 * inverseDepth[i] / z + 1e-6);
+            const double grown = variance[i] + rule.growth * inverseDepth[i] * inverseDepth[i];
             ASSERT_NEAR(toVariance[i], grown * slope * slope, 1e-4 * grown * slope * slope);
             ASSERT_NEAR(toX[i], q.x - expected % kPicture.width, 2e-3);
             const int row = expected / kPicture.width;
@@ -104,22 +105,23 @@ TEST(MeasureRow, OnlyVisiblePointsGetDepthAndVariance) {
         const Row s = test::randomValues<float>(count, -0.2, 2.5, 3);
         const Row nearest = test::randomValues<float>(7, 0, 1, 4);
         const auto landing = test::randomValues<std::int32_t>(count, -1.99, 6.9, 5);  // -1 to 6
-        Row rho(count), variance(count);
+        Row inverseDepth(count), variance(count);
         measureRow({raysX.data(), raysY.data(), s.data(), landing.data(), nearest.data()}, rule,
-                   count, rho.data(), variance.data());
+                   count, inverseDepth.data(), variance.data());
         for (std::size_t i = 0; i < count; ++i) {
             const double depth = 1 - static_cast<double>(s[i]) * rule.t[2];
             const bool known = landing[i] >= 0 && s[i] + rule.slack >= nearest[landing[i]] &&
                                depth > rule.leastDepth;
             if (!known) {
-                EXPECT_EQ(rho[i], 0);
+                EXPECT_EQ(inverseDepth[i], 0);
                 EXPECT_EQ(variance[i], kInfinity);
                 continue;
             }
             const double way =
                 std::hypot(rule.t[0] - raysX[i] * rule.t[2], rule.t[1] - raysY[i] * rule.t[2]);
             const double sigma = rule.error / way / (depth * depth) * rule.perUnit;
-            EXPECT_NEAR(rho[i], std::max(s[i] / depth * rule.perUnit, 0.0), 1e-4 * (1 + rho[i]));
+            EXPECT_NEAR(inverseDepth[i], std::max(s[i] / depth * rule.perUnit, 0.0),
+                        1e-4 * (1 + inverseDepth[i]));
             EXPECT_NEAR(variance[i], sigma * sigma, 1e-3 * sigma * sigma);
         }
     }

@@ -12,7 +12,8 @@ namespace {
 TEST(OpenRow, DepthIsDecidedAgainAtEdgesAndWhereItIsUnknown) {
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
     for (const std::size_t width : test::kLengths) {
-        std::vector<float> low(3 * width, 1), high(3 * width, 1), rho(width, 1), variance(width);
+        std::vector<float> low(3 * width, 1), high(3 * width, 1), inverseDepth(width, 1),
+            variance(width);
         for (std::size_t x = 0; x < width; ++x) {
             variance[x] = x % 5 == 4 ? kInfinity : 0.0001F;  // sigma = 0.01
             if (x % 5 == 1) low[2 * width + x] = 0.5F;
@@ -21,7 +22,7 @@ TEST(OpenRow, DepthIsDecidedAgainAtEdgesAndWhereItIsUnknown) {
             if (x % 5 == 3) high[x] = 1.13F;  // above the limit
         }
         std::vector<std::uint8_t> open(width + 1, 99);
-        openRow(low.data(), high.data(), static_cast<std::ptrdiff_t>(width), 3, rho.data(),
+        openRow(low.data(), high.data(), static_cast<std::ptrdiff_t>(width), 3, inverseDepth.data(),
                 variance.data(), width, {0.08F, 3}, open.data());
         for (std::size_t x = 0; x < width; ++x)
             EXPECT_EQ(open[x], x % 5 == 0 || x % 5 == 2 ? 0 : 1) << x;
@@ -59,7 +60,7 @@ OpenPixel decide(const Scene& scene, const VoteRule& rule, const PixelRect& wher
                std::abs(u - pixel.x) <= rule.radius && std::abs(v - y) <= rule.radius &&
                scene.inverseDepth[j][i] >= 0;
     };
-    double low = 1e30, high = -1e30, weight[2] = {}, rho[2] = {}, variance[2] = {};
+    double low = 1e30, high = -1e30, weight[2] = {}, inverseDepth[2] = {}, variance[2] = {};
     for (int j = 0; j < scene.size.height; ++j)
         for (int i = 0; i < scene.size.width; ++i)
             if (votes(i, j)) {
@@ -75,14 +76,14 @@ OpenPixel decide(const Scene& scene, const VoteRule& rule, const PixelRect& wher
             const double w = 1 / (1 + square * square);
             const int side = scene.inverseDepth[j][i] > 0.5 * (low + high) ? 1 : 0;
             weight[side] += w;
-            rho[side] += w * scene.inverseDepth[j][i];
+            inverseDepth[side] += w * scene.inverseDepth[j][i];
             variance[side] += w * scene.variance[j][i];
         }
     const int side = weight[1] > weight[0] ? 1 : 0;
     margin = std::min(std::abs(weight[1] - weight[0]), std::abs(weight[side] - rule.leastWeight));
     pixel.decided = weight[side] >= rule.leastWeight;
     if (pixel.decided) {
-        pixel.inverseDepth = static_cast<float>(rho[side] / weight[side]);
+        pixel.inverseDepth = static_cast<float>(inverseDepth[side] / weight[side]);
         pixel.variance = static_cast<float>(variance[side] / weight[side]);
     }
     return pixel;

@@ -43,12 +43,12 @@ public:
     Occlusion(Size video, Size output) : video_(video), output_(output) {}
 
     void run(const twin::Scene& scene, const Layer& layer, int threads = 0, bool squared = false) {
-        AlignedRows<float> rho(video_), sigma(video_), z(output_);
+        AlignedRows<float> inverseDepth(video_), sigma(video_), z(output_);
         AlignedRows<std::uint32_t> colour(output_);
         for (int y = 0; y < video_.height; ++y)
             for (int x = 0; x < video_.width; ++x) {
                 const twin::RealSample& s = scene.real[1UL * y * video_.width + x];
-                rho[y][x] = static_cast<float>(s.inverseDepth);
+                inverseDepth[y][x] = static_cast<float>(s.inverseDepth);
                 sigma[y][x] = static_cast<float>(squared ? s.sigma * s.sigma : s.sigma);
             }
         for (int y = 0; y < output_.height; ++y)
@@ -61,8 +61,9 @@ public:
         shown_ = scene.picture.bytes;
         OcclusionStep step(video_, output_, output_, CompositeOptions{},
                            threads > 0 ? std::make_shared<Workers>(threads) : nullptr);
-        step.run({colour.rows(), z.rows(), layer.bounds}, {rho.rows(), sigma.rows(), squared},
-                 planes, {reinterpret_cast<std::uint32_t*>(shown_.data()), output_.width, output_});
+        step.run({colour.rows(), z.rows(), layer.bounds},
+                 {inverseDepth.rows(), sigma.rows(), squared}, planes,
+                 {reinterpret_cast<std::uint32_t*>(shown_.data()), output_.width, output_});
         visibility_.clear();
         for (int y = 0; y < output_.height; ++y)
             visibility_.insert(visibility_.end(), step.visibility()[y],
@@ -88,10 +89,11 @@ protected:
     [[nodiscard]] twin::Scene roughScene() const {
         const auto& [video, output] = GetParam();
         std::mt19937 random(5);
-        std::uniform_real_distribution<double> rho(0.3, 0.7), sigma(0.002, 0.05), unit(0, 1);
+        std::uniform_real_distribution<double> inverseDepth(0.3, 0.7), sigma(0.002, 0.05),
+            unit(0, 1);
         twin::Scene scene{wavyPicture(video), wavyPicture(output), {}};
         for (int i = 0; i < video.width * video.height; ++i) {
-            scene.real.push_back({rho(random), sigma(random)});
+            scene.real.push_back({inverseDepth(random), sigma(random)});
             if (unit(random) < 0.1) scene.real.back().inverseDepth = kNan;
             if (unit(random) < 0.1) scene.real.back().sigma = 0;
         }

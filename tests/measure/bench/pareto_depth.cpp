@@ -47,13 +47,14 @@ PipelineOptions depthOptions(const DepthSetting& setting, const StereoRig& rig) 
     return out;
 }
 
-double scoreOf(const DepthSample& sample, const cv::Mat& rho) {
+double scoreOf(const DepthSample& sample, const cv::Mat& inverseDepth) {
     const CurveSample& shots = sample.shots;
     const double baseline =
         eval::stillFromFrame(shots.rig, *shots.frame.pose, *shots.still.pose).translation.norm();
-    const cv::Mat all(rho.size(), CV_8U, cv::Scalar(255));
+    const cv::Mat all(inverseDepth.size(), CV_8U, cv::Scalar(255));
     return 100 *
-           eval::depthError(rho, sample.inverseDepth, shots.rig.video.fx * baseline, all).bad1;
+           eval::depthError(inverseDepth, sample.inverseDepth, shots.rig.video.fx * baseline, all)
+               .bad1;
 }
 
 /// Measures one setting on one sample. Only the first result is scored, because the filter mixes
@@ -76,10 +77,10 @@ public:
         });
         if (!scored) return out.time(ms * shareOfStages(pipeline_, eval::kDepthStages));
         const InverseDepthField& field = pipeline_.inverseDepth();
-        cv::Mat rho(frame_.size(), CV_32F, cv::Scalar(0));
+        cv::Mat inverseDepth(frame_.size(), CV_32F, cv::Scalar(0));
         for (std::size_t i = 0; i < field.inverseDepth.size(); ++i)
-            if (field.isKnown(i)) rho.ptr<float>()[i] = field.inverseDepth[i];
-        out.error(scoreOf(sample_, rho));
+            if (field.isKnown(i)) inverseDepth.ptr<float>()[i] = field.inverseDepth[i];
+        out.error(scoreOf(sample_, inverseDepth));
     }
 
 private:
@@ -132,17 +133,17 @@ std::vector<DepthSample> depthSamplesOf(const std::vector<std::filesystem::path>
             // NaN as well, so that no method is judged there.
             const cv::Mat flow = eval::loadTruth(set, set.samples[k]);
             FloatImage image = loadPfm(set.samples[k].truth);
-            cv::Mat rho = cv::Mat(flow.size(), CV_32F, image.values.data()).clone();
+            cv::Mat inverseDepth = cv::Mat(flow.size(), CV_32F, image.values.data()).clone();
             for (int y = 0; y < flow.rows; ++y)
                 for (int x = 0; x < flow.cols; ++x)
                     if (std::isnan(flow.at<cv::Vec2f>(y, x)[0]))
-                        rho.at<float>(y, x) = std::numeric_limits<float>::quiet_NaN();
+                        inverseDepth.at<float>(y, x) = std::numeric_limits<float>::quiet_NaN();
             out.push_back({{labels[i],
                             set.rig,
                             eval::loadFrame(set, set.samples[k]),
                             eval::loadStill(set, set.samples[k]),
                             {}},
-                           rho});
+                           inverseDepth});
         }
     }
     return out;
@@ -155,13 +156,15 @@ std::vector<DepthSample> syntheticDepthSamples(Size video, std::size_t most) {
                               .path = synthetic::Path::Handheld,
                               .pace = Pace::Consumer});
         FloatImage image = board.inverseDepth(shots.frame.time);
-        cv::Mat rho(image.size.height, image.size.width, CV_32F, image.values.data());
-        cv::resize(rho, rho, {video.width, video.height}, 0, 0, cv::INTER_NEAREST);
-        for (int y = 0; y < rho.rows; ++y)
-            for (int x = 0; x < rho.cols; ++x)
-                if (!(rho.at<float>(y, x) > 0) || std::isnan(shots.truth.at<cv::Vec2f>(y, x)[0]))
-                    rho.at<float>(y, x) = std::numeric_limits<float>::quiet_NaN();
-        out.push_back({std::move(shots), rho.clone()});
+        cv::Mat inverseDepth(image.size.height, image.size.width, CV_32F, image.values.data());
+        cv::resize(inverseDepth, inverseDepth, {video.width, video.height}, 0, 0,
+                   cv::INTER_NEAREST);
+        for (int y = 0; y < inverseDepth.rows; ++y)
+            for (int x = 0; x < inverseDepth.cols; ++x)
+                if (!(inverseDepth.at<float>(y, x) > 0) ||
+                    std::isnan(shots.truth.at<cv::Vec2f>(y, x)[0]))
+                    inverseDepth.at<float>(y, x) = std::numeric_limits<float>::quiet_NaN();
+        out.push_back({std::move(shots), inverseDepth.clone()});
     }
     return out;
 }

@@ -223,10 +223,12 @@ public:
 private:
     [[nodiscard]] double depthBad1(const FrameTruth& truth) const {
         const InverseDepthField& field = pipeline_.inverseDepth();
-        cv::Mat rho(truth.inverseDepth.size(), CV_32F, cv::Scalar(0));
+        cv::Mat inverseDepth(truth.inverseDepth.size(), CV_32F, cv::Scalar(0));
         for (std::size_t i = 0; i < field.inverseDepth.size(); ++i)
-            if (field.isKnown(i)) rho.ptr<float>()[i] = field.inverseDepth[i];
-        return eval::depthError(rho, truth.inverseDepth, focal_ * kBaseline, truth.undecided).bad1;
+            if (field.isKnown(i)) inverseDepth.ptr<float>()[i] = field.inverseDepth[i];
+        return eval::depthError(inverseDepth, truth.inverseDepth, focal_ * kBaseline,
+                                truth.undecided)
+            .bad1;
     }
 
     static PipelineOptions optionsWithout(const Skip* off) {

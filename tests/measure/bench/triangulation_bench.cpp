@@ -24,9 +24,10 @@ struct Views {
 
     /// Normalised coordinates, in both views, of the scene point that a pixel shows.
     [[nodiscard]] std::pair<Eigen::Vector2d, Eigen::Vector2d> rays(int x, int y) const {
-        const double rho = 0.3 + 0.2 * x / camera.size.width;
+        const double inverseDepth = 0.3 + 0.2 * x / camera.size.width;
         const Eigen::Vector2d a = camera.unproject({x, y});
-        const Eigen::Vector3d b = T_b_a.rotation * a.homogeneous().eval() + rho * T_b_a.translation;
+        const Eigen::Vector3d b =
+            T_b_a.rotation * a.homogeneous().eval() + inverseDepth * T_b_a.translation;
         return {a, b.hnormalized()};
     }
 

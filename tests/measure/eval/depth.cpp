@@ -25,15 +25,15 @@ struct DepthTruth {
 DepthTruth loadDepthTruth(const FlowSet& set, const FlowSample& sample) {
     const cv::Mat flow = loadTruth(set, sample);
     FloatImage image = loadPfm(sample.truth);
-    const cv::Mat rho(flow.size(), CV_32F, image.values.data());
+    const cv::Mat inverseDepth(flow.size(), CV_32F, image.values.data());
     DepthTruth out;
-    out.visible = rho.clone();
+    out.visible = inverseDepth.clone();
     for (int y = 0; y < flow.rows; ++y)
         for (int x = 0; x < flow.cols; ++x)
             if (std::isnan(flow.at<cv::Vec2f>(y, x)[0]))
                 out.visible.at<float>(y, x) = std::numeric_limits<float>::quiet_NaN();
     out.all = cv::Mat(flow.size(), CV_8U, cv::Scalar(255));
-    out.edges = nearDepthEdge(rho, kEdgeReach);
+    out.edges = nearDepthEdge(inverseDepth, kEdgeReach);
     out.inner = ~out.edges;
     const RigidTransform T_still_frame =
         stillFromFrame(set.rig, *sample.poses.frame, *sample.poses.still);

@@ -89,9 +89,9 @@ void writeRecording(const std::filesystem::path& root, bool poses = false) {
     std::filesystem::create_directories(root / "truth/inverse_depth");
 }
 
-void writeDepth(const std::filesystem::path& file, float rho, Size size = {24, 16}) {
-    savePfm(file,
-            {size, std::vector<float>(static_cast<std::size_t>(size.width) * size.height, rho)});
+void writeDepth(const std::filesystem::path& file, float inverseDepth, Size size = {24, 16}) {
+    savePfm(file, {size, std::vector<float>(static_cast<std::size_t>(size.width) * size.height,
+                                            inverseDepth)});
 }
 
 TEST(FlowSamples, ARecordingWithoutTruthIsRefused) {

@@ -26,12 +26,12 @@ public:
           rotation_((turn_ * T_still_frame.rotation).toRotationMatrix()),
           translation_(turn_ * T_still_frame.translation) {}
 
-    [[nodiscard]] std::optional<Seen> see(const Eigen::Vector2d& pixel, double rho) const {
+    [[nodiscard]] std::optional<Seen> see(const Eigen::Vector2d& pixel, double inverseDepth) const {
         const Eigen::Vector2d ray = rig_.video.unproject(pixel);
         const Eigen::Vector3d point =
-            rotation_ * Eigen::Vector3d(ray.x(), ray.y(), 1) + rho * translation_;
+            rotation_ * Eigen::Vector3d(ray.x(), ray.y(), 1) + inverseDepth * translation_;
         if (!(point.z() > kNearPlane) || !insideStill(point)) return std::nullopt;
-        return Seen{rig_.video.project(point.head<2>() / point.z()), rho / point.z()};
+        return Seen{rig_.video.project(point.head<2>() / point.z()), inverseDepth / point.z()};
     }
 
     /// Difference of inverse depth that moves a point by one pixel in the still [1/m].
@@ -60,7 +60,7 @@ private:
 /// geometry.
 class NearestSurface {
 public:
-    explicit NearestSurface(cv::Size size) : rho_(size, CV_64F, -1.0) {}
+    explicit NearestSurface(cv::Size size) : inverseDepth_(size, CV_64F, -1.0) {}
 
     void add(const Seen& seen) {
         const double left = std::floor(seen.pixel.x()), top = std::floor(seen.pixel.y());
@@ -80,11 +80,11 @@ public:
 
 private:
     [[nodiscard]] double* at(double x, double y) {
-        if (!(x >= 0 && y >= 0 && x < rho_.cols && y < rho_.rows)) return nullptr;
-        return rho_.ptr<double>(static_cast<int>(y)) + static_cast<int>(x);
+        if (!(x >= 0 && y >= 0 && x < inverseDepth_.cols && y < inverseDepth_.rows)) return nullptr;
+        return inverseDepth_.ptr<double>(static_cast<int>(y)) + static_cast<int>(x);
     }
 
-    cv::Mat rho_;
+    cv::Mat inverseDepth_;
 };
 
 }  // namespace
@@ -95,8 +95,8 @@ cv::Mat flowOfInverseDepth(const FloatImage& inverseDepth, const StereoRig& rig,
     CV_Assert(size == rig.video.size);
     const Projection projection(rig, T_still_frame);
     const auto seenAt = [&](int x, int y) -> std::optional<Seen> {
-        const double rho = inverseDepth.at(x, y);
-        return rho >= 0 ? projection.see({x, y}, rho) : std::nullopt;
+        const double inverseDepth = inverseDepth.at(x, y);
+        return inverseDepth >= 0 ? projection.see({x, y}, inverseDepth) : std::nullopt;
     };
     cv::Mat flow(size.height, size.width, CV_32FC2, cv::Scalar(kNan, kNan));
     NearestSurface nearest(flow.size());

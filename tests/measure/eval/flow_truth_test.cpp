@@ -21,8 +21,9 @@ StereoRig crookedRig() {
     return rig;
 }
 
-FloatImage depthOf(Size size, float rho) {
-    return {size, std::vector<float>(static_cast<std::size_t>(size.width) * size.height, rho)};
+FloatImage depthOf(Size size, float inverseDepth) {
+    return {size,
+            std::vector<float>(static_cast<std::size_t>(size.width) * size.height, inverseDepth)};
 }
 
 TEST(FlowTruth, FlowLeadsToTheStillPixelOfTheSamePoint) {
@@ -101,8 +102,9 @@ TEST(FlowTruth, ASlantedSurfaceDoesNotOccludeItself) {
         const cv::Mat flow = flowOfInverseDepth(depth, rig, rig.T_still_video);
         for (int x = 0; x < 80; ++x) {
             const auto& v = flow.at<cv::Vec2f>(30, x);
-            const double rho = depth.at(x, 30);
-            const double q = 39.5 + ((x - 39.5) + 100 * side * rho) / (1 + 0.05 * rho);
+            const double inverseDepth = depth.at(x, 30);
+            const double q =
+                39.5 + ((x - 39.5) + 100 * side * inverseDepth) / (1 + 0.05 * inverseDepth);
             EXPECT_EQ(std::isnan(v[0]), q < -0.5 || q > 79.5) << x;
         }
     }

@@ -15,9 +15,9 @@ using Eigen::Vector3f;
 
 constexpr double kShortest = 1e-9;     // shorter baselines count as zero [m]
 constexpr double kLongestLine = 1e30;  // longer baselines and distances could overflow floats [m]
-constexpr float kLargestRho = 1e6F;    // larger inverse depths count as unknown [1/m]
-constexpr float kNearPlane = 0.05F;    // least z of a ray (x, y, 1) of view b, rotated into view a
-constexpr float kNoAngle = 1e-9F;  // rays at a smaller angle count as parallel [normalised units]
+constexpr float kLargestInverseDepth = 1e6F;  // larger inverse depths count as unknown [1/m]
+constexpr float kNearPlane = 0.05F;  // least z of a ray (x, y, 1) of view b, rotated into view a
+constexpr float kNoAngle = 1e-9F;    // rays at a smaller angle count as parallel [normalised units]
 
 std::size_t pixelsOf(Size size) {
     return static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
@@ -67,8 +67,8 @@ struct Motion {
     }
 };
 
-/// Parallax of a pixel in normalised coordinates of view a, after the rotation is removed. With
-/// inverse depth rho and a baseline of length 1, u = rho e / (1 + rho b.z).
+/// Parallax of a pixel in normalised coordinates of view a, after the rotation is removed. At
+/// inverse depth s, with a baseline of length 1, u = s e / (1 + s b.z).
 struct Parallax {
     Vector2f ray;  // ray of the pixel in view a
     Vector2f u;    // flow that remains after the rotation is removed
@@ -120,14 +120,16 @@ public:
                             a.tail * baseline.z());
         const Parallax s{a.head + a.tail, *u, e, baseline};
         const float unit = method_ == TriangulationMethod::Midpoint ? fromMidpoint(s) : fromFlow(s);
-        const float rho = unit / motion_.length, distance = rayDistance(s);
-        const bool known = rho > 0 && rho < kLargestRho && distance <= mostDistance_;
-        return {known ? rho : 0, known ? sigmaOf(s) : kUnknownSigma, epipolarResidual(s), distance};
+        const float inverseDepth = unit / motion_.length, distance = rayDistance(s);
+        const bool known =
+            inverseDepth > 0 && inverseDepth < kLargestInverseDepth && distance <= mostDistance_;
+        return {known ? inverseDepth : 0, known ? sigmaOf(s) : kUnknownSigma, epipolarResidual(s),
+                distance};
     }
 
 private:
-    /// Solves u = rho e / (1 + rho b.z) for the inverse depth: rho = (u . e) / d, where d is
-    /// |e|^2 - b.z (u . e). Returns 0 unless d is above 0.
+    /// Returns the inverse depth s, the solution of u = s e / (1 + s b.z): s = (u . e) / d, where d
+    /// is |e|^2 - b.z (u . e). Returns 0 unless d is above 0.
     [[nodiscard]] static float fromFlow(const Parallax& s) {
         const float along = s.u.dot(s.e), d = s.e.squaredNorm() - s.b.z() * along;
         return d > 0 ? along / d : 0;

@@ -99,14 +99,14 @@ TEST(Triangulation, ErrorIsBelowATenThousandthAroundTheEpipole) {
 
 TEST(Triangulation, FindsTheDepthFromWhichTheFlowWasComputed) {
     const twin::TwoViews views = bentViews(moved(4, {2, 1, 1}, {-0.2, 0.05, 0.02}));
-    const auto rho = [](const Vector2d& p) { return 0.2 + 0.001 * p.x() + 0.002 * p.y(); };
+    const auto inverseDepth = [](const Vector2d& p) { return 0.2 + 0.001 * p.x() + 0.002 * p.y(); };
     const auto flow =
-        fieldOf(views.a.size, [&](const Vector2d& p) { return views.flow(p, rho(p)); });
+        fieldOf(views.a.size, [&](const Vector2d& p) { return views.flow(p, inverseDepth(p)); });
     for (const TriangulationMethod method : kMethods) {
-        const auto rhoOf = [&](const twin::TwoViews&, const Vector2d& p, const Vector2d&) {
-            return rho(p);
+        const auto inverseDepthOf = [&](const twin::TwoViews&, const Vector2d& p, const Vector2d&) {
+            return inverseDepth(p);
         };
-        const Errors errors = compare(views, flow, method, rhoOf);
+        const Errors errors = compare(views, flow, method, inverseDepthOf);
         EXPECT_GT(errors.compared, 3000);
         EXPECT_LT(errors.worst, 1e-5);  // the flow itself is rounded to single precision
     }

@@ -13,8 +13,8 @@ namespace {
 constexpr float kStep = 1.1F;    // larger ratios of neighbouring depths are edges
 constexpr double kDelta = 1.25;  // base of the thresholds of delta (Eigen et al. 2014)
 
-bool isKnown(float rho) {
-    return rho > 0 && std::isfinite(rho);
+bool isKnown(float inverseDepth) {
+    return inverseDepth > 0 && std::isfinite(inverseDepth);
 }
 
 bool isStep(float a, float b) {
@@ -30,16 +30,17 @@ double median(std::vector<double>& values) {
 
 }  // namespace
 
-DepthError depthError(const cv::Mat& rho, const cv::Mat& truth, double disparity,
+DepthError depthError(const cv::Mat& inverseDepth, const cv::Mat& truth, double disparity,
                       const cv::Mat& mask) {
-    CV_Assert(rho.type() == CV_32F && truth.type() == CV_32F && rho.size() == truth.size());
+    CV_Assert(inverseDepth.type() == CV_32F && truth.type() == CV_32F &&
+              inverseDepth.size() == truth.size());
     CV_Assert(mask.type() == CV_8U && mask.size() == truth.size());
     std::vector<double> relative;
     std::size_t pixels = 0, off = 0;
     std::array<double, 3> within{};
     for (int y = 0; y < truth.rows; ++y)
         for (int x = 0; x < truth.cols; ++x) {
-            const float wanted = truth.at<float>(y, x), got = rho.at<float>(y, x);
+            const float wanted = truth.at<float>(y, x), got = inverseDepth.at<float>(y, x);
             if (mask.at<uchar>(y, x) == 0 || !isKnown(wanted)) continue;
             ++pixels;
             const bool known = isKnown(got);
@@ -57,14 +58,15 @@ DepthError depthError(const cv::Mat& rho, const cv::Mat& truth, double disparity
     return {median(relative), static_cast<double>(off) / all, known / all, pixels, within};
 }
 
-Sparsification depthSparsification(const cv::Mat& rho, const cv::Mat& variance,
+Sparsification depthSparsification(const cv::Mat& inverseDepth, const cv::Mat& variance,
                                    const cv::Mat& truth, double disparity) {
-    CV_Assert(rho.type() == CV_32F && truth.type() == CV_32F && rho.size() == truth.size());
+    CV_Assert(inverseDepth.type() == CV_32F && truth.type() == CV_32F &&
+              inverseDepth.size() == truth.size());
     CV_Assert(variance.type() == CV_32F && variance.size() == truth.size());
     std::vector<float> errors, trust;
     for (int y = 0; y < truth.rows; ++y)
         for (int x = 0; x < truth.cols; ++x) {
-            const float wanted = truth.at<float>(y, x), got = rho.at<float>(y, x);
+            const float wanted = truth.at<float>(y, x), got = inverseDepth.at<float>(y, x);
             if (!isKnown(wanted) || !isKnown(got)) continue;
             errors.push_back(static_cast<float>(std::abs(got - wanted) * disparity));
             trust.push_back(-variance.at<float>(y, x));

@@ -20,15 +20,17 @@ struct DepthError {
     std::array<double, 3> delta{};
 };
 
-/// `rho`, `truth`: inverse depth, CV_32F [1/m], same size; known if above 0. `disparity`: disparity
-/// of a point at 1 m [px]. Only pixels where `mask` (CV_8U) is not 0 are counted.
-[[nodiscard]] DepthError depthError(const cv::Mat& rho, const cv::Mat& truth, double disparity,
-                                    const cv::Mat& mask);
+/// `inverseDepth`, `truth`: inverse depth, CV_32F [1/m], same size; known if above 0. `disparity`:
+/// disparity of a point at 1 m [px]. Only pixels where `mask` (CV_8U) is not 0 are counted.
+[[nodiscard]] DepthError depthError(const cv::Mat& inverseDepth, const cv::Mat& truth,
+                                    double disparity, const cv::Mat& mask);
 
-/// Tells if disparity errors are large where `variance`, the variance of `rho`, is large. Counts
-/// only pixels with known depth and truth. `variance`: CV_32F [1/m^2], finite at these pixels.
-[[nodiscard]] Sparsification depthSparsification(const cv::Mat& rho, const cv::Mat& variance,
-                                                 const cv::Mat& truth, double disparity);
+/// Tells if disparity errors are large where `variance`, the variance of `inverseDepth`, is large.
+/// Counts only pixels with known depth and truth. `variance`: CV_32F [1/m^2], finite at these
+/// pixels.
+[[nodiscard]] Sparsification depthSparsification(const cv::Mat& inverseDepth,
+                                                 const cv::Mat& variance, const cv::Mat& truth,
+                                                 double disparity);
 
 /// Returns a CV_8U mask that is not 0 within `reach` px of a depth edge. At a depth edge, the true
 /// depths of neighbouring pixels differ by more than a tenth.
