@@ -263,24 +263,24 @@ constexpr Option kVirtual[] = {
          "How virtual objects are drawn: \"path-traced\", with soft shadows on the real surface, "
          "or \"preview\", which takes little time, needs OpenGL ES and shows simple shapes only."),
     number("budget_ms", {0.1, 1000, "ms"}, "8.0",
-           "Time for path tracing in each frame; twice this until the first picture is shown."),
+           "Processor time for path tracing in each frame; twice this for the first picture."),
     word("slicing", "time space", R"("time")",
          "Which part of a path-traced picture is computed in each frame: \"time\", some samples of "
          "all pixels; \"space\", all samples of some tiles."),
     whole("samples", {1, 65536, ""}, "64",
           "Samples per pixel of a path-traced picture. More samples: less noise, more time."),
     number("resolution", {0.05, 1, ""}, "0.28",
-           "Width and height of the path-traced picture as a share of the still's. The path-traced "
-           "picture is never larger than the output, or than the GPU's textures allow."),
+           "Width and height of the path-traced picture as a share of the largest output, which is "
+           "as wide as a still. It is never larger than the output or the GPU's textures."),
     word("holes", "push-pull re-render both none", R"("both")",
          "Method that fills holes (pixels that come into view between two path-traced pictures): "
          "\"push-pull\": colours around the hole; \"re-render\": a few samples of the path tracer "
          "for objects; \"both\": \"push-pull\" until the samples are ready; or \"none\"."),
     whole("threads", kThreads, "1", "Number of threads of the path tracer."),
     flag("filter", "true", "Smooth the noise of pictures with few samples, but not their edges."),
-    number(
-        "turn_deg", {0.1, 90, "degrees"}, "4.0",
-        "A new path-traced picture is made at the latest when the view has turned by this angle."),
+    number("turn_deg", {0.1, 90, "degrees"}, "4.0",
+           "A new path-traced picture is made at the latest when the camera sees an object from a "
+           "direction that differs by this angle."),
 };
 
 constexpr Option kLight[] = {

@@ -91,11 +91,12 @@ void addOthers(CLI::App& app, Options& options, bool& printConfig) {
                    "At the end, write all measurements to this file (JSON); \"-\" prints them")
         ->type_name("FILE");
     app.add_option("--report", options.report,
-                   "At the end, write a page with charts and pictures to this file (HTML)")
+                   "Write a page with charts and pictures to this file (HTML), at the start\nand at the end")
         ->type_name("FILE");
     app.add_option("--control", options.control,
                    "Create this socket, through which mfarctl controls mfard. Members of mfard's\n"
-                   "group may use status and stats, those of group mfar-operators everything")
+                   "group may use status and stats. Those who are also in the group mfar-operators\n"
+                   "may use every command")
         ->type_name("SOCKET");
     app.add_flag("--validate", options.validate,
                  "Check that the engine writes no NaN, infinity or value out of range, and log\n"
