@@ -21,6 +21,22 @@ std::string valuesOf(const ArgumentText& argument) {
     return "";
 }
 
+std::string manSection(const OptionSection& section) {
+    const bool isList = section.kind == OptionSection::Kind::List;
+    std::string out =
+        section.name.empty()
+            ? std::string(".SH \"BEFORE ALL SECTIONS\"\n")
+            : fmt::format(".SH \"{}{}{}{}\"\n", isList ? "[[" : "[", section.name,
+                          isList ? "]]" : "]", section.isReloadable ? " (reload)" : "");
+    if (!section.meaning.empty()) out += troff(section.meaning) + "\n";
+    for (const Option& option : section.options) {
+        const std::string about = describe(option);
+        out += entry(fmt::format("{} = {}", option.name, option.byDefault),
+                     about.empty() ? "See the key of the same name above." : about);
+    }
+    return out;
+}
+
 }  // namespace
 
 std::string programManPage() {
@@ -51,19 +67,14 @@ std::string configManPage() {
                  "files that mfard reads start at this file's folder, paths of what it writes at "
                  "its working directory.") +
            "\n";
-    for (const OptionSection& section : configOptions()) {
-        const bool isList = section.kind == OptionSection::Kind::List;
-        out += section.name.empty()
-                   ? std::string(".SH \"BEFORE ALL SECTIONS\"\n")
-                   : fmt::format(".SH \"{}{}{}{}\"\n", isList ? "[[" : "[", section.name,
-                                 isList ? "]]" : "]", section.isReloadable ? " (reload)" : "");
-        if (!section.meaning.empty()) out += troff(section.meaning) + "\n";
-        for (const Option& option : section.options) {
-            const std::string about = describe(option);
-            out += entry(fmt::format("{} = {}", option.name, option.byDefault),
-                         about.empty() ? "See the key of the same name above." : about);
-        }
-    }
+    for (const OptionSection& section : configOptions())
+        out += manSection(section);
+    out += ".SH \"LEVELS OF THE GOVERNOR\"\n" +
+           troff("The file that \"table\" in [governor] names has one section [[level]] for each step "
+                 "between fast and accurate. \"mfar-bench pareto --table FILE\" writes it.") +
+           "\n";
+    for (const OptionSection& section : levelOptions())
+        out += manSection(section);
     return out + ".SH \"SEE ALSO\"\n.BR mfard (1)\n";
 }
 
