@@ -52,7 +52,14 @@ set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA
     ${CMAKE_CURRENT_LIST_DIR}/conffiles ${CMAKE_CURRENT_LIST_DIR}/postinst
     ${CMAKE_CURRENT_LIST_DIR}/postrm ${CMAKE_CURRENT_LIST_DIR}/prerm)
 
+# README.md and docs link to the other files.
 install(FILES ${CMAKE_CURRENT_LIST_DIR}/copyright ${CMAKE_SOURCE_DIR}/README.md
+              ${CMAKE_SOURCE_DIR}/CHANGELOG.md ${CMAKE_SOURCE_DIR}/CONTRIBUTING.md
+              ${CMAKE_SOURCE_DIR}/LICENSE
         DESTINATION share/doc/mfar)
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/docs DESTINATION share/doc/mfar PATTERN man EXCLUDE)
+foreach(folder boards testbed)
+    install(FILES ${CMAKE_SOURCE_DIR}/toolchains/${folder}/README.md
+            DESTINATION share/doc/mfar/toolchains/${folder})
+endforeach()
 include(CPack)
