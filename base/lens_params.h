@@ -9,6 +9,10 @@ struct alignas(16) Lens {
     float k1, k2, p1, p2, k3;
 };
 
+/// Number of fixed-point iterations that invert the lens's distortion. With the lenses in use, each
+/// iteration adds at least one correct digit.
+inline constexpr int kUndistortSteps = 12;
+
 struct alignas(16) Row3 {
     float x, y, z;
 };

@@ -16,13 +16,13 @@ vec2 projectRay(Lens c, vec2 ray) {
     return vec2(c.fx, c.fy) * distortRay(c, ray) + vec2(c.cx, c.cy);
 }
 
-// Inverts the lens distortion by fixed-point iterations. With the lenses in use, each iteration
-// adds at least one correct digit. Newton steps are not used: outside the lens's field of view,
-// where the distorted radius falls again, a step could end far from the solution.
+// Inverts the lens distortion by fixed-point iterations. Newton steps are not used: outside the
+// lens's field of view, where the distorted radius falls again, a step could end far from the
+// solution.
 vec2 unprojectPixel(Lens c, vec2 pixel) {
     vec2 target = (pixel - vec2(c.cx, c.cy)) / vec2(c.fx, c.fy);
     vec2 ray = target;
-    for (int i = 0; i < 12; ++i) {
+    for (int i = 0; i < kUndistortSteps; ++i) {
         ray += clamp(target - distortRay(c, ray), vec2(-0.5), vec2(0.5));
     }
     return ray;

@@ -37,9 +37,6 @@ inline constexpr int kFootprintTaps = 4;
 inline constexpr float kLeastTurnedDepth = 0.05F;
 /// Position in the still [px] of rays that point away from the still's picture.
 inline constexpr float kFarOutside = -1e6F;
-/// Number of fixed-point iterations that invert the lens's distortion. With the lenses in use, each
-/// iteration adds at least one correct digit.
-inline constexpr int kUndistortSteps = 12;
 
 /// Both lenses, and the rotation R_still_video between the cameras. From them follows where the
 /// still shows the infinitely distant point that is seen at a given video pixel.
