@@ -288,7 +288,8 @@ int run(int argc, char** argv) {
     }
     const auto used = std::ranges::find_if(
         commands, [](const EvalCommand& command) { return command.command->parsed(); });
-    if (!o.csv.empty() && std::filesystem::path(o.csv) == o.svg)
+    const CLI::Option* svg = used->command->get_option_no_throw("--svg");
+    if (svg != nullptr && svg->count() > 0 && o.csv == svg->as<std::string>())
         throw EvalError("--csv and --svg name the same file");
     // The command metric compares files and draws nothing.
     if (used->command->get_name() != "metric") useEngine(o.engine);
