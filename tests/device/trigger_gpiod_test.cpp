@@ -24,7 +24,9 @@ TEST(GpioTrigger, UnknownChipIsRefusedByName) {
 }
 
 TEST(GpioTrigger, EveryListedChipHasAPathAndEitherLinesOrAnError) {
-    for (const GpioChip& chip : listGpioChips()) {
+    const std::vector<GpioChip> chips = listGpioChips();
+    if (chips.empty()) GTEST_SKIP() << "no GPIO chip";
+    for (const GpioChip& chip : chips) {
         EXPECT_EQ(chip.path, "/dev/" + chip.name);
         EXPECT_NE(chip.lines.empty(), chip.error == 0) << chip.path;
     }

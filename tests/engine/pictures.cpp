@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 namespace mfar {
 namespace {
@@ -87,6 +88,7 @@ void addNoise(TestPicture& picture, double sigma, unsigned seed) {
 }
 
 double psnr(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b) {
+    if (a.size() != b.size()) throw std::invalid_argument("the pictures differ in size");
     double sum = 0;
     for (std::size_t i = 0; i < a.size(); ++i)
         sum += std::pow(double(a[i]) - b[i], 2);

@@ -153,7 +153,7 @@ long futex(int* word, int operation, long value, const timespec* time) {
     return -1;
 }
 
-bool isFutexWait(int operation) {
+bool isFutexWaitOrWake(int operation) {
     const int what = operation & FUTEX_CMD_MASK;
     return what == FUTEX_WAIT || what == FUTEX_WAIT_BITSET || what == FUTEX_WAKE ||
            what == FUTEX_WAKE_BITSET;
@@ -327,7 +327,8 @@ MFAR_TAKES_OVER long syscall(long number, ...) noexcept {
     for (long& one : a)
         one = va_arg(rest, long);
     va_end(rest);
-    if (number == SYS_futex && isFutexWait(static_cast<int>(a[1])) && Scheduler::get().hasTurn())
+    if (number == SYS_futex && isFutexWaitOrWake(static_cast<int>(a[1])) &&
+        Scheduler::get().hasTurn())
         return futex(reinterpret_cast<int*>(a[0]), static_cast<int>(a[1]), a[2],
                      reinterpret_cast<const timespec*>(a[3]));
     return real().syscall(number, a[0], a[1], a[2], a[3], a[4], a[5]);

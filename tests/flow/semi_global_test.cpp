@@ -150,10 +150,10 @@ TEST(SemiGlobal, MatchesTheOracleWithSeveralSimdVectorsOfLabels) {
 // Sums of path costs are largest if each cost is zero or the maximum and Smoothness::jump is at its
 // upper limit.
 TEST(SemiGlobal, SumsOfPathCostsFitIntoBytes) {
-    for (unsigned seed = 1; seed <= 3; ++seed) {
-        Problem p = randomProblem({40, 40}, 1, 30, seed);
-        p.smoothness = {24, 60, 255};
-        std::mt19937 random(seed);
+    for (const int step : {24, 30}) {
+        Problem p = randomProblem({40, 40}, 1, 30, 1);
+        p.smoothness = {step, 60, 255};
+        std::mt19937 random(1);
         for (std::uint8_t& cost : p.costs)
             cost = random() % 8 == 0 ? 0 : 24;
         expectTwin(p);

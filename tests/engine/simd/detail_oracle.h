@@ -39,7 +39,7 @@ struct Drawn {
 class Wanted {
 public:
     Wanted(const DetailCase& frame, Size output, const DetailOptions& options, bool usesStill)
-        : frame_(frame), output_(output), options_(options), usesStill_(usesStill) {
+        : frame_(frame), output_(output), options_(options) {
         const bool linear = !options.cubic && options.mode == SuperResMode::Off;
         for (int c = 0; c < 3; ++c) {
             Grey plane = twin::greyOf(frame.rig.video.size, [&](int x, int y) {
@@ -181,7 +181,7 @@ private:
     const DetailCase& frame_;
     Size output_;
     DetailOptions options_;
-    bool usesStill_, ofWarped_ = true;
+    bool ofWarped_ = true;
     std::array<Grey, 3> video_;
     Grey residual_, detail_;
     std::array<Grey, 4> lookUp_;

@@ -30,8 +30,6 @@ struct TwoStills {
     DetailCase frame, other;
 };
 
-constexpr DetailOptions kLearned{SuperResMode::Detail, true, true, true, nullptr};
-
 struct DrawnWithBoth {
     explicit DrawnWithBoth(const TwoStills& stills, SuperResMode mode = SuperResMode::Detail)
         : workers(std::make_shared<Workers>(2)), first(stills.frame.rig, kOutput, workers),
@@ -44,10 +42,7 @@ struct DrawnWithBoth {
         DetailInput in = stills.frame.input(&first);
         const DetailInput of = stills.other.input(&second);
         in.second = {of.still, of.weighed, of.lookUps, of.trust};
-        DetailOptions options = kLearned;
-        options.mode = mode;
-        options.learned = &FilterBank::prior();
-        summary = step.draw(in, options, out.rows());
+        summary = step.draw(in, {mode, true, true, true, &FilterBank::prior()}, out.rows());
     }
 
     std::shared_ptr<Workers> workers;

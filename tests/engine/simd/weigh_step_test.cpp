@@ -338,8 +338,6 @@ TEST(WeighStep, FlowThatIsNotFiniteHasNoWeightAndAffectsOnlyItsNeighbours) {
                 const bool isBad = (x == 7 && y == 5) || (x == 12 && y == 6);
                 if (isBad) {
                     EXPECT_EQ(w.confidence, 0);
-                }
-                if (isBad) {
                     EXPECT_EQ(w.weight, 0);
                 }
                 for (const float value :

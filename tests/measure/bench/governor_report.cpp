@@ -48,6 +48,8 @@ double p95(const GovernedRun& run, std::size_t from) {
     return percentile(std::move(ms), 0.95);
 }
 
+namespace {
+
 /// Text about the frames after the settling time; empty if no scene has such frames.
 std::string settledText(const GovernedRun& run) {
     const bool any = std::ranges::any_of(
@@ -56,6 +58,8 @@ std::string settledText(const GovernedRun& run) {
     return fmt::format("; without the first {} frames of each scene, it is {:.1f} ms", kSettling,
                        p95(run, kSettling));
 }
+
+}  // namespace
 
 std::string governorTable(std::span<const GovernedRun> runs) {
     std::string out;

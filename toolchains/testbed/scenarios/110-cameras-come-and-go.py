@@ -31,7 +31,7 @@ def come_and_go(bed):
     before = None
     for round_ in range(TIMES):
         for camera, role in ((bed.video, 'video camera'), (bed.still, 'still camera')):
-            said = told_after(bed, camera.unplug)
+            said = reported_after(bed, camera.unplug)
             bed.wait_for(status(role), 20)
             back = back_after(bed, camera.plug, role)
             print(f'        {role}: loss reported after {said:.2f} s, used again after {back:.2f} s')
@@ -46,7 +46,7 @@ def come_and_go(bed):
     assert bed.property('NRestarts') == '0'
 
 
-def told_after(bed, event):
+def reported_after(bed, event):
     """Returns the time from `event` until the picture on the screen changes [s]."""
     before = bed.guest.screen()
     begin = time.monotonic()
