@@ -9,7 +9,7 @@
 namespace mfar {
 namespace {
 
-constexpr std::array<const char*, kTileClasses> kTileNames = {"unchanged", "upscaled", "trusted",
+constexpr std::array<const char*, kTileClasses> kTileNames = {"unchanged", "enlarged", "trusted",
                                                               "blended"};
 
 std::optional<double> progress(const Counted& counted, const RunDescription& run, double elapsedS) {

@@ -4,7 +4,7 @@
 #include "tile_params.glsl"
 #include "look_up.glsl"
 #include "columns.glsl"
-#include "upscale.glsl"
+#include "enlarge.glsl"
 
 layout(binding = 1) uniform sampler2D still;
 layout(location = 0) out vec4 colour;
@@ -12,5 +12,5 @@ layout(location = 0) out vec4 colour;
 void main() {
     vec2 uv;
     vec4 l = lookUp(uv);
-    colour = vec4(mix(upscaled().rgb, textureLod(still, uv, 0.0).rgb, l.w), 1.0);
+    colour = vec4(mix(enlarged().rgb, textureLod(still, uv, 0.0).rgb, l.w), 1.0);
 }

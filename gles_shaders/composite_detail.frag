@@ -19,7 +19,7 @@
 #else
 #include "columns.glsl"
 #endif
-#include "upscale.glsl"
+#include "enlarge.glsl"
 
 layout(binding = 1) uniform sampler2D still;
 #ifdef SECOND
@@ -35,7 +35,7 @@ layout(location = 0) out vec4 colour;
 void main() {
     vec2 uv;
     vec4 l = lookUp(uv);
-    vec4 video = upscaled();
+    vec4 video = enlarged();
 #ifdef LEARNED
     float added = (1.0 - min(l.z, 1.0)) * learned() + l.z * (linearly(still, uv) - video.a);
 #else

@@ -1,7 +1,7 @@
 // Finds the class of every tile and makes the frame's draw lists. One invocation per tile.
 // In: change flags; cell fields of one or two stills.
 // Out: lists[] = five lists of drawn tiles (changed tiles, or all if header.x is not 0): 0 all, 1
-// upscaled (only enlarged), 2 trusted, 3 blended, 4 tiles that show some of the second still. If
+// enlarged only, 2 trusted, 3 blended, 4 tiles that show some of the second still. If
 // header.x is 1, lists 0 to 3 are left empty. If header.x is 2, lists 0 and 1 are left empty.
 // Otherwise, list 0 also contains unchanged neighbours of tiles that show detail or are enlarged by
 // filters, because such tiles read their neighbours.
@@ -61,7 +61,7 @@ uint classOf(ivec2 first) {
         low = min(low, c);
         high = max(high, c);
     }
-    if (!(high.z > params.leastWeight)) return kTileUpscaled;
+    if (!(high.z > params.leastWeight)) return kTileEnlarged;
     if (!(high.z - low.z < kPlainWeight)) return kTileBlended;
     vec2 origin = cellAt(first).xy;
     vec2 dx = (cellAt(first + ivec2(3, 0)).xy - origin) / 3.0;
@@ -123,7 +123,7 @@ void main() {
     bool stillGiven = params.stillGiven != 0;
     bool whole = header.x != 0u;
     if (whole || changed[index].x != 0u) {
-        kind = !stillGiven || changed[index].y == 0u ? kTileUpscaled : classOf(4 * tile);
+        kind = !stillGiven || changed[index].y == 0u ? kTileEnlarged : classOf(4 * tile);
         unexplained = !stillGiven ? 16u : 0u;
         if (stillGiven) {
             for (int i = 0; i < 16; ++i)
@@ -135,9 +135,9 @@ void main() {
             atomicAdd(counts[7], 1u);
         }
         if (!whole) append(0u, packTile(tile));
-        if (!whole || (header.x == 2u && kind != kTileUpscaled)) append(kind, packTile(tile));
+        if (!whole || (header.x == 2u && kind != kTileEnlarged)) append(kind, packTile(tile));
         bool learns = params.learns != 0 && changed[index].y != 0u;
-        if (!whole && (learns || kind != kTileUpscaled) && params.detailFrame != 0u) appendUnchangedAround(tile);
+        if (!whole && (learns || kind != kTileEnlarged) && params.detailFrame != 0u) appendUnchangedAround(tile);
     }
     classes[index] = uvec2(kind, unexplained);
     atomicAdd(counts[kind], 1u);

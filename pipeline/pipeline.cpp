@@ -303,7 +303,7 @@ void Pipeline::State::drawDetail(const VideoFrame& frame, const TileWork& work,
                                  const Match* match) {
     // Mode Blend enlarges in another way and weighs by confidence, which changes between cells.
     const bool blends = quality.mode == SuperResMode::Blend;
-    const DetailOptions how{quality.mode, quality.cubic, options.skips.upscaledTiles && !blends,
+    const DetailOptions how{quality.mode, quality.cubic, options.skips.enlargedTiles && !blends,
                             options.skips.plainTiles && !blends,
                             quality.learned ? filterBank() : nullptr};
     if (match != nullptr) {

@@ -8,7 +8,7 @@ namespace mfar {
 /// it causes. There are more options of this kind: PipelineOptions::skipUnchanged and
 /// depthEverywhere, EpipolarOptions::mostPredicted, KeyframeOptions and DepthOptions.
 struct SkipOptions {
-    bool upscaledTiles = true;  ///< a tile to which the still adds nothing is only enlarged
+    bool enlargedTiles = true;  ///< a tile to which the still adds nothing is only enlarged
     bool smoothTiles = true;    ///< a tile without structure is not matched but only enlarged
     /// A tile with a nearly affine flow and a nearly uniform weight is drawn as one rectangle.
     bool plainTiles = true;

@@ -162,7 +162,7 @@ struct TileSummary {
 struct DetailOptions {
     SuperResMode mode = SuperResMode::Detail;
     bool cubic = true;
-    bool upscaledTiles = true;
+    bool enlargedTiles = true;
     bool plainTiles = true;
     /// Filters for Quality::learned. Null: the video is enlarged without learned filters.
     const FilterBank* filters = nullptr;

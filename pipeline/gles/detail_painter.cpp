@@ -47,7 +47,7 @@ void DetailPainter::classify(const Matched* matched, const TileBuffer& tiles,
                    .rows = tiles_.height,
                    .cellColumns = cells_.width,
                    .cellRows = cells_.height,
-                   .leastWeight = options.upscaledTiles ? params::kLeastDetailWeight : -1.0F,
+                   .leastWeight = options.enlargedTiles ? params::kLeastDetailWeight : -1.0F,
                    .plainFlow = options.plainTiles ? params::kPlainFlow : 0.0F,
                    .stillGiven = matched != nullptr ? 1 : 0,
                    .detailFrame = hasDetail || learns ? classified_ : 0,
@@ -211,7 +211,7 @@ void DetailPainter::drawSecond(const TileParams& params, const gpu::Texture& vid
 void DetailPainter::composite(Composites passes, const TileParams& params, gpu::Bindings bindings,
                               bool isMatched, const TileWork& work) {
     if (!work.drawsWhole())
-        passes.enlarged.tiles.runTiles(params, bindings, outputTarget_, list(List::Upscaled));
+        passes.enlarged.tiles.runTiles(params, bindings, outputTarget_, list(List::Enlarged));
     const bool enlargesAll =
         !isMatched ? work.drawsWhole() : work.draw == TileWork::Draw::WholeEnlarged;
     if (enlargesAll) passes.enlarged.whole.run(params, bindings, outputTarget_);

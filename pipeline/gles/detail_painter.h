@@ -53,7 +53,7 @@ private:
     struct Linear {
         Linear()
             : columns("superres_vertical.frag", "#define LINEAR\n"),
-              rows("composite_upscale.frag", "#define LINEAR\n") {}
+              rows("composite_enlarge.frag", "#define LINEAR\n") {}
 
         TilePass columns, rows;
     };
@@ -67,7 +67,7 @@ private:
         std::array<std::array<std::uint32_t, 4>, 5> commands;
         std::array<std::uint32_t, 8> counts;
     };
-    enum class List : std::uint32_t { All, Upscaled, Trusted, Blended, Second };
+    enum class List : std::uint32_t { All, Enlarged, Trusted, Blended, Second };
 
     [[nodiscard]] TileSummary summary(int which) const;
     [[nodiscard]] gpu::InstanceList list(List which) const;

@@ -28,7 +28,7 @@ struct TilePass {
 /// to listed tiles of class Trusted. `define` is empty or one line of GLSL for all programs.
 struct DetailPasses {
     explicit DetailPasses(const std::string& define = "")
-        : enlarged("composite_upscale.frag", define.c_str()),
+        : enlarged("composite_enlarge.frag", define.c_str()),
           whole("composite_detail.frag", define),
           tiles("tile_rect.vert", "composite_detail.frag", define),
           plain("tile_rect.vert", "composite_detail.frag", "#define PLAIN_TILE\n" + define) {}

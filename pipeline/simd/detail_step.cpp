@@ -69,15 +69,15 @@ DetailStep::Show DetailStep::showOf(const Frame& frame, int column, int row) con
     if (!work.drawsWhole() && tile.changed == 0) return Show::Nothing;
     if (!frame.warps && !frame.blends) return Show::Video;
     if (classes_.showsSecond(column, row)) return Show::BothStills;
-    const bool upscaled = classes_.at(column, row) == TileClass::Upscaled;
-    if (work.draw != TileWork::Draw::Whole) return upscaled ? Show::Video : Show::Detail;
+    const bool enlarged = classes_.at(column, row) == TileClass::Enlarged;
+    if (work.draw != TileWork::Draw::Whole) return enlarged ? Show::Video : Show::Detail;
     const PixelRect& in = work.detailTiles;
     if (!(column >= in.x0 && column < in.x1 && row >= in.y0 && row < in.y1)) return Show::Video;
-    // The class Upscaled does not imply that the still has no weight in the tile: unmatched tiles
+    // The class Enlarged does not imply that the still has no weight in the tile: unmatched tiles
     // have this class too. Near a matched neighbour, their weights are interpolated between the
     // cells of both tiles.
     const bool weightless =
-        upscaled && tile.matched != 0 && frame.options.mode == SuperResMode::Detail;
+        enlarged && tile.matched != 0 && frame.options.mode == SuperResMode::Detail;
     return weightless ? Show::Video : Show::Detail;
 }
 
@@ -98,7 +98,7 @@ TileSummary DetailStep::draw(const DetailInput& in, const DetailOptions& options
     const TileSummary summary =
         classes_.classify(in.work, usesStill ? Match{in.weighed, in.trust} : Match{},
                           usesSecond ? Match{in.second.weighed, in.second.trust} : Match{},
-                          {options.upscaledTiles, options.plainTiles}, *workers_);
+                          {options.enlargedTiles, options.plainTiles}, *workers_);
     if (!in.work.drawsWhole() && in.work.changed == 0) return summary;
     Frame frame{in,
                 options,

@@ -24,7 +24,7 @@ namespace mfar::simd {
 struct DetailOptions {
     SuperResMode mode;
     bool cubic;
-    bool upscaledTiles, plainTiles;
+    bool enlargedTiles, plainTiles;
     /// Learned filters that enlarge the matched tiles in mode Detail, see detailRow(). If null, the
     /// video is sharpened instead in mode Detail, provided that DetailInput::still has data.
     const FilterBank* learned = nullptr;

@@ -281,7 +281,7 @@ public:
         }
         const simd::TileSummary counts =
             detail_.draw(in,
-                         {options.mode, options.cubic, options.upscaledTiles, options.plainTiles,
+                         {options.mode, options.cubic, options.enlargedTiles, options.plainTiles,
                           options.filters},
                          picture_.rows());
         summary_ = summaryOf(counts);

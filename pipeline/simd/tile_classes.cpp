@@ -51,7 +51,7 @@ TileClass TileClasses::Fields::classOf(int column, int row) const {
         low = std::min(low, cells[i].weight);
         high = std::max(high, cells[i].weight);
     }
-    if (!(high > leastWeight)) return TileClass::Upscaled;
+    if (!(high > leastWeight)) return TileClass::Enlarged;
     if (!(high - low < params::kPlainWeight)) return TileClass::Blended;
     const WeighedCell &origin = cells[kWithBorder + 1], &right = cells[kWithBorder + 4],
                       &below = cells[4 * kWithBorder + 1];
@@ -118,7 +118,7 @@ void TileClasses::classifyRow(const TileWork& work, const Fields& fields, int ro
         TileClass kind = TileClass::Unchanged;
         if (work.drawsWhole() || tile.changed != 0) {
             kind = fields.known() && tile.matched != 0 ? fields.classOf(column, row)
-                                                       : TileClass::Upscaled;
+                                                       : TileClass::Enlarged;
             unexplained_[index] =
                 fields.known() ? fields.unexplainedCells(column, row) : kCells * kCells;
             second_[index] = fields.known() && fields.showsSecond(column, row) ? 1 : 0;
@@ -138,7 +138,7 @@ void TileClasses::classifyRow(const TileWork& work, const Fields& fields, int ro
 TileSummary TileClasses::classify(const TileWork& work, const Match& match, const Match& second,
                                   Skips skips, Workers& workers) {
     const Fields fields{match.weighed, match.trust, second,
-                        skips.upscaledTiles ? params::kLeastDetailWeight : -1.0F,
+                        skips.enlargedTiles ? params::kLeastDetailWeight : -1.0F,
                         skips.plainTiles ? params::kPlainFlow : 0.0F};
     struct Loop {
         TileClasses& self;

@@ -30,7 +30,7 @@ public:
     explicit TileClasses(Size video);
 
     struct Skips {
-        bool upscaledTiles, plainTiles;
+        bool enlargedTiles, plainTiles;
     };
     /// Results of WeighStep for one still. If there is no still, the fields have no data.
     struct Match {

@@ -18,7 +18,7 @@ const std::array<cv::Scalar, kTileClasses> kClassColours{
 
 cv::Rect mostDetailed(const Shown& shown, cv::Size window) {
     cv::Mat lacking, energy;
-    cv::subtract(eval::luma(shown.truth), eval::luma(shown.upscaled), lacking);
+    cv::subtract(eval::luma(shown.truth), eval::luma(shown.enlarged), lacking);
     cv::boxFilter(lacking.mul(lacking), energy, CV_64F, window);
     const cv::Rect centres(window.width / 2 + 1, window.height / 2 + 1,
                            shown.truth.cols - window.width - 2,
@@ -49,7 +49,7 @@ cv::Mat classColours(const Shown& shown) {
 std::string_view name(TileClass tileClass) {
     switch (tileClass) {
     case TileClass::Unchanged: return "unchanged";
-    case TileClass::Upscaled: return "upscaled";
+    case TileClass::Enlarged: return "enlarged";
     case TileClass::Trusted: return "trusted";
     case TileClass::Blended: return "blended";
     }
@@ -58,7 +58,7 @@ std::string_view name(TileClass tileClass) {
 
 cv::Mat comparisonPicture(const Shown& shown) {
     const std::array<Column, 3> columns{
-        Column{withPsnr("Enlarged video", shown.upscaled, shown.truth), shown.upscaled},
+        Column{withPsnr("Enlarged video", shown.enlarged, shown.truth), shown.enlarged},
         Column{withPsnr("mfar", shown.result, shown.truth), shown.result},
         Column{"Truth", shown.truth}};
     return columnsWithDetail(columns, mostDetailed(shown, detailSize(shown.truth.size())));

@@ -27,13 +27,13 @@ cv::Mat lumaInside(const cv::Mat& picture) {
 
 void addQuality(const Shown& shown, Quality& sum) {
     const cv::Mat truth = lumaInside(shown.truth);
-    const cv::Mat upscaled = lumaInside(shown.upscaled);
+    const cv::Mat enlarged = lumaInside(shown.enlarged);
     const cv::Mat result = lumaInside(shown.result);
-    sum.upscaledPsnrDb += eval::psnr(upscaled, truth);
+    sum.enlargedPsnrDb += eval::psnr(enlarged, truth);
     sum.resultPsnrDb += eval::psnr(result, truth);
-    sum.upscaledSsim += eval::ssim(upscaled, truth);
+    sum.enlargedSsim += eval::ssim(enlarged, truth);
     sum.resultSsim += eval::ssim(result, truth);
-    sum.harmRate += eval::harmRate(result, upscaled, truth);
+    sum.harmRate += eval::harmRate(result, enlarged, truth);
     ++sum.frames;
 }
 
@@ -46,7 +46,7 @@ void addStats(const FrameStats& stats, Quality& sum) {
 
 void divideByFrames(Quality& sum) {
     const double n = sum.frames;
-    for (double* value : {&sum.upscaledPsnrDb, &sum.resultPsnrDb, &sum.upscaledSsim,
+    for (double* value : {&sum.enlargedPsnrDb, &sum.resultPsnrDb, &sum.enlargedSsim,
                           &sum.resultSsim, &sum.harmRate, &sum.meanConfidence, &sum.frameMs})
         *value /= n;
     for (double& share : sum.tileShares)
@@ -56,7 +56,7 @@ void divideByFrames(Quality& sum) {
 Shown shownBy(const Pipeline& pipeline, const cv::Mat& video, const cv::Mat& truth) {
     Shown out;
     const Size size = pipeline.outputSize();
-    cv::resize(video, out.upscaled, {size.width, size.height}, 0, 0, cv::INTER_CUBIC);
+    cv::resize(video, out.enlarged, {size.width, size.height}, 0, 0, cv::INTER_CUBIC);
     out.result = eval::fromRgba(pipeline.readImage(), size);
     out.truth = truth;
     out.confidence = pipeline.readConfidence();

@@ -16,9 +16,9 @@ namespace mfar::demo {
 /// border of 32 px.
 struct Quality {
     int frames = 0;
-    double upscaledPsnrDb = 0;
+    double enlargedPsnrDb = 0;
     double resultPsnrDb = 0;
-    double upscaledSsim = 0;
+    double enlargedSsim = 0;
     double resultSsim = 0;
     /// Share of the pixels at which the result's error exceeds the error of the enlarged video by
     /// more than 2 grey levels.
@@ -30,7 +30,7 @@ struct Quality {
 
 /// Data of one frame for the demonstration's pictures. Pictures are CV_8UC3, B G R, at output size.
 struct Shown {
-    cv::Mat upscaled;
+    cv::Mat enlarged;
     cv::Mat result;
     cv::Mat truth;
     std::vector<float> confidence;

@@ -39,16 +39,16 @@ struct Request {
     std::string scene;    ///< name of the synthetic scene that the recording shows
 };
 
-void row(const std::string& what, const std::string& upscaled, const std::string& ours) {
-    fmt::print("  {:<36}{:>16}{:>12}\n", what, upscaled, ours);
+void row(const std::string& what, const std::string& enlarged, const std::string& ours) {
+    fmt::print("  {:<36}{:>16}{:>12}\n", what, enlarged, ours);
 }
 
 void printTable(const Quality& q, std::string_view engine) {
     fmt::print("\n");
     row(fmt::format("means over {} frames", q.frames), "enlarged video", "mfar");
-    row("PSNR [dB]", fmt::format("{:.2f}", q.upscaledPsnrDb),
+    row("PSNR [dB]", fmt::format("{:.2f}", q.enlargedPsnrDb),
         fmt::format("{:.2f}", q.resultPsnrDb));
-    row("SSIM", fmt::format("{:.4f}", q.upscaledSsim), fmt::format("{:.4f}", q.resultSsim));
+    row("SSIM", fmt::format("{:.4f}", q.enlargedSsim), fmt::format("{:.4f}", q.resultSsim));
     row("pixels worse than enlarged video [%]", "", fmt::format("{:.2f}", 100 * q.harmRate));
     row("mean confidence, 0 to 1", "", fmt::format("{:.3f}", q.meanConfidence));
     row(fmt::format("time of a frame [ms], engine {}", engine), "",
@@ -58,6 +58,9 @@ void printTable(const Quality& q, std::string_view engine) {
         row(fmt::format("share of tiles: {} [%]", mfar::demo::name(tileClass)), "",
             fmt::format("{:.1f}", 100 * q.tileShares[i]));
     }
+    fmt::print(
+        "  A tile has 16x16 video pixels. Unchanged: not drawn again. Enlarged: without the\n"
+        "  still's detail. Trusted: detail with one weight. Blended: the weight varies.\n");
 }
 
 void printTable(const OcclusionQuality& q) {

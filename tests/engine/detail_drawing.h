@@ -87,7 +87,7 @@ private:
         const ImageView view = frame.videoView();
         step_->draw({view, frame.video, ++number_}, matched, frame.work,
                     {.mode = SuperResMode::Detail,
-                     .upscaledTiles = false,
+                     .enlargedTiles = false,
                      .plainTiles = false,
                      .filters = filters});
         return step_->output().host();

@@ -2,7 +2,7 @@
 
 #include "pipeline/enlarge/filter_layout.h"
 #include "pipeline/flow/cell_field.h"
-#include "tests/oracle/enlarge.h"
+#include "tests/oracle/learned.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include "base/geometry.h"
 #include "pipeline/enlarge/filter_bank.h"
 #include "pipeline/enlarge/match_listener.h"
-#include "tests/oracle/upscale.h"
+#include "tests/oracle/enlarge.h"
 
 #include <cstdint>
 #include <vector>

@@ -2,8 +2,8 @@
 
 #include "pipeline/engine/params/weigh.h"
 #include "pipeline/enlarge/filter_bank.h"
+#include "tests/oracle/enlarge.h"
 #include "tests/oracle/superres.h"
-#include "tests/oracle/upscale.h"
 
 #include <Eigen/Dense>
 

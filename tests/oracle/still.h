@@ -1,6 +1,6 @@
 #pragma once
 
-#include "tests/oracle/upscale.h"
+#include "tests/oracle/enlarge.h"
 
 /// Oracle, in double precision, of how a still is prepared and what it contributes to a frame.
 /// Values are grey levels.

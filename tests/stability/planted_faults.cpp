@@ -45,7 +45,7 @@ constexpr PlantedFault kPlanted[] = {
      "ivec2(left, left + 1)", "missing clamp of a sub-pixel", "even-picture,pipeline"},
     {"superres_vertical.frag", "clamp(row + i - 1, 0, params.videoHeight - 1)", "row + i - 1",
      "missing clamp of a row", "enlargement"},
-    {"composite_upscale.frag", "clamp(column + 2, 0, last)", "clamp(column + 1, 0, last)",
+    {"composite_enlarge.frag", "clamp(column + 2, 0, last)", "clamp(column + 1, 0, last)",
      "wrong pixel of a filter", "enlargement"},
     {"composite_blend.frag", "textureLod(still, uv, 0.0).rgb, l.w",
      "textureLod(still, uv, 0.0).rgb, 1.0 - l.w", "weights exchanged", "pipeline-truth"},

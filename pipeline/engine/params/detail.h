@@ -8,7 +8,7 @@
 namespace mfar::params {
 
 inline constexpr std::uint32_t kTileUnchanged = 0U;
-inline constexpr std::uint32_t kTileUpscaled = 1U;
+inline constexpr std::uint32_t kTileEnlarged = 1U;
 inline constexpr std::uint32_t kTileTrusted = 2U;
 inline constexpr std::uint32_t kTileBlended = 3U;
 
@@ -65,7 +65,7 @@ inline constexpr int kTileAround = 8;
 struct alignas(16) ClassifyTiles {
     std::int32_t columns, rows;
     std::int32_t cellColumns, cellRows;
-    /// Largest weight of the still in a tile of the class kTileUpscaled: kLeastDetailWeight, or -1
+    /// Largest weight of the still in a tile of the class kTileEnlarged: kLeastDetailWeight, or -1
     /// so that no matched tile gets this class.
     float leastWeight;
     /// Limit for the flow of a tile that is drawn as one rectangle [video px]. It is kPlainFlow, or

@@ -107,7 +107,7 @@ TEST_F(Draw, EnlargementMatchesTheOracle) {
                                  Waves(1, 5, 40, 40).shoot(kSmallVideo, {})}) {
         const gpu::Texture columns = columnsOf(p, params);
         const gpu::Texture out =
-            drawn("composite_upscale.frag", params, {gpu::sampler(0, columns)}, kOutput);
+            drawn("composite_enlarge.frag", params, {gpu::sampler(0, columns)}, kOutput);
         for (int channel = 0; channel < 3; ++channel) {
             const twin::Grey in = twin::greyOf(kSmallVideo, [&](int x, int y) {
                 return double(p.bytes[4UL * (1UL * y * kSmallVideo.width + x) + channel]);
@@ -124,7 +124,7 @@ TEST_F(Draw, EnlargementEqualsOpenCvsBicubic) {
     const TileParams params = tileParams(kSmallVideo, kSmallStill, kOutput);
     TestPicture p = Waves(1, 6, 40, 30).shoot(kSmallVideo, {});
     const gpu::Texture out =
-        drawn("composite_upscale.frag", params, {gpu::sampler(0, columnsOf(p, params))}, kOutput);
+        drawn("composite_enlarge.frag", params, {gpu::sampler(0, columnsOf(p, params))}, kOutput);
     cv::Mat peer;
     cv::resize(cv::Mat(kSmallVideo.height, kSmallVideo.width, CV_8UC4, p.bytes.data()), peer,
                {kOutput.width, kOutput.height}, 0, 0, cv::INTER_CUBIC);
@@ -250,8 +250,8 @@ TEST_F(Draw, TilesCoverThePictureWithoutSeams) {
     const TileParams params = tileParams(kSmallVideo, kSmallStill, kOutput);
     const gpu::Texture columns = columnsOf(randomPicture(kSmallVideo, 3), params);
     EXPECT_EQ(
-        drawnByTiles("composite_upscale.frag", "", params, {gpu::sampler(0, columns)}).readRgba8(),
-        drawn("composite_upscale.frag", params, {gpu::sampler(0, columns)}, kOutput).readRgba8());
+        drawnByTiles("composite_enlarge.frag", "", params, {gpu::sampler(0, columns)}).readRgba8(),
+        drawn("composite_enlarge.frag", params, {gpu::sampler(0, columns)}, kOutput).readRgba8());
 }
 
 TEST_F(Draw, TilesOfConstantWeightEqualTilesWithAnImageOfWeights) {

@@ -1,7 +1,7 @@
 #include "pipeline/gles/learned_enlarger.h"
 #include "tests/engine/gl_test.h"
 #include "tests/engine/gles/tile_pass.h"
-#include "tests/oracle/enlarge.h"
+#include "tests/oracle/learned.h"
 
 #include <cmath>
 #include <random>

@@ -73,10 +73,10 @@ TEST_F(PipelineInputs, PicturesOfUnusualSizesAreProcessed) {
         const TestPicture video = c.video({1.5, 0.5});
         const auto truth = c.fine(p.outputSize(), {1.5, 0.5}).bytes;
         p.run(video.view(), {});
-        const double upscaled = psnr(p.readImage(), truth);
+        const double enlarged = psnr(p.readImage(), truth);
         p.setStill(c.still().view(), {});
         p.run(video.view(), {});
-        EXPECT_GT(psnr(p.readImage(), truth), upscaled + 1) << size.width << "x" << size.height;
+        EXPECT_GT(psnr(p.readImage(), truth), enlarged + 1) << size.width << "x" << size.height;
         EXPECT_EQ(p.readFlow().size(), 2UL * size.width * size.height);
         expectFinite(p);
     }

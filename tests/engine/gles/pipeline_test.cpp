@@ -1,6 +1,6 @@
 #include "tests/engine/gl_test.h"
 #include "tests/engine/gles/pipeline_case.h"
-#include "tests/oracle/upscale.h"
+#include "tests/oracle/enlarge.h"
 
 #include <cmath>
 
@@ -48,21 +48,21 @@ void expectGainByAStill(bool learned) {
     p.setQuality({.learned = learned});
     const auto truth = c.fine(p.outputSize(), kShift).bytes;
     p.run(video.view(), {});
-    const double upscaled = psnr(p.readImage(), truth);
+    const double enlarged = psnr(p.readImage(), truth);
     p.setStill(still.view(), {});
     p.run(video.view(), {});
     EXPECT_TRUE(p.readStats().usedStill);
     const double detail = psnr(p.readImage(), truth);
-    EXPECT_GT(detail, upscaled + 2);
+    EXPECT_GT(detail, enlarged + 2);
     p.setMode(SuperResMode::Blend);
     p.run(video.view(), {});
-    EXPECT_GT(psnr(p.readImage(), truth), upscaled + 2);
+    EXPECT_GT(psnr(p.readImage(), truth), enlarged + 2);
     p.setMode(SuperResMode::Off);
     p.run(video.view(), {});
     if (learned)
-        EXPECT_NE(psnr(p.readImage(), truth), upscaled);
+        EXPECT_NE(psnr(p.readImage(), truth), enlarged);
     else
-        EXPECT_DOUBLE_EQ(psnr(p.readImage(), truth), upscaled);
+        EXPECT_DOUBLE_EQ(psnr(p.readImage(), truth), enlarged);
     p.setMode(SuperResMode::Detail);
     p.run(video.view(), {});
     // The search starts from the flow of the last frame; so the result may be slightly better.
@@ -70,7 +70,7 @@ void expectGainByAStill(bool learned) {
     EXPECT_LT(psnr(p.readImage(), truth), detail + 0.3);
     p.dropStill();
     p.run(video.view(), {});
-    EXPECT_DOUBLE_EQ(psnr(p.readImage(), truth), upscaled);
+    EXPECT_DOUBLE_EQ(psnr(p.readImage(), truth), enlarged);
 }
 
 TEST_F(PipelineTest, AStillBringsThePictureCloserToTheTruth) {
@@ -106,11 +106,11 @@ TEST_F(PipelineTest, AnUnrelatedStillAddsNothing) {
     Pipeline p(c.rig, {});
     const TestPicture video = Waves(9, 6, 60, 30).shoot(c.rig.video.size, {});
     p.run(video.view(), {});
-    const auto upscaled = p.readImage();
+    const auto enlarged = p.readImage();
     TestPicture noise = randomPicture(c.rig.still.size, 1);
     p.setStill(noise.view(), {});
     p.run(video.view(), {});
-    EXPECT_GT(psnr(p.readImage(), upscaled), 35);
+    EXPECT_GT(psnr(p.readImage(), enlarged), 35);
     EXPECT_LT(p.readStats().explained, 0.3);
 }
 

@@ -1,6 +1,6 @@
 #include "tests/engine/gl_test.h"
 #include "tests/engine/gles/pipeline_case.h"
-#include "tests/oracle/upscale.h"
+#include "tests/oracle/enlarge.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -215,7 +215,7 @@ TEST_F(QualityTest, OnlyTheConfiguredShareOfTilesGetsDetail) {
         (void)pictureOf(p, c, true);
         const std::vector<TileClass> classes = p.readTileClasses();
         const auto detailed = static_cast<std::size_t>(
-            classes.size() - std::ranges::count(classes, TileClass::Upscaled));
+            classes.size() - std::ranges::count(classes, TileClass::Enlarged));
         EXPECT_LE(static_cast<double>(detailed), share * static_cast<double>(classes.size()) + 1);
         EXPECT_GT(detailed, before);
         before = detailed;
@@ -233,7 +233,7 @@ TEST_F(QualityTest, ThePictureIsTheSameIfNoWorkIsSkipped) {
     const PipelineCase c;
     Pipeline usual(c.rig, {});
     const Image wanted = pictureOf(usual, c, false);
-    for (bool SkipOptions::* skip : {&SkipOptions::upscaledTiles, &SkipOptions::smoothTiles,
+    for (bool SkipOptions::* skip : {&SkipOptions::enlargedTiles, &SkipOptions::smoothTiles,
                                      &SkipOptions::plainTiles, &SkipOptions::tileLists}) {
         PipelineOptions options;
         options.skips.*skip = false;
@@ -270,7 +270,7 @@ TEST_F(QualityTest, TileListsDoNotLowerTheQualityOfAPictureWithLittleDetail) {
                 p.run(frame(shift).view(), {}, pose(0.01 * shift));
             const auto classes = p.readTileClasses();
             EXPECT_GT(std::ranges::count(classes, TileClass::Blended), 2);
-            EXPECT_GT(std::ranges::count(classes, TileClass::Upscaled), 20);
+            EXPECT_GT(std::ranges::count(classes, TileClass::Enlarged), 20);
             return psnr(p.readImage(), evenButForAPatch(c.fine(p.outputSize(), {2, 0}), 98).bytes);
         };
         EXPECT_GT(qualityWith(true), std::max(37.0, qualityWith(false) - 0.1));
@@ -306,7 +306,7 @@ TEST_F(QualityTest, InModeBlendTilesWithoutWeightAreBlendedLikeAllOthers) {
     EXPECT_LT(p.readStats().redrawn, 0.3);
     EXPECT_LT(p.readStats().meanConfidence, 0.5);
     const std::vector<TileClass> classes = p.readTileClasses();
-    EXPECT_EQ(std::ranges::count(classes, TileClass::Upscaled), 0);
+    EXPECT_EQ(std::ranges::count(classes, TileClass::Enlarged), 0);
     EXPECT_GT(std::ranges::count(classes, TileClass::Blended), 2);
 }
 
@@ -340,9 +340,9 @@ TEST_F(QualityTest, WithSkippingDisabledAllTilesAreProcessed) {
     const auto usual = classesAfterAChange({});
     EXPECT_GT(count(usual, TileClass::Unchanged), 60);
     EXPECT_EQ(count(classesAfterAChange({.tileLists = false}), TileClass::Unchanged), 0);
-    const auto blended = classesAfterAChange({.upscaledTiles = false, .plainTiles = false});
+    const auto blended = classesAfterAChange({.enlargedTiles = false, .plainTiles = false});
     EXPECT_EQ(count(blended, TileClass::Unchanged), count(usual, TileClass::Unchanged));
-    EXPECT_EQ(count(blended, TileClass::Trusted) + count(blended, TileClass::Upscaled), 0);
+    EXPECT_EQ(count(blended, TileClass::Trusted) + count(blended, TileClass::Enlarged), 0);
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 
 #include "pipeline/simd/detail_step.h"
 #include "tests/engine/simd/detail_case.h"
-#include "tests/oracle/enlarge.h"
+#include "tests/oracle/learned.h"
 #include "tests/oracle/still.h"
 
 #include <algorithm>

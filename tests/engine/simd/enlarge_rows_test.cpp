@@ -1,6 +1,6 @@
 #include "pipeline/simd/enlarge_rows.h"
 #include "tests/engine/simd/every_target.h"
-#include "tests/oracle/enlarge.h"
+#include "tests/oracle/learned.h"
 
 #include <gtest/gtest.h>
 

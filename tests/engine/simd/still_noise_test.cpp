@@ -1,5 +1,5 @@
 #include "pipeline/simd/still_noise.h"
-#include "tests/oracle/upscale.h"
+#include "tests/oracle/enlarge.h"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 namespace mfar::bench {
 namespace {
 
-constexpr std::array<const char*, kTileClasses> kClassNames{"unchanged", "upscaled", "trusted",
+constexpr std::array<const char*, kTileClasses> kClassNames{"unchanged", "enlarged", "trusted",
                                                             "blended"};
 
 nlohmann::json json(const Summary& s) {

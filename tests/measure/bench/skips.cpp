@@ -44,7 +44,7 @@ Skip optional(const char* name, bool SkipOptions::* member) {
 const std::vector<Skip>& allSkips() {
     static const std::vector<Skip> skips{
         {"unchanged-tiles", [](PipelineOptions& o) { o.skipUnchanged = false; }},
-        optional("upscaled-tiles", &SkipOptions::upscaledTiles),
+        optional("enlarged-tiles", &SkipOptions::enlargedTiles),
         optional("smooth-tiles", &SkipOptions::smoothTiles),
         optional("plain-tiles", &SkipOptions::plainTiles),
         optional("tile-lists", &SkipOptions::tileLists),

@@ -78,9 +78,9 @@ const cv::Mat& PaperPipeline::run(const cv::Mat& video) {
     cv::Mat weight;
     confidence_.convertTo(weight, CV_8U, 255);
     cv::resize(weight, weight_, outputMap_.size(), 0, 0, cv::INTER_LINEAR);
-    cv::resize(video, upscaled_, outputMap_.size(), 0, 0, cv::INTER_CUBIC);
-    blendInto(upscaled_, warped_, weight_);
-    return upscaled_;
+    cv::resize(video, enlarged_, outputMap_.size(), 0, 0, cv::INTER_CUBIC);
+    blendInto(enlarged_, warped_, weight_);
+    return enlarged_;
 }
 
 }  // namespace mfar::eval

@@ -37,7 +37,7 @@ private:
     cv::Mat videoMap_, outputMap_;
     cv::Ptr<cv::DISOpticalFlow> dis_;
     cv::Mat still_, stillGrey_, grey_, forward_, backward_, confidence_;
-    cv::Mat shift_, weight_, warped_, upscaled_;
+    cv::Mat shift_, weight_, warped_, enlarged_;
 };
 
 /// Confidence by eq. 2 of the paper, CV_32F in [0, 1]; 0 where the flow leads outside the picture.

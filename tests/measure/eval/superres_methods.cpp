@@ -68,7 +68,7 @@ private:
     Enlarge enlarge_;
 };
 
-std::unique_ptr<SuperResMethod> upscaling(Size output, int filter) {
+std::unique_ptr<SuperResMethod> enlargement(Size output, int filter) {
     const cv::Size size(output.width, output.height);
     return std::make_unique<Enlarging>(
         [size, filter, out = cv::Mat()](const cv::Mat& video) mutable {
@@ -129,9 +129,9 @@ bool needsStill(const std::string& method) {
 
 std::unique_ptr<SuperResMethod> SuperResFactory::create(const std::string& name,
                                                         const StereoRig& rig) {
-    if (name == "bicubic") return upscaling(outputSize(rig), cv::INTER_CUBIC);
-    if (name == "bilinear") return upscaling(outputSize(rig), cv::INTER_LINEAR);
-    if (name == "lanczos") return upscaling(outputSize(rig), cv::INTER_LANCZOS4);
+    if (name == "bicubic") return enlargement(outputSize(rig), cv::INTER_CUBIC);
+    if (name == "bilinear") return enlargement(outputSize(rig), cv::INTER_LINEAR);
+    if (name == "lanczos") return enlargement(outputSize(rig), cv::INTER_LANCZOS4);
     if (name == "paper") return std::make_unique<PaperMethod>(rig, alpha_);
     const bool blend = name == "blend";
     if (!blend && name != "detail" && name != "detail2d")

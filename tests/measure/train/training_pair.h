@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/rows.h"
-#include "tests/oracle/upscale.h"
+#include "tests/oracle/enlarge.h"
 
 #include <cstdint>
 

@@ -2,7 +2,7 @@
 // there for the meaning of alpha. Needs tile_params.glsl, and columns.glsl or learned.glsl.
 #include "cubic.glsl"
 
-vec4 upscaled() {
+vec4 enlarged() {
     float x = gl_FragCoord.x * params.scaleX - 0.5;
     int y = int(gl_FragCoord.y);
     int column = int(floor(x));

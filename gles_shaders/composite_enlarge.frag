@@ -9,12 +9,12 @@
 #else
 #include "columns.glsl"
 #endif
-#include "upscale.glsl"
+#include "enlarge.glsl"
 
 layout(location = 0) out vec4 colour;
 
 #ifdef LINEAR
-vec3 upscaledLinearly() {
+vec3 enlargedLinearly() {
     float x = gl_FragCoord.x * params.scaleX - 0.5;
     int y = int(gl_FragCoord.y);
     int column = int(floor(x));
@@ -25,10 +25,10 @@ vec3 upscaledLinearly() {
 
 void main() {
 #ifdef LINEAR
-    colour = vec4(upscaledLinearly(), 1.0);
+    colour = vec4(enlargedLinearly(), 1.0);
 #elif defined(LEARNED)
-    colour = vec4(upscaled().rgb + learned(), 1.0);
+    colour = vec4(enlarged().rgb + learned(), 1.0);
 #else
-    colour = vec4(upscaled().rgb, 1.0);
+    colour = vec4(enlarged().rgb, 1.0);
 #endif
 }
