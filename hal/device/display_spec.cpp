@@ -61,8 +61,8 @@ void takeKmsWord(ScreenSpec& spec, std::string_view word) {
         spec.mode = mode;
     } else {
         throw std::runtime_error(
-            fmt::format("kms: \"{}\" is not a card (like card0), a connector (like HDMI-A-1) or a "
-                        "mode (like 1280x720@60), or is the second of its kind",
+            fmt::format("kms: \"{}\" must be a card (like card0), a connector (like HDMI-A-1) or a "
+                        "mode (like 1280x720@60), each at most once",
                         word));
     }
 }

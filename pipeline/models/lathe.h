@@ -11,8 +11,8 @@ namespace mfar {
 using LatheProfile = std::vector<Eigen::Vector2f>;
 
 /// Returns a smooth curve through all knots (centripetal Catmull-Rom spline), sampled at `count`
-/// points. All segments between knots get equal numbers of points. There must be at least two knots
-/// and two points.
+/// points. The points are spread evenly over the segments between knots, regardless of their
+/// lengths. Negative radii become 0. There must be at least two knots and two points.
 [[nodiscard]] LatheProfile smoothProfile(const LatheProfile& knots, int count);
 
 struct LatheOptions {

@@ -103,7 +103,8 @@ TEST(PixelSurface, PixelsOfSmallBallsAreRougherThanTheMaterialAndThoseOfLargeBal
     }
 }
 
-// The number of points per pixel must depend on differences relative to the light's brightness.
+// Pixels whose mirrored light varies get more points. The limit is a share of the light's
+// brightness. A fixed limit would give dim and bright scenes different numbers of points.
 TEST(PixelSurface, LightIsProportionalToTheBrightnessOfTheEnvironment) {
     const Film dim = seen(balls(0.1F, 0.05F), kSmall), bright = seen(balls(0.1F, 1), kSmall);
     for (std::size_t i = 0; i < render_scenes::allPixels(kSmall).size(); ++i) {

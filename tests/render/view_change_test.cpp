@@ -64,7 +64,7 @@ TEST(ViewChange, OtherLensOrSizeIsAnInfiniteChange) {
     EXPECT_TRUE(std::isinf(change(from, viewFrom({128, 96}, 20))));
 }
 
-TEST(ViewChange, IsFiniteInsideAnObject) {
+TEST(ViewChange, IsFiniteInsideAnObjectAndNeverNanAtItsCentre) {
     const RenderView inside = viewFrom(kSize, 20, 30, 0.05);
     RenderView middle = inside;
     middle.T_world_camera.translation.setZero();
