@@ -14,8 +14,8 @@ struct SkipOptions {
     bool plainTiles = true;
     /// Only changed tiles are drawn, unless almost half of all tiles changed.
     bool tileLists = true;
-    bool knownFlow = true;      ///< the 2-D search also tries the last frame's flow
-    bool knownBehind = true;    ///< real depth that is known to lie behind objects is not measured
+    bool knownFlow = true;    ///< the 2-D search begins at the last frame's flow, so it is shorter
+    bool knownBehind = true;  ///< real depth that is known to lie behind objects is not measured
     bool objectsAtRest = true;  ///< objects over unchanged tiles are not drawn again
     bool hiddenObjects = true;  ///< objects and shadows that real things occlude are not drawn
     bool objectBounds = true;   ///< the layer is drawn only in a rectangle around the objects

@@ -20,8 +20,8 @@ struct CameraWish {
     /// If `name` is empty: true chooses the camera with the largest pictures, false the one with
     /// the smallest.
     bool largest = false;
-    /// True if the camera of the other sensor is used through the same driver. Then a single camera
-    /// is that of the video sensor.
+    /// True if both sensors' cameras are used through the same driver. If there is only one camera,
+    /// it then belongs to the video sensor, and the still sensor gets none.
     bool sharesDriver = true;
 };
 

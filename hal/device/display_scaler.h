@@ -53,7 +53,7 @@ private:
     [[nodiscard]] gpu::Program& programFor(int pairs);
 
     // copy_ draws pictures that need no scaling. scale_ draws other pictures. For each screen
-    // pixel, it reads up to pairs_ pairs of texels along a row.
+    // pixel, it reads pairs_ pairs of texels along each axis.
     std::optional<gpu::Program> copy_, scale_;
     int pairs_ = 0;
     GLuint sampler_ = 0;

@@ -57,7 +57,8 @@ PixelRect LayerComposite::videoPixels(const PixelRect& bounds) const {
     const auto below = [](int pixel, double scale) {
         return static_cast<int>(std::floor((pixel + 0.5) * scale - 0.5));
     };
-    // At the left and upper border, below() can give -1 for the last pixel, too.
+    // Near the left and upper border, below() can be -1 even for x1 and y1. The shader then reads
+    // column or row 0, so the rectangle must contain it.
     return {std::max(below(bounds.x0, sx), 0), std::max(below(bounds.y0, sy), 0),
             std::clamp(below(bounds.x1, sx) + 1, 1, video_.width),
             std::clamp(below(bounds.y1, sy) + 1, 1, video_.height)};

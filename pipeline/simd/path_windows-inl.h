@@ -1,6 +1,6 @@
-// Aggregates costs along paths (see path_costs.h) in memory, for any number of labels per pixel.
-// The array of a pixel's path costs has a margin at both ends. This header is included once per
-// instruction set.
+// Aggregates costs along paths (see path_costs.h) for any number of labels per pixel. The path
+// costs of a pixel are kept in an array with a margin at both ends. (path_blocks-inl.h, for 16
+// labels, keeps them in registers.) This header is included once per instruction set.
 #include "pipeline/simd/path_costs.h"
 
 #include <algorithm>

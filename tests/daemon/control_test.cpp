@@ -109,7 +109,7 @@ TEST_F(Control, FailuresAreReported) {
         << "a text that is not valid UTF-8 must not prevent the answer";
 }
 
-TEST_F(Control, AnObserverMayOnlyQueryStatus) {
+TEST_F(Control, AnObserverMayOnlyQueryStatusAndStats) {
     const auto asObserver = [&](std::string_view request) {
         return json::parse(answerControl(actions, request, ControlRole::Observer).line);
     };

@@ -9,8 +9,9 @@ namespace mfar::stress {
 /// Collects the errors of one quantity and prints them as one line of a table.
 class ErrorTable {
 public:
-    /// `what`: the pass and the quantity. `unit`: unit of the errors. `least`: for values below it,
-    /// such as pixels near 0, errors are counted in the unit in the last place (ulp) of `least`.
+    /// `what`: the pass and the quantity. `unit`: unit of the errors. `least` counts only for
+    /// errors in units in the last place (ulps): for wanted values below it, such as pixels near 0,
+    /// the ulp of `least` is used.
     ErrorTable(std::string what, std::string unit, double least = 0)
         : what_(std::move(what)), unit_(std::move(unit)), least_(least) {}
 

@@ -109,7 +109,7 @@ TEST(MovingMirrors, HighlightsOfTheSunMove) {
 
 // Half of all light is hidden. Where the sun's light is weak, sky and sun get the same visible
 // share, and the sun's light must not be counted twice.
-TEST(MovingMirrors, HiddenHalvesOfSkyAndWeakSunMoveTogether) {
+TEST(MovingMirrors, HalfHiddenSkyAndWeakSunStayHalfVisibleAfterAMotion) {
     MirrorLight light = test::smoothLightAndSun();
     light.sunIrradiance = {1.5F, 1.5F, 1.5F};
     MirrorSurfaces s(light);

@@ -37,9 +37,11 @@ double shortestEdge(const TagDetection& tag) {
     return out;
 }
 
-/// Returns half the side of the window in which a tag's corner is refined [px]. The window contains
-/// only parts of the tag's border and of the square in the gap between tags. The border is at least
-/// an eighth of the tag's edge wide. The factor 0.9 allows for slanted edges.
+/// Returns half the side of the window in which a tag's corner is refined [px]. Besides white
+/// paper, the window contains only parts of the tag's black border and of the black square that an
+/// AprilGrid has at each tag corner, in the gap between the tags. The square is as wide as the gap;
+/// the border is at least an eighth of the tag's edge wide. The factor 0.9 allows for slanted
+/// edges.
 int windowFor(const TagDetection& tag, const Target& target) {
     const double clear = shortestEdge(tag) * std::min(1. / 8, target.spacing);
     return std::min(kLargestWindow, static_cast<int>(0.9 * clear));
