@@ -52,7 +52,7 @@ private:
 
 /// Copies a picture that is not empty into `rgba`, row 0 first. `stride` [bytes] must be a multiple
 /// of four. Reading a texture waits for the GPU and keeps the context's bindings. Throws
-/// std::runtime_error if GL fails.
+/// std::runtime_error if GL cannot read from the texture.
 void copyPicture(const Picture& picture, std::uint8_t* rgba, std::size_t stride);
 
 }  // namespace mfar

@@ -14,7 +14,8 @@ namespace mfar {
 /// time and the time expected from its pulse. A still with a larger difference does not match.
 struct StillMatcherOptions {
     /// First estimate of the delay from a pulse's leading edge to the exposure's start as the
-    /// camera reports it. Its error must be less than half the shortest trigger period.
+    /// camera reports it. Its error must be at most `wideWindow` and less than half the shortest
+    /// trigger period.
     std::chrono::nanoseconds guess{0};
     /// Window while the delay is being learned.
     std::chrono::nanoseconds wideWindow{std::chrono::milliseconds(100)};

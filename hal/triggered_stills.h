@@ -37,7 +37,7 @@ public:
     [[nodiscard]] CameraInfo info() const override;
     void start() override;
     /// Returns the next still. Also repeats lost pulses, so it must be called regularly. Throws the
-    /// errors of the camera, and those of the trigger when a pulse is repeated.
+    /// errors of the camera and, when a pulse is repeated, those of the trigger except TriggerBusy.
     [[nodiscard]] std::optional<Frame> next(std::chrono::milliseconds timeout) override;
     /// Ends an active pulse, then stops the camera. Until the next start(), fire() throws
     /// TriggerBusy.

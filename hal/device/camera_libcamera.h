@@ -19,7 +19,8 @@ struct LibcameraOptions {
     /// Frame rate [Hz], requested if the camera has the control FrameDurationLimits. 0: the camera
     /// takes pictures only when it is triggered, so drops are counted from frame numbers only.
     double rateHz = 30;
-    /// A fixed exposure (ExposureTime), gain or focus ends its automatic mode.
+    /// Names and values of controls, see NamedValues. A fixed exposure (ExposureTime), gain or
+    /// focus ends its automatic mode, see withManualModes().
     std::vector<std::pair<std::string, std::string>> controls;
     bool still = false;  ///< true: single pictures instead of video
     bool allowCrop = false;

@@ -30,8 +30,8 @@ struct CameraWish {
 /// Returns the index of the camera that has wish.name. If that is empty, returns the camera with
 /// the smallest or largest pictures, see CameraWish::largest. The id decides among equal sizes.
 /// Throws std::runtime_error, whose message lists the cameras, in these cases: no camera or several
-/// cameras have the name; `except` is the only camera; `name` and `except` are empty, `largest` and
-/// `sharesDriver` are set, and there is only one camera. Throws std::runtime_error, too, if
+/// cameras have the name; all cameras are named `except`; `name` and `except` are empty, `largest`
+/// and `sharesDriver` are set, and there is only one camera. Throws std::runtime_error, too, if
 /// `cameras` is empty.
 [[nodiscard]] std::size_t chooseCamera(const std::vector<ListedCamera>& cameras,
                                        const CameraWish& wish);

@@ -21,9 +21,8 @@ namespace {
 using std::chrono::nanoseconds;
 using std::chrono::steady_clock;
 
-// A frame's timestamp may be at most kAhead in the future, because the clocks of CPU cores differ.
-// It may be at most kOldest in the past, because some time may have passed since the last call of
-// next().
+// A frame's timestamp may be up to kAhead in the future, because the clocks of CPU cores differ. It
+// may be up to kOldest in the past, because a frame waits in the driver until next() is called.
 constexpr nanoseconds kAhead = std::chrono::milliseconds(50), kOldest = std::chrono::seconds(10);
 constexpr std::chrono::milliseconds kTroublePause{5};
 

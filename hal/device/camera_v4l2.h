@@ -42,10 +42,11 @@ struct CameraV4l2Options {
 /// than requested and fewer than four. When the users of a frame have released it, the next call of
 /// next() gives its buffer back to the driver.
 ///
-/// Frame::time() is the middle of the exposure if the exposure is known: exposure_time_absolute or
-/// exposure_absolute, unless it is automatic. It is computed from the driver's timestamp, which is
-/// at the start of the exposure or at the end of the frame, plus timeOffset. Broken or incomplete
-/// pictures and those with an implausible timestamp are counted and not delivered.
+/// Frame::time() is the driver's timestamp (start of the exposure or end of the frame) plus
+/// timeOffset, shifted by half the exposure towards its middle. The exposure is known only if it is
+/// not automatic and the camera has the control exposure_time_absolute or exposure_absolute. An
+/// unknown exposure counts as 0. Broken or incomplete pictures and those with an implausible
+/// timestamp are counted and not delivered.
 ///
 /// The constructor throws std::runtime_error, e.g. if the camera is not found or busy, if it does
 /// not offer the size, or if a control is refused. next() throws DeviceLost if the device is lost;

@@ -95,8 +95,8 @@ bool ScreenDisplay::retriesPreferred() {
     return true;
 }
 
-// While a screen works and no device has changed, only that screen is checked, except when
-// retriesPreferred() returns true: checking another screen opens its device.
+// Checking a screen opens its device. So while a screen works and no device has changed, no other
+// screen is checked, unless retriesPreferred() returns true.
 Screen* ScreenDisplay::look(bool changed) {
     if (active_ != nullptr && !changed && !retriesPreferred() &&
         active_->look(false) == Screen::Presence::Ready)

@@ -13,9 +13,10 @@
 namespace mfar {
 
 /// A display whose screen may be connected, disconnected or changed at any time. Without a screen,
-/// show() only waits for the GPU. A new screen shows the picture within a second. Devices are
-/// checked in a fixed order, every five seconds also while a less preferred one is in use. A device
-/// that could not show its first pictures is checked last.
+/// show() prepares the scaler and waits for the GPU. A new screen shows the picture within a
+/// second. Devices are checked in order of preference: every half second without a screen, every
+/// five seconds while a less preferred device is in use. A device that could not show its first
+/// pictures is checked last.
 ///
 /// A missing screen never ends a run. name() reports the screen or the reason why there is none,
 /// for example:
@@ -28,8 +29,8 @@ public:
 
     /// `screens` are in order of preference; `scaler` draws the pictures of all of them. `changed`
     /// returns true if a device was added, removed or changed since its last call. If it always
-    /// returns false, a change of the modes that the monitor of a working screen offers may be
-    /// missed, and a more preferred screen that appears is found up to about five seconds late.
+    /// returns false, new modes of the monitor in use may be missed, and a more preferred screen is
+    /// found up to about five seconds after it appears.
     ScreenDisplay(std::unique_ptr<ScreenScaler> scaler,
                   std::vector<std::unique_ptr<Screen>> screens, Clock clock, Events changed);
     ScreenDisplay(const ScreenDisplay&) = delete;

@@ -62,9 +62,9 @@ public:
     [[nodiscard]] const std::string& path() const { return path_; }
     /// Returns the connector that `spec` names, or the first connected one if `spec` names none. A
     /// connector that cannot detect a monitor is returned only if no other is connected. Returns
-    /// nothing if no monitor is connected. With `probe`, the driver queries the monitor, which may
-    /// take tens of milliseconds; otherwise the driver reports the last known state. Throws
-    /// std::runtime_error if the device is lost.
+    /// nothing if no connected monitor can be driven. With `probe`, the driver queries the monitor,
+    /// which may take tens of milliseconds; otherwise the driver reports the last known state.
+    /// Throws std::runtime_error if the device is lost.
     [[nodiscard]] std::optional<DrmOutput> findOutput(const ScreenSpec& spec, bool probe) const;
     [[nodiscard]] std::string connectors() const;
 

@@ -36,8 +36,9 @@ public:
         if (!isMapped || pitch_ < static_cast<std::uint64_t>(size.width) * 4 ||
             bytes_ < rows * pitch_) {
             const std::runtime_error error =
-                isMapped ? std::runtime_error("the display driver made a dumb buffer too small")
-                         : refused("a dumb buffer cannot be mapped");
+                isMapped
+                    ? std::runtime_error("the display driver made a dumb buffer that is too small")
+                    : refused("a dumb buffer cannot be mapped");
             if (isMapped) munmap(memory, bytes_);
             drmModeDestroyDumbBuffer(fd, handle_);
             throw error;

@@ -15,7 +15,7 @@ namespace {
 
 using Request = std::unique_ptr<drmModeAtomicReq, FreedBy<drmModeAtomicFree>>;
 
-constexpr std::chrono::milliseconds kFlipTimeout{500};  // 12 periods of the slowest mode, 24 Hz
+constexpr std::chrono::milliseconds kFlipTimeout{500};  // 12 periods of a mode with 24 Hz
 
 std::vector<std::string> cardPaths() {
     std::vector<std::string> paths;

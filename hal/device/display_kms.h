@@ -6,9 +6,9 @@
 namespace mfar {
 
 /// A monitor on a DRM/KMS driver with atomic mode setting. show() waits until the previous picture
-/// is on the screen. The first picture decides the ScanoutMethod: the first that the driver accepts
-/// for a texture, Dumb for a picture on the host. close() restores the picture that the screen
-/// showed before.
+/// is on the screen. The first picture decides the ScanoutMethod: for a texture, the first method
+/// that the driver accepts; for a picture on the host, Dumb. close() restores the picture that the
+/// screen showed before.
 class KmsScreen final : public Screen {
 public:
     /// If `spec.device` is empty, the first card with a connected monitor is used, or else the

@@ -36,9 +36,9 @@ ScalePicture scaleParams(Size picture, Size screen, ScreenScaler::Order order) {
             .blueFirst = order == ScreenScaler::Order::Bgra ? 1 : 0};
 }
 
-// Returns the number of texel pairs that the shader reads along a row for one screen pixel. They
-// cover the pixel's footprint: the part of the picture whose average the pixel shows. Returns 0 if
-// the picture needs no scaling.
+// Returns the number of texel pairs that the shader reads along each axis for one screen pixel.
+// They cover the pixel's footprint: the part of the picture whose average the pixel shows. Returns
+// 0 if the picture needs no scaling.
 int pairsFor(const ScalePicture& p) {
     if (p.width == p.pictureWidth && p.height == p.pictureHeight) return 0;
     const float footprint = std::max(p.footprintX, p.footprintY);

@@ -43,8 +43,8 @@ public:
     void draw(const Picture& picture, GLuint framebuffer, Size screen, Order order);
     void releaseGl();
     /// Compiles the shaders for pictures of this size on a screen of 1920x1080 pixels and on a
-    /// screen of the picture's size. Most screens need one of these shaders; then their first
-    /// picture is not delayed.
+    /// screen of the picture's size. Most screens need one of these shaders, so their first picture
+    /// is not delayed.
     void warmUp(const GlImage& picture);
 
 private:

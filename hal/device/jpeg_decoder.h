@@ -15,7 +15,8 @@ namespace mfar {
 /// decoder. Any thread may use the frames.
 class JpegDecoder {
 public:
-    /// Width and height must be even. Throws std::invalid_argument, std::runtime_error.
+    /// Throws std::invalid_argument if width or height is not positive and even, and
+    /// std::runtime_error if the JPEG library fails.
     JpegDecoder(Size size, int buffers);
 
     /// Returns the picture as Yuv420 (BT.601, full range, as JFIF defines) or Gray8. For chroma

@@ -114,8 +114,9 @@ NamedValues withManualModes(const ControlInfoMap& camera, NamedValues wanted) {
         std::string_view value, mode, manual;
     };
     // Since libcamera 0.5, exposure and gain have a mode each. Before, AeEnable was the mode of
-    // both. On a Raspberry Pi, a fixed exposure or gain alone is possible while it is on. Other
-    // boards ignore both values while it is on, so it is turned off if both are wanted.
+    // both. On a Raspberry Pi, AeEnable may stay on while only the exposure or only the gain is
+    // fixed. Other boards ignore both values while AeEnable is on, so it is turned off if both are
+    // wanted.
     static constexpr std::array<Mode, 3> kModes{{{"ExposureTime", "ExposureTimeMode", "1"},
                                                  {"AnalogueGain", "AnalogueGainMode", "1"},
                                                  {"LensPosition", "AfMode", "0"}}};

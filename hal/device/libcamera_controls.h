@@ -16,8 +16,9 @@ using ControlValues = std::vector<std::pair<unsigned, libcamera::ControlValue>>;
 
 [[nodiscard]] bool hasControl(const libcamera::ControlInfoMap& camera, const std::string& name);
 
-/// Adds the controls that end the automatic modes of exposure, gain and focus, if `wanted` has
-/// values of these but not of the modes. Otherwise libcamera would ignore the values.
+/// If `wanted` sets exposure, gain or focus but not its mode, adds the control that makes the mode
+/// manual, because drivers ignore the value in automatic mode. Before libcamera 0.5, exposure and
+/// gain share one mode, which becomes manual only if `wanted` sets both.
 [[nodiscard]] NamedValues withManualModes(const libcamera::ControlInfoMap& camera,
                                           NamedValues wanted);
 

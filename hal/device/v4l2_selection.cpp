@@ -49,9 +49,8 @@ bool isNamed(const V4l2Device& device, const std::string& name) {
            (name.starts_with("/") && std::filesystem::canonical(name, error) == device.path());
 }
 
-// Returns false for a capture device that cannot be used, such as a sensor that gives only raw
-// Bayer data, and for the output of a chip that converts pictures, because it has no input to
-// capture from.
+// Returns false if the device has no supported format (e.g. a sensor that gives only raw Bayer
+// data), or no video input: such a device is the output of a chip that converts pictures.
 bool looksLikeCamera(const V4l2Device& device) {
     v4l2_input input{};
     return device.tryCall(VIDIOC_ENUMINPUT, &input) != ENOTTY && hasUsableFormat(device);

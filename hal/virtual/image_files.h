@@ -22,7 +22,7 @@ public:
 
 inline constexpr int kMaxImageSide = 16384;  ///< [px]; larger pictures are refused
 
-/// A picture in memory. Rows have no padding; row 0 is the top row.
+/// A picture that owns its pixels. Rows have no padding; row 0 is the top row.
 struct StoredImage {
     Size size;
     PixelFormat format = PixelFormat::Rgba8;

@@ -87,7 +87,7 @@ bool Recorder::picture(PictureStream& stream, const ImageView& image, Timestamp 
     }
     stream.last = time;
     // The buffers have four bytes per pixel, enough for every format. The writer's thread converts
-    // the copied picture to RGB.
+    // the copied picture to a PNG's format.
     const ImageView copy = packInto(slot->data, image);
     const auto loan = std::make_shared<Frame>(stream.pool.lend(*slot, time));
     writer_.post([this, &stream, loan, copy] { writePicture(stream, copy, loan->time()); });

@@ -25,8 +25,8 @@ struct RecorderOptions {
     std::chrono::milliseconds patience{0};
     /// Disk space that must stay free [bytes]. If less is free, the recording ends with an error.
     std::uint64_t leastFreeBytes = 64U << 20;
-    /// If the pictures have become larger than this [bytes], the recording ends with an error. 0:
-    /// no limit.
+    /// If the files of all pictures together have become larger than this [bytes], the recording
+    /// ends with an error. 0: no limit.
     std::uint64_t mostBytes = 0;
     /// This time was added to the times of the stills [s]. It is written to cam1/sensor.yaml,
     /// because a calibration from this recording must add it to its result.
@@ -40,11 +40,11 @@ struct RecorderOptions {
 
 /// Writes a recording. video(), still() and pose() copy their argument. If all buffers are in use
 /// and none becomes free within RecorderOptions::patience, the picture is dropped and counted. The
-/// recording's body frame B is the frame of the video camera.
+/// recording's body coordinates are the coordinates of the video camera.
 ///
 /// data.csv lists a picture only after its file is on the disk. At finish() and every `syncEvery`,
-/// first the pictures and then the lists are written to the disk. So a power cut only loses the
-/// pictures after the last synchronisation.
+/// first the pictures and then the lists are written to the disk. So a power cut loses only what
+/// was recorded after the last synchronisation.
 ///
 /// video(), still() and pose() may be called from three different threads, but each of them from
 /// one thread only. They return false if all buffers are in use, the time is negative or not later

@@ -31,7 +31,8 @@ struct Recording {
     std::filesystem::path root;
     StereoRig rig;
     double videoRateHz = 0;
-    /// Was added to the times of the stills, less what was added to the times of the video [s].
+    /// Time that was added to the times of the stills, minus the time that was added to the times
+    /// of the video [s].
     double stillTimeOffset = 0;
     /// Video (never empty), stills and poses are sorted by time. No list contains a time twice.
     std::vector<RecordedImage> video;

@@ -35,7 +35,7 @@ gpu::Binding uniform(GLuint index, const gpu::Buffer& b) {
 }
 
 /// Returns the bounds of a solid's bounding box in the picture, in normalised ray coordinates. The
-/// part of the box behind the near plane is ignored. If the box is not visible, the bounds are
+/// part of the box behind the near plane is ignored. If the whole box is behind it, the bounds are
 /// empty (left > right).
 template <class Rect>
 Rect boundsOf(const RigidTransform& T_camera_prim, const Eigen::Vector3d& half) {

@@ -105,7 +105,8 @@ struct Lighting {
     Eigen::Vector3d background{0.6, 0.7, 0.85};
 };
 
-/// `eye` is the middle of the camera's path, `target` the point that the camera looks at [m].
+/// `eye` is the camera's position on Path::Rest, `target` the point that it looks at from there
+/// [m].
 struct World {
     std::vector<Material> materials;
     std::vector<Primitive> primitives;

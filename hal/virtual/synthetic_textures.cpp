@@ -121,8 +121,8 @@ cv::Mat1f fractal(std::uint64_t seed, int cellsX, int cellsY, int octaves, float
         eachPixel(sum, [&](float& v, const int* at) { v += weight * (octave(at) - 0.5F); });
         total += weight;
     }
-    // The weighted mean of independent octaves varies less than each of them, so it is multiplied
-    // by 1.5.
+    // The weighted mean of independent octaves varies less than each of them, so its difference
+    // from 0.5 is multiplied by 1.5.
     eachPixel(sum, [&](float& v, const int*) { v = v * 1.5F / total + 0.5F; });
     return sum;
 }

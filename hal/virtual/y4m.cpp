@@ -88,7 +88,7 @@ void ByteSink::write(std::span<const std::uint8_t> bytes) {
     while (!bytes.empty()) {
         if (isPipe_) waitForReader();
         // After poll() reports a pipe as writable, PIPE_BUF bytes can be written without blocking.
-        // O_NONBLOCK is not set for standard output, because it would affect other users of it.
+        // O_NONBLOCK is not set for standard output, because other processes may share that file.
         const std::size_t chunk =
             isPipe_ ? std::min<std::size_t>(bytes.size(), PIPE_BUF) : bytes.size();
         const ssize_t n = ::write(fd_.get(), bytes.data(), chunk);

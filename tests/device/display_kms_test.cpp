@@ -117,7 +117,7 @@ TEST_F(KmsScreenTest, ATooSmallDumbBufferIsReportedAndFreed) {
     driver_.missingPitch = 4;
     milliseconds took{};
     EXPECT_EQ(faultOfShow(took), card() + ", HDMI-A-1: no picture can be shown; dumb buffers: the "
-                                          "display driver made a dumb buffer too small");
+                                          "display driver made a dumb buffer that is too small");
     EXPECT_EQ(driver_.buffers, 0);
 }
 
