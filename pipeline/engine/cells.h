@@ -48,7 +48,7 @@ struct LookUpCell {
 
 /// Four values in [0, 1]. They determine how much a tile is sharpened, and its class.
 struct TrustCell {
-    float halfWeight = 0;
+    float halfWeight = 0;  ///< half of the weight of the still's detail, at most 1
     float confidence = 0;
     float signal = 0;       ///< share of the video's variance that is not noise
     float unexplained = 0;  ///< 1 for a textured cell without a reliable match, else 0

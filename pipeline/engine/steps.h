@@ -91,7 +91,8 @@ public:
 class PyramidStep {
 public:
     virtual ~PyramidStep() = default;
-    /// Computes the video's pyramid. Does nothing if no tile of the frame is matched with a still.
+    /// Computes the video's pyramid. Does nothing if no changed tile is matched with a still, see
+    /// TileWork::matched.
     virtual const LumaPyramid& video(const VideoFrame& frame, const TileWork& work) = 0;
     /// Computes the still's pyramid. `light`: Guidance::light.
     virtual const LumaPyramid& still(const StillPictures& still, float light) = 0;
@@ -119,14 +120,15 @@ public:
     /// `usePrior` is true, the last frame's forward flow vectors are candidates for the forward
     /// flow in all cells. Finally, the forward flow is corrected by comparison with the still at
     /// its full resolution, see params::kSubpixelReach. `luma` must contain the pyramids of
-    /// `pictures`. Without matched tiles, the last result stays.
+    /// `pictures`. If no changed tile is matched, the last result stays.
     virtual const FlowCells& run(const Pictures& pictures, const LumaPyramid& luma,
                                  const TileWork& work, bool usePrior) = 0;
     /// Refines `along`, the flow along epipolar lines. On static surfaces, its vectors must be
     /// right to within a pixel. First, tiles in which the flow does not fit the pictures are
     /// searched in two dimensions. Then, doubtful cells are compared with the still at its full
     /// resolution, see params::kPatchSamples. Finally, the flow is corrected as by run(). `luma`
-    /// must contain the pyramids of `pictures`. Without matched tiles, the last result stays.
+    /// must contain the pyramids of `pictures`. If no changed tile is matched, the last result
+    /// stays.
     virtual const FlowCells& refine(const Pictures& pictures, const LumaPyramid& luma,
                                     const TileWork& work, const AlongLines& along) = 0;
     /// Returns a flag for each tile, row-major: true if the last call was refine() and it searched
@@ -153,8 +155,9 @@ public:
 struct TileSummary {
     std::array<int, kTileClasses> tiles{};
     double meanConfidence = 0;
-    /// Share of tiles that do not lack a match, [0, 1]. Tiles without structure and tiles that were
-    /// not matched count as explained, unless the frame was drawn without a still.
+    /// Share of the tiles that count as explained by a still, [0, 1]. Unexplained tiles are those
+    /// in which params::kUnexplainedCells or more cells have structure, but no reliable match. In
+    /// frames that are drawn without a still, all drawn tiles are unexplained.
     double explained = 0;
     int second = 0;  ///< number of tiles that show some of the second still
 };
@@ -185,8 +188,8 @@ public:
                       const DetailOptions& options) = 0;
     /// The output picture: RGBA8, row 0 on top, alpha 255. If other code changes its pixels in the
     /// memory of this step's engine, they stay changed until draw() draws their tiles again. If
-    /// other code changes a copy in the other memory (CPU or GPU), draw() discards all of these
-    /// changes as soon as any tile changed.
+    /// other code changes a copy in the other memory (CPU or GPU), the next draw() of a frame with
+    /// a changed tile discards all of these changes.
     [[nodiscard]] virtual Field<std::uint32_t>& output() = 0;
     /// Summary of the last frame. Waits for the GPU if necessary.
     [[nodiscard]] virtual TileSummary summary() const = 0;

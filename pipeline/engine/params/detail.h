@@ -12,7 +12,8 @@ inline constexpr std::uint32_t kTileEnlarged = 1U;
 inline constexpr std::uint32_t kTileTrusted = 2U;
 inline constexpr std::uint32_t kTileBlended = 3U;
 
-/// A still's detail with less weight than this changes no pixel by a grey level or more.
+/// A tile whose weights are all at most this is drawn without the still's detail. (With this
+/// weight, a detail of 50 grey levels would change a pixel by one grey level.)
 inline constexpr float kLeastDetailWeight = 0.02F;
 /// A tile is drawn as one rectangle if two conditions hold: its flow deviates from an affine
 /// function of the position by less than kPlainFlow [video px], and its weight varies by less than
@@ -35,7 +36,8 @@ inline constexpr float kCubicSlope = -0.75F;
 /// inverts the blur that Keys' cubic and the area of a sensor pixel cause together. In one
 /// dimension, the exact inverse has the taps 1.207, -0.141, 0.044, -0.008, ... at distances of 0,
 /// 1, 2, 3, ... pixels. kSharpenNear is the exact tap. kSharpenFar replaces all taps from distance
-/// 2 on, whose sum is 0.0375. The centre tap is one minus the other taps: 1.205.
+/// 2 on (of one side); it is a little larger than their sum, 0.0375. The centre tap is one minus
+/// the other taps: 1.205.
 inline constexpr float kSharpenNear = -0.14123F;
 inline constexpr float kSharpenFar = 0.0385F;
 

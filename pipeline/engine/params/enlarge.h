@@ -41,8 +41,8 @@ inline constexpr int kCurvatureKinds = 28;
 inline constexpr int kCurvatureAngles = 8;
 
 /// A pixel's class depends on the angle of its gradient. To sort the angle into a bin, twice the
-/// angle is compared with the borders between bins. These are the tangents of two borders: 22.5 and
-/// 67.5 degrees.
+/// angle is compared with the borders between bins. kLowTangent and kHighTangent are the tangents
+/// of two borders: 22.5 and 67.5 degrees.
 inline constexpr float kLowTangent = 0.414213562F;
 inline constexpr float kHighTangent = kLowTangent + 2.0F;
 

@@ -42,13 +42,17 @@ inline constexpr float kUnexplainedCost = 0.4F;
 /// the test for occlusion.
 inline constexpr float kNotShown = 100.0F;
 /// A tile is searched in two dimensions if at least this number of its 16 cells has no reliable
-/// match along epipolar lines, or if two of its four neighbours have so many such cells.
+/// match along epipolar lines, or if this is true of at least two of its four neighbours.
 inline constexpr int kLeastUnexplained = 3;
 
-/// A match is doubtful if its cost is above kGoodCost or its two-way error is above 0 (see
-/// kPatchSamples). On a moving object, the test for occlusion is meaningless. Therefore, the
-/// two-way error [px] of a cell there is computed from the cost of its match: max(cost - kGoodCost,
-/// 0) * kErrorPerCost.
+/// A cell is doubtful if its cost is meaningful (see kTexturePerVariance), its two-way error is
+/// below kNotShown, and the cost is above kGoodCost or the error is above 0. Doubtful cells are
+/// compared again, see kPatchSamples.
+///
+/// On a moving object, the test for occlusion is meaningless. Therefore, a cell that gets a flow
+/// vector off its epipolar line also gets a two-way error [px] that is computed from the vector's
+/// cost: max(cost - kGoodCost, 0) * kErrorPerCost. If a doubtful cell costs less in the comparison
+/// with the full-size still, its error is limited in the same way by this lower cost.
 inline constexpr float kGoodCost = 0.1F;
 inline constexpr float kErrorPerCost = 5.0F;
 /// A flow vector whose end is within this distance [px] of the match along the epipolar line counts

@@ -16,8 +16,8 @@ inline constexpr float kLeastDepthSigma = 1e-20F;
 /// A virtual pixel is drawn only if kLeastVirtualDepth < z < kMostVirtualDepth [m].
 inline constexpr float kLeastVirtualDepth = 1e-4F;
 inline constexpr float kMostVirtualDepth = 1e6F;
-/// Added to the colour weight of each depth sample. If no sample has a similar colour, all colour
-/// weights are then equal, and only the samples' distances from the pixel matter.
+/// Added to the colour weight of each depth sample. As a result, all colour weights are almost
+/// equal if no sample has a similar colour, and only the samples' distances from the pixel matter.
 inline constexpr float kLikenessFloor = 1e-3F;
 
 struct alignas(16) Visibility {
