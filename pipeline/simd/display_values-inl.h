@@ -14,11 +14,13 @@ namespace mfar::simd::HWY_NAMESPACE {
 
 namespace hw = hwy::HWY_NAMESPACE;
 
-/// Returns the linear value of a display level. The error is below 0.06 display levels.
+/// Returns the linear value of a display level. Converted back to display levels, the error is
+/// below 0.06.
 template <class D>
 HWY_INLINE hw::Vec<D> LinearOf(D d, hw::Vec<D> byte) {
     const auto x = hw::Mul(byte, hw::Set(d, 1.0F / 255));
-    // Approximates ((x + 0.055) / 1.055)^2.4 (Remez approximation of the error in display levels).
+    // Approximates ((x + 0.055) / 1.055)^2.4. (Remez algorithm: the largest error, in display
+    // levels, is as small as possible.)
     auto high = hw::MulAdd(x, hw::Set(d, -0.116793521F), hw::Set(d, 0.526517236F));
     high = hw::MulAdd(x, high, hw::Set(d, 0.560367981F));
     high = hw::MulAdd(x, high, hw::Set(d, 0.0284049498F));

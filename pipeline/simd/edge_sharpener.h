@@ -17,7 +17,7 @@ public:
     static constexpr int kLevels = 64;  ///< number of contrast levels
 
     /// `share`: see WarpOptions::sharpenShare. `most`: largest number of listed pixels. All pixels
-    /// with the highest contrast level are listed, even if there are more than both limits allow.
+    /// of the contrast level kLevels - 1 are listed, even if these two limits allow fewer.
     EdgeSharpener(Size layer, double share, int most, int fadeFrames);
 
     /// Lists the pixels with the highest contrast within `where`. `colour`, `state`: pictures of
@@ -27,8 +27,8 @@ public:
     /// Returns the row-major indices of the listed pixels, ascending. Returns nullopt if there is
     /// no list or take() has already returned it.
     std::optional<std::vector<std::uint32_t>> take();
-    /// Stores the rendered colours of pixels that take() returned, of the first `most` pixels at
-    /// most. Ignores other pixels.
+    /// Stores the rendered colours of the pixels that take() returned, but of no more than `most`
+    /// pixels. Ignores other pixels.
     void answer(const HoleAnswer& answer);
     /// Blends the rendered colours into `colour`, which must show the same view as the picture
     /// given to list(). The weight of the rendered colours rises to 1 within `fadeFrames` calls.

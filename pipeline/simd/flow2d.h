@@ -20,9 +20,9 @@ namespace mfar::simd {
 ///
 /// Work whose result is not read is skipped. At the two finest pyramid levels, unmatched tiles are
 /// searched only where neighbouring tiles read their vectors. The same applies to unchanged tiles
-/// if only changed tiles are drawn; run() skips these only if `usePrior` is true, too. At the
-/// finest level of the backward flow, cells of the still are searched only around the ends of flow
-/// vectors from the video.
+/// if only changed tiles are drawn; for run(), `usePrior` must also be true. At the finest level of
+/// the backward flow, cells of the still are searched only around the ends of flow vectors from the
+/// video.
 class Flow2d {
 public:
     /// Throws std::invalid_argument if an option is out of range.

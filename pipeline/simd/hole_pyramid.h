@@ -31,7 +31,7 @@ public:
         PixelRect where;
     };
     /// `holes`: the layer's holes. A hole is a crack if its isEdge is true, or if at least five of
-    /// its eight neighbours show the hole's surface. Cracks are filled with any `filling`, and
+    /// its eight neighbours show the hole's surface. Cracks are filled whatever `filling` is, and
     /// their isEdge is set to true. `filling` selects the other holes that are filled. A hole
     /// without known colours in its surroundings stays unfilled.
     void fill(const Layer& layer, std::span<Hole> holes, HoleFilling filling);

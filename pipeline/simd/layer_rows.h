@@ -4,9 +4,9 @@
 
 namespace mfar::simd {
 
-/// Number of entries that must follow the loaded part of a layer's row, the arrays of LayerColumns
-/// and the results of blendLayerRows() and enlargeColours(). Vectors read these entries; in
-/// results, they also overwrite them.
+/// Number of spare entries that three kinds of arrays need at their end: the loaded part of a
+/// layer's row, the arrays of LayerColumns, and the results of blendLayerRows() and
+/// enlargeColours(). Vectors read the spare entries; in results, they also overwrite them.
 inline constexpr int kLayerSpare = 64;
 
 struct LayerColumns {

@@ -17,8 +17,8 @@ namespace mfar::simd {
 
 /// Luma pyramids of the video frame and of the still, for the flow search. The still is drawn as
 /// the video camera would see it: rotation and both lenses are applied, but no parallax. Video and
-/// still are smoothed in the same way. The pixels are stored in the shaders' layout
-/// (luma_layout.h), so words() can be uploaded unchanged.
+/// still are blurred equally, by different filters (see lumaBoxWidening()). The pixels are stored
+/// in the shaders' layout (luma_layout.h), so words() can be uploaded unchanged.
 class LumaPyramids {
 public:
     LumaPyramids(Size video, std::shared_ptr<Workers> workers);

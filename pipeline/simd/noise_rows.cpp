@@ -13,7 +13,8 @@ HWY_BEFORE_NAMESPACE();
 namespace mfar::simd::HWY_NAMESPACE {
 
 // Weights of the pixel and of its neighbours at a distance of NoiseRule::step. A second neighbour
-// on each side would double the time without a better result (measured at 1 to 64 samples).
+// on each side would double the time without a better result (measured at 1 to 64 samples per
+// pixel).
 constexpr std::array<float, 2> kSpline = {0.5F, 0.25F};
 
 /// Luminance of linear RGB (see base/luminance.h).

@@ -53,9 +53,9 @@ public:
     /// `video`: depth and colours of the same frame. Real pixels occlude nothing if their inverse
     /// depth or sigma is NaN or outside the limits of params::kLeastInverseDepth. Layer pixels are
     /// drawn only if their depth is between the limits of params::kLeastVirtualDepth. If the
-    /// layer's size differs from the output's, the layer's colours are interpolated linearly. An
-    /// output pixel's depth is then that of the closest of the four surrounding layer pixels; those
-    /// without a depth are skipped.
+    /// layer's size differs from the output's, the layer's colours are interpolated linearly, and
+    /// an output pixel gets the depth of one of the four surrounding layer pixels: of the one that
+    /// is nearest in the picture and has a depth.
     void run(const LayerRowsView& layer, const RealDepth& real, const RgbPlanes& video,
              Rows<std::uint32_t> picture);
 
@@ -71,7 +71,7 @@ private:
     /// position first[i] + share[i] [px of the other picture]; share is in [0, 1).
     struct Between {
         Between(int pixels, int others);
-        std::vector<std::int32_t> first;  ///< pixel before the position; -1 at the border
+        std::vector<std::int32_t> first;  ///< pixel before the position, or -1 before pixel 0
         std::vector<float> share;
     };
     using Plane = AlignedRows<float>;

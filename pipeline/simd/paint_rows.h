@@ -45,6 +45,7 @@ struct PaintRow {
 /// Writes the paint of `row.count` pixels as sRGB bytes, or 0 for a pixel without an object. Up to
 /// 7 entries after the last pixel are overwritten. If a pixel shows several objects, the paint is
 /// that of the object with the most quarters (as in RestPixels), at the centre of these quarters.
+/// If these quarters show different materials, the paint is the mean over the quarters instead.
 void paintRow(const PaintRow& row, const PaintInput& in);
 
 }  // namespace mfar::simd

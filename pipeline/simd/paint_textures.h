@@ -31,7 +31,8 @@ public:
 
 private:
     struct Picture {
-        // Keeps the textures alive, so that no other texture gets the address of one of them.
+        // Keeps the textures alive. PaintSource identifies a texture by its address, so no new
+        // texture may get the address of an old one.
         std::shared_ptr<const Model> model;
         std::vector<PaintLevel> levels;  // largest level first
     };

@@ -172,9 +172,9 @@ bool RestPixels::lookUp(const View& view, const Point3& at, const Wanted& wanted
     return true;
 }
 
-/// Looks up a surface's colour in the traced picture or, if that does not show it, in the
-/// re-rendered pictures. The latter are used for objects only. Returns the share of the colour that
-/// is known, [0, 1].
+/// Looks up a surface's colour in the traced picture. An object that the traced picture does not
+/// show is looked up in the re-rendered pictures. Returns the share of the colour that is known,
+/// [0, 1].
 float RestPixels::known(const Wanted& wanted, Colour& found) const {
     Point3 at;
     const bool inTraced = inView(traced_, wanted, at);

@@ -20,9 +20,9 @@ struct RestPixel {
 };
 
 /// Looks up the pixels that lookUpRow() leaves out. These are edge pixels, whose quarters can show
-/// different surfaces, and pixels that the traced picture does not show. Pixels of objects among
-/// the latter are looked up in the re-rendered pictures. A pixel is composed of an object and,
-/// below it, the shadow catcher. CPU version of warp_rest.comp.
+/// different surfaces, and pixels that the traced picture does not show. An object that the traced
+/// picture does not show is looked up in the re-rendered pictures. A pixel is composed of an object
+/// and, below it, the shadow catcher. CPU version of warp_rest.comp.
 class RestPixels {
 public:
     /// `lights`: light of the traced picture's pixels as seen from T_world_camera, or empty if only

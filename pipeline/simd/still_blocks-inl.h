@@ -62,8 +62,8 @@ public:
     }
 
 private:
-    /// Number of rows between a loaded row of the still and the row that is prefetched. The CPU
-    /// does not predict which rows will be read, because the output is drawn in strips.
+    /// Distance from a loaded row of the still to the row that is prefetched [rows]. The CPU does
+    /// not predict which rows will be read, because the output is drawn in strips.
     static constexpr std::ptrdiff_t kRowsAhead = 2;
 
 #if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL

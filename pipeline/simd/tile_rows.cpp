@@ -12,8 +12,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 // Standard deviation of a Gaussian distribution with mean 0, divided by its mean absolute value.
 constexpr float kMeanToDeviation = 1.2533F;
-// A tile has certainly changed if Moments::over() exceeds this threshold. Only one in 1e8 unchanged
-// tiles exceeds it.
+// A tile has certainly changed if Moments::over() exceeds this threshold for luma, red or blue. For
+// each of the three, only one in 1e8 unchanged tiles exceeds it.
 constexpr float kSurelyChanged = 40;
 // A cell has certainly changed if the squared mean of its difference exceeds this multiple of the
 // mean's variance.
@@ -111,10 +111,10 @@ HWY_INLINE Moments MomentsOf(const Blocks::CellSums& sums, int tile) {
 }
 
 /// Sums of squares over a tile's luma difference (new frame minus the frame drawn last). Four
-/// values a b above c d have the twist a - b - c + d. Each block of 2x2 pixels has a sum and a
-/// twist. `means`: squares of these sums. `noise`: squares of these twists. Each group of 2x2
-/// blocks also has a twist, which is computed from the four sums of its blocks. `bends`: squares of
-/// the twists of groups, divided by 256; see TileMeasure::bends.
+/// values a b above c d have the twist a - b - c + d. `means`: sum of the squared sums of all
+/// blocks of 2x2 pixels. `noise`: sum of the squared twists of these blocks. `bends`: sum of the
+/// squared twists of all groups of 2x2 blocks, divided by 256; the twist of a group is computed
+/// from the sums of its blocks. See TileMeasure::bends.
 struct LumaDifference {
     V means, bends, noise;
     Moments moments;

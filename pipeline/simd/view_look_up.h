@@ -41,7 +41,7 @@ public:
     struct Picture {
         std::vector<Rgba> colours;
         std::vector<LightWords> lights;     // empty if only colours are known
-        std::vector<WarpSurface> surfaces;  // empty until a pixel is stored, as `colours` is
+        std::vector<WarpSurface> surfaces;  // like `colours`, empty until rows are stored
     };
     explicit RerenderedStore(Size layer) : layer_(layer) {}
     void store(const RerenderedPictures::StoredRows& rows);

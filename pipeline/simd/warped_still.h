@@ -48,8 +48,8 @@ public:
                const Guide& guide);
     /// Limits later calls of row() to these columns of the output, which must be ascending.
     void cover(const PixelSpans& pixels);
-    /// Returns the detail of the covered pixels of a row; valid until the next call. Rows must be
-    /// requested in ascending order.
+    /// Returns the data from which detailRow() computes the detail of the covered pixels of a row;
+    /// valid until the next call. Rows must be requested in ascending order.
     [[nodiscard]] WarpedRow row(int y);
     /// Returns the positions in the still that output row y reads, and the detail's weights.
     [[nodiscard]] LookUpRows lookUps(int y) { return lookUps_.row(y); }
