@@ -22,8 +22,8 @@ namespace {
 using Seconds = std::chrono::duration<double>;
 
 constexpr Seconds kLookTime{1};
-/// The normal time limits apply after this number of pictures. Before that, all time limits are
-/// longer by the factor kFirstPatience.
+/// The normal time limits apply after this number of pictures. Before that, some time limits are
+/// longer, see kFirstPatience.
 constexpr std::uint64_t kFirstPictures = 10;
 
 std::ofstream openSummary(const Options& options, const Config& config) {
@@ -45,8 +45,8 @@ std::ofstream openSummary(const Options& options, const Config& config) {
     return file;
 }
 
-// The message names the camera, because the log writes the same message only once in ten seconds.
-// So if both cameras return within this time, both messages are written at once.
+// The message names the camera, because the log writes equal messages only once in ten seconds. If
+// the second camera's message were equal to the first camera's, it could come ten seconds late.
 std::string recovered(std::string_view camera) {
     return camera == "video" || camera == "still" ? fmt::format("the {} camera works again", camera)
                                                   : "all devices are available again";

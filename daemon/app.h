@@ -44,8 +44,9 @@ namespace mfar {
 /// A second signal ends the process at once. If the main thread itself hangs during the shutdown,
 /// LastResort ends the process 2.5 s after the first signal.
 ///
-/// If a run ends without a signal, it waits without a limit until its output is written, unless the
-/// picture thread hangs after --seconds. After that, it waits at most 2.5 s for its devices.
+/// If a run ends without a signal, mfard waits without a limit until all output is written, and
+/// then at most 2.5 s for the devices. If the picture thread hangs at the end of --seconds, mfard
+/// ends without this wait.
 class App {
 public:
     /// Throws Failure, e.g. ConfigError, and std::system_error if the kernel has no free
@@ -92,8 +93,9 @@ private:
     [[noreturn]] void leaveFailed(const std::exception_ptr& error);
     void onHangUp();
     /// Starts a reload of the configuration. The returned future becomes ready when the file has
-    /// been read. It then has the answer for the user, or the error if the configuration is refused
-    /// or mfard ends before. Throws std::runtime_error if mfard has no configuration file.
+    /// been read, or when mfard ends. It then has the answer for the user, or an error: the
+    /// configuration was refused, or mfard is ending. Throws std::runtime_error if mfard has no
+    /// configuration file.
     std::shared_future<std::string> reload();
     void readAgain();
     [[nodiscard]] bool isReading() const;
@@ -143,7 +145,7 @@ private:
     std::optional<Ready> running_;
     std::optional<Over> ended_;
     /// True after kFirstPictures pictures. All shaders have been compiled by then. While this is
-    /// false, all time limits are longer by the factor kFirstPatience.
+    /// false, some time limits are longer, see kFirstPatience.
     bool isProven_ = false;
     bool patienceEnded_ = false;  ///< true: systemd's watchdog has its normal timeout again
     HealthRecord health_;

@@ -13,7 +13,7 @@ namespace budget {
 using std::chrono::milliseconds;
 
 /// Each capture thread: fetching one frame of its camera, and searching it for tags. On a PC, this
-/// takes 50 ms of waiting and 20 ms of work.
+/// takes up to 50 ms of waiting (kFrameWait) and 20 ms of work.
 constexpr milliseconds kCapture{1500};
 constexpr milliseconds kPicture{2000};
 /// Thread of the control socket: reading one request of mfarctl. Waiting for the answer does not
@@ -51,8 +51,9 @@ constexpr milliseconds kLearning{60'000};
 constexpr std::string_view kPictureThread = "picture";
 
 constexpr std::chrono::milliseconds kStalePicture{3000};
-/// All time limits are longer by this factor while the first pictures are made, because compiling
-/// shaders is slow on a small board.
+/// While the first pictures are made, the following time limits are longer by this factor, because
+/// compiling shaders is slow on a small board: the budgets of all threads, kStalePicture and
+/// the timeout of systemd's watchdog.
 constexpr int kFirstPatience = 6;
 
 }  // namespace mfar

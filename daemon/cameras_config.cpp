@@ -25,7 +25,7 @@ std::optional<std::string> rateFault(double value) {
 void readCamera(TomlReader& file, const std::string& section, CameraConfig& camera,
                 const CameraConfig* other) {
     file.choice<CameraDriver>(section + "driver", camera.driver, kDrivers);
-    // A name that fits several cameras is refused at run time, so equal names are one camera.
+    // A name that fits several cameras is refused at run time, so equal names mean the same camera.
     file.text(section + "camera", camera.camera,
               [&](std::string_view name) -> std::optional<std::string> {
                   if (other == nullptr || name.empty() || name != other->camera ||

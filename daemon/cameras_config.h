@@ -23,7 +23,7 @@ struct CameraConfig {
     /// or name of the card. Empty: any camera, except the one configured for the other sensor.
     std::string camera{};
     Size size{};
-    double rateHz = 0;            ///< 0: the camera is triggered
+    double rateHz = 0;            ///< 0: the camera is triggered or free-running
     std::string format = "auto";  ///< "auto" or the driver's name of a format
     bool allowCrop = false;  ///< libcamera only: modes with a cropped field of view are allowed
     std::vector<std::pair<std::string, std::string>> controls{};

@@ -79,11 +79,12 @@ struct Config {
     bool validate = false;
     /// Messages about keys that have no effect.
     std::vector<std::string> notes;
-    /// The places in the file of those keys whose values name something that is checked later, as
-    /// text that begins a message: "mfard.toml:3:15: cameras.calibration: ".
+    /// The places of some keys in the file, as text that begins a message:
+    /// "mfard.toml:3:15: cameras.calibration: ". These are the keys whose values are checked only
+    /// after the whole file has been read, e.g. because they name another file.
     std::map<std::string, std::string, std::less<>> places;
 
-    /// Returns the place of a key, or "" if it is not in a file.
+    /// Returns the place of a key, or "" if `places` does not contain it.
     [[nodiscard]] std::string placeOf(std::string_view key) const {
         const auto place = places.find(key);
         return place == places.end() ? std::string() : place->second;

@@ -13,7 +13,8 @@
 namespace mfar {
 
 /// The commands that mfarctl can send. All are thread-safe. If a command fails, it throws a
-/// std::exception whose message is one sentence.
+/// std::exception with a message for the user. The message has several lines if a reloaded
+/// configuration has several faults.
 struct ControlActions {
     std::function<nlohmann::ordered_json()> status;
     std::function<nlohmann::ordered_json()> stats;
@@ -38,7 +39,7 @@ struct ControlActions {
 ///   {"command": "snapshot", "screen": false}
 ///   {"command": "learn", "reset": true}
 ///   {"command": "record", "name": "walk-1"}, {"command": "record", "stop": true}
-/// The answer is one line: {"ok": true, ...} or {"ok": false, "error": "one sentence"}. The answer
+/// The answer is one line: {"ok": true, ...} or {"ok": false, "error": "message"}. The answer
 /// to "record" has "folder". The answer to "snapshot" has "width", "height" and "bytes". After this
 /// line, the pixels follow, "bytes" bytes in total: R G B A, row 0 first. ControlRole::Observer may
 /// only send "status" and "stats". Never throws.

@@ -86,8 +86,9 @@ ControlSocket::~ControlSocket() {
     unlink(path_.c_str());
 }
 
-// Waits until `fd` is ready. Returns false after the timeout, or if `fd` is not ready when this
-// object is destroyed. So an answer still reaches a client that reads it.
+// Waits until `fd` is ready. Returns false after the timeout. While this object is being destroyed,
+// does not wait, but still returns true if `fd` is ready. So an answer that is being sent still
+// reaches a client that reads it without delay.
 bool ControlSocket::isReady(int fd, short events, int timeoutMs) const {
     std::array<pollfd, 2> waiting{{{fd, events, 0}, {stop_.get(), POLLIN, 0}}};
     const Timestamp end = Timestamp::now() + std::chrono::milliseconds(timeoutMs);

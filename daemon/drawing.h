@@ -20,8 +20,9 @@ namespace mfar {
 /// there is a GL context, it must be current while a Drawing is created, used or destroyed. After a
 /// loss of the GL context, a new Drawing must be created.
 struct Drawing {
-    /// The pointer `gl` must outlive this object. If GL is not used, `gl` may be null. It may be
-    /// set later, for previews of virtual objects. Throws GlError, and Failure as chooseEngines().
+    /// The pointer `gl` must outlive this object. It may be null if GL is not used. The caller may
+    /// create the GL context later, if only previews of virtual objects need it. Throws GlError,
+    /// and Failure like chooseEngines().
     Drawing(const Config& config, const StereoRig& rig, Size output,
             const std::unique_ptr<GlContext>& gl);
 

@@ -5,8 +5,8 @@
 
 namespace mfar {
 
-/// Decides at which ticks of a timer something regular is done. If the interval is not a multiple
-/// of the ticks' period, it is kept in the mean.
+/// Decides at which ticks of a timer a repeated action is due. If the interval between two actions
+/// is not a multiple of the ticks' period, the intervals vary, but their mean is the wanted one.
 class DueTimes {
 public:
     /// Must be called at each tick. Returns true at the first call, and then once per interval.

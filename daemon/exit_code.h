@@ -19,8 +19,8 @@ enum class ExitCode {
     BadConfig = 78,
 };
 
-/// An error with an exit code and a message, usually of one line. Unless it is caught before
-/// main(), it ends the program.
+/// An error with an exit code and a message, usually of one line. If only main() catches it, the
+/// program prints the message and ends with this exit code.
 class Failure : public std::runtime_error {
 public:
     Failure(ExitCode exitCode, const std::string& message)

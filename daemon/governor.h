@@ -24,16 +24,18 @@ namespace mfar {
 /// missed the deadline, the governor does not change to it from a faster level for some counted
 /// frames. Their number doubles each time.
 ///
-/// If a part of the time is the same at all levels, the expected time of a better level is too
-/// long. So after 100 counted frames at a level, of which none of the last 40 was late, another
+/// If a part of the time is the same at all levels, the factor overestimates the time of a better
+/// level. So after 100 counted frames at a level, of which none of the last 40 was late, another
 /// estimate of the next better level's time is used: the expected time of the current level, plus
 /// the difference between both levels' times in the table. If this is at most 85 % of the deadline,
 /// the governor tries the better level.
 ///
-/// Three types of frames are not counted: frames in which nothing was drawn, frames with a new
-/// still, unless the frame before had one, too, and frames without a still at a level that uses
-/// one. When the picture comes to rest, it is drawn once more at the best level. That frame is not
-/// counted, either. It may be late, because nothing moves in it.
+/// Some frames are not counted:
+///   - frames in which nothing was drawn;
+///   - frames with a new still, unless the frame before also had a new still;
+///   - frames without a still, if the level uses stills;
+///   - the frame that is drawn once more at the best level when the picture comes to rest. It may
+///     be late, because nothing moves in it.
 class Governor {
 public:
     /// `levels` must not be empty and must be sorted by time. `deadlineMs` must be greater than

@@ -21,9 +21,9 @@ struct GovernorConfig {
 
 void readGovernor(TomlReader& file, GovernorConfig& governor);
 
-/// Returns the levels of the configured table, or the built-in levels without one. Returns an empty
-/// list if there is neither a pinned level nor a deadline. Throws ConfigError if the table is
-/// invalid, and Failure(NoInput) if it cannot be read.
+/// Returns the levels of the configured table, or the built-in levels if no table is configured.
+/// Returns an empty list if there is neither a pinned level nor a deadline. Throws ConfigError if
+/// the table is invalid, and Failure(NoInput) if it cannot be read.
 [[nodiscard]] std::vector<QualityLevel> knownLevels(const GovernorConfig& governor);
 
 /// Returns the levels among which the governor chooses. If a level is pinned, returns only that

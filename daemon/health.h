@@ -62,8 +62,8 @@ struct Observed {
 ///
 /// A vital thread that hangs is reported before any other fault, because only a restart helps
 /// against it. If no vital thread hangs, a banner about a faulty device counts as a new picture,
-/// because mfard reopens the device. It counts even after the device has returned, until its first
-/// picture is due.
+/// because mfard reopens the device. The last banner still counts for a while after the device has
+/// returned (at least kStalePicture), because the device's first picture is not shown at once.
 class HealthRecord {
 public:
     [[nodiscard]] Health judge(const Observed& seen);

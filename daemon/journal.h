@@ -7,8 +7,8 @@
 namespace mfar {
 
 /// Sends messages to systemd's journal, see sd_journal_sendv(3). If the journal is full, a message
-/// waits for room, at most half a second, and then fails. After that, messages fail without waiting
-/// until one succeeds. Only one thread at a time may use it.
+/// waits for room, at most half a second, and then fails. The messages after it do not wait: they
+/// fail at once, until the journal has room again. Only one thread at a time may use it.
 class Journal {
 public:
     explicit Journal(std::string socket = "/run/systemd/journal/socket")

@@ -23,8 +23,8 @@ class Log {
 public:
     enum class Style { Terminal, Journal, Plain };
 
-    /// Returns Terminal if the descriptor is a terminal, and Journal if the environment's
-    /// JOURNAL_STREAM names its file.
+    /// Returns Terminal if the descriptor is a terminal, Journal if the environment variable
+    /// JOURNAL_STREAM names the descriptor's file, and Plain otherwise.
     [[nodiscard]] static Style styleOf(int fd);
 
     using Clock = std::function<Timestamp()>;

@@ -68,13 +68,13 @@ public:
     }
 
 private:
-    // The path tracer counts each part that moves by itself as an object, and each simple shape.
+    // The path tracer counts each of these as an object: each simple shape, each node of a model
+    // that moves by itself, and the rest of each model.
     void countParts(const Model& model) {
         parts_ += model.paths.size() + 1;
         if (parts_ > kMostSceneObjects)
             throw ModelError(fmt::format(
-                "the moving nodes of all objects' models, and one more part for each object, are "
-                "more than {}",
+                "the objects and the moving nodes of their models together are more than {}",
                 kMostSceneObjects));
     }
 
@@ -158,7 +158,8 @@ void noteUnused(const TomlReader& file, const std::string& prefix, const PlacedO
 void readObjects(TomlReader& file, const std::filesystem::path& folder, FileMemory& memory,
                  std::vector<PlacedObject>& objects, std::vector<std::string>& notes) {
     const std::vector<std::string> prefixes = file.sections("objects", kMostObjects);
-    // Shapes are counted before the models, because a fault needs the place of a model.
+    // Shapes are counted before the models are read. If there are too many parts, a model's fault
+    // reports this, with the line of the model.
     const auto shapes = std::ranges::count_if(
         prefixes, [&](const std::string& prefix) { return !file.placeOf(prefix + "model"); });
     ModelReader models(folder, memory, static_cast<std::size_t>(shapes));

@@ -141,8 +141,8 @@ constexpr Option kLine[] = {
            "First estimate of the time from a trigger pulse to the start of the exposure, as the "
            "camera's time stamps report it. mfard learns the exact value."),
     number("jitter_ms", {0.001, 1000, "ms"}, "1.0",
-           "Largest error of the camera's time stamps: 1 if the sensor sets them; more if the "
-           "arrival sets them, as with USB cameras, or an automatic exposure shifts them."),
+           "Largest error of the camera's time stamps: 1 if the sensor sets them; more if they are "
+           "times of arrival, as with USB cameras, or an automatic exposure shifts them."),
     number("arrival_ms", {1, 60000, "ms"}, "500.0",
            "A still that has not arrived this long after its exposure counts as lost."),
 };
@@ -279,8 +279,8 @@ constexpr Option kVirtual[] = {
     whole("threads", kThreads, "1", "Number of threads of the path tracer."),
     flag("filter", "true", "Smooth the noise of pictures with few samples, but not their edges."),
     number("turn_deg", {0.1, 90, "degrees"}, "4.0",
-           "A new path-traced picture is made at the latest when the camera sees an object from a "
-           "direction that differs by this angle."),
+           "A new path-traced picture is made at the latest when the direction from which the "
+           "camera sees an object has changed by this angle."),
 };
 
 constexpr Option kLight[] = {

@@ -47,8 +47,9 @@ public:
     /// frames.
     [[nodiscard]] std::optional<Pose> place(const StillMeasurement& measured, Timestamp time);
 
-    /// Returns true if the pose was recorded, or measured in a world frame that stays, see
-    /// Tracker::map(). Returns false if it was only predicted. For the thread that calls ofVideo().
+    /// Returns true if the pose was recorded, or if it was measured in a world frame that will not
+    /// change any more, see Tracker::map(). Returns false if the pose was only predicted. Only the
+    /// thread that calls ofVideo() may call it.
     [[nodiscard]] bool isRecordable(const Pose& pose) const {
         return recorded_ || (pose.tags > 0 && (foundTags_ || !mayFindTags()));
     }

@@ -24,7 +24,7 @@ struct QualityLevel {
 
 /// Parses a TOML text with sections [[level]], whose keys levelOptions() lists. Returns the levels,
 /// sorted by time. `file` names the file in messages. Throws ConfigError with all faults of the
-/// keys, or with the first level that lacks a key or has the name of another one.
+/// keys, or with the first level that lacks a required key or has the name of another level.
 [[nodiscard]] std::vector<QualityLevel> parseQualityLevels(std::string_view toml,
                                                            const std::string& file);
 

@@ -90,8 +90,8 @@ private:
     void open() {
         if (open_) return;
         tried_ = Timestamp::now();
-        // The line's name is written to a file before the line is opened. So even after a crash,
-        // the file names a line that may be open.
+        // The line's name is written to a file before the line is opened. So after a crash, the
+        // program release-trigger always finds in the file which line to release.
         if (const auto file = takenLineFile(); !file.empty()) noteTakenLine(file, line_);
         open_ = openGpioTrigger(options_);
     }

@@ -40,7 +40,8 @@ public:
 
 private:
     [[nodiscard]] std::optional<std::string> whatIsWrong() const;
-    /// True if neither camera is named, so that both are chosen by their picture sizes.
+    /// True if neither camera is named and both have the same driver. Then the picture sizes decide
+    /// which camera is the video camera.
     [[nodiscard]] bool choosesBoth() const;
     [[nodiscard]] std::unique_ptr<Camera> openVideo();
     [[nodiscard]] std::unique_ptr<Camera> openStill();

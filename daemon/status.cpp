@@ -57,8 +57,8 @@ std::string tracking(const PoseCounts& poses) {
     return out + fmt::format(", {:.1f} ms)", poses.tracker.lastMs);
 }
 
-// Returns e.g. ", quality lines-2 (3% late)", or an empty text without a governor and a pinned
-// level.
+// Returns e.g. ", quality lines-2 (3% late)", or an empty text if there is neither a governor nor a
+// pinned level.
 std::string quality(const QualityCounts& counts) {
     if (counts.level.empty()) return "";
     std::string out = ", quality " + counts.level;

@@ -16,8 +16,8 @@
 namespace mfar {
 
 /// Reads typed values from a TOML text. Collects all faults with their positions, so that one
-/// message reports all faults of a file. finish() reports all keys that were not read, because they
-/// are unknown.
+/// message reports all faults of a file. A key that was not read before finish() is unknown, which
+/// is a fault, too.
 class TomlReader {
 public:
     /// Returns the fault of a text, or nothing if the text is valid.
@@ -30,9 +30,9 @@ public:
     using NumbersCheck = std::function<std::optional<std::string>(std::span<const double>)>;
 
     /// `table` contains the types and ranges of all keys. Reading a key that is not in `table`
-    /// throws std::logic_error. `file` names the file in messages. `list` is what shows all known
-    /// keys to a user, e.g. a command. Throws ConfigError if the syntax is invalid or the text
-    /// exceeds the limits of toml_bounds.h.
+    /// throws std::logic_error. `file` names the file in messages. `list` names the command or
+    /// document that lists all known keys, for messages. Throws ConfigError if the syntax is
+    /// invalid or the text exceeds the limits of toml_bounds.h.
     TomlReader(std::string_view text, std::string file, std::span<const OptionSection> table,
                std::string_view list);
 
@@ -62,8 +62,8 @@ public:
     /// nothing if the key is absent.
     [[nodiscard]] std::optional<std::string> placeOf(std::string_view key) const;
 
-    /// Must be called after all keys have been read. Throws ConfigError with all faults, but at
-    /// most 50, in the order of the file, if there are any.
+    /// Must be called after all keys have been read. If there are faults, throws ConfigError with
+    /// the faults in the order of the file, at most 50 of them.
     void finish();
 
 private:

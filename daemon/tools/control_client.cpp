@@ -27,8 +27,8 @@ constexpr int kPatience = 15, kPatienceWithDisk = 600;
 constexpr std::size_t kLongestLine = 1U << 20U;
 constexpr std::uint64_t kMostData = 1ULL << 31U;
 
-/// Returns the name of the group whose members may use the socket. If the folder of the socket may
-/// not be searched, it is the folder's group.
+/// Returns the name of the group whose members may use the socket. If this user may not enter the
+/// socket's folder, returns the group that owns the folder.
 std::string groupOf(const std::filesystem::path& socket) {
     struct stat info{};
     if (stat(socket.c_str(), &info) != 0 && stat(socket.parent_path().c_str(), &info) != 0)

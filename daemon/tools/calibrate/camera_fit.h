@@ -28,8 +28,8 @@ class Unsuitable : public std::runtime_error {
                                                        const RigidTransform& T_camera_target);
 [[nodiscard]] double rms(const std::vector<Eigen::Vector2d>& residuals);
 
-/// Returns a first estimate of the camera: without distortion, and with the focal length, out of a
-/// few, that fits the views best.
+/// Returns a first estimate of the camera, without distortion. A few focal lengths are tried; the
+/// estimate has the one that fits the views best.
 [[nodiscard]] CameraModel guessedCamera(const Target& target, const std::vector<TargetView>& views,
                                         Size picture);
 

@@ -16,7 +16,8 @@ namespace mfar::calibration {
 namespace {
 
 constexpr int kLeastVideoViews = 12, kLeastStillViews = 6, kLeastPairs = 5;
-// With fewer stills between video frames without gaps, gaps of one missing frame are accepted.
+// If fewer stills than this lie between video frames without gaps, gaps of one missing frame are
+// accepted.
 constexpr int kFewPairs = 12;
 // A clock offset counts as known if its standard deviation is at most this [s].
 constexpr double kMaxOffsetDeviation = 0.002;
@@ -111,7 +112,7 @@ private:
         return out;
     }
 
-    /// If the clock offset is wrong, the bundle moves the poses until both cameras fit a little.
+    /// If the clock offset is wrong, the bundle finds poses that fit both cameras only roughly.
     /// Then the residuals are much larger than with each camera alone.
     void checkAgreement(const Calibration& out) const {
         if (std::abs(out.rig.stillTimeOffset) > options_.maxOffset)
