@@ -49,8 +49,8 @@ RigCalibration readOwn(const YamlReader& in, const WantedSizes& wanted) {
 RigCalibration readEuroc(const fs::path& video, const fs::path& still, const WantedSizes& wanted) {
     const SensorYaml v = readSensorYaml(video, wanted.video);
     const SensorYaml s = readSensorYaml(still, wanted.still);
-    // Each time_offset leads to the clock that both cameras share. stillTimeOffset leads from the
-    // still's clock to the video's.
+    // A time on a camera's own clock plus the camera's time_offset is a time on the clock that both
+    // cameras share. A still's time plus stillTimeOffset is a time on the video camera's clock.
     RigCalibration out{{v.camera, s.camera, s.T_body_sensor.inverse() * v.T_body_sensor},
                        s.timeOffset - v.timeOffset};
     readYaml(still, [&](const YamlReader& in) {
@@ -62,7 +62,7 @@ RigCalibration readEuroc(const fs::path& video, const fs::path& still, const Wan
     return out;
 }
 
-// Returns false, too, if this user may not enter the folder of the path.
+// Returns false if the path is not a regular file, or if this user may not enter its folder.
 bool isFile(const fs::path& path) {
     std::error_code ignored;
     return fs::is_regular_file(path, ignored);

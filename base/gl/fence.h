@@ -7,8 +7,8 @@
 
 namespace mfar::gpu {
 
-/// Longest wait for the GPU. A GPU that does not finish in this time counts as hanging. The kernel
-/// resets a blocked GPU, too, but after a time that depends on the driver.
+/// Longest wait for the GPU. A GPU that does not finish in this time counts as hanging. This does
+/// not rely on the kernel, which resets a blocked GPU only after a time that depends on the driver.
 inline constexpr std::chrono::milliseconds kLongestGpuWait{500};
 
 /// Marks a point in the stream of GL commands. Move-only.
