@@ -22,9 +22,8 @@ public:
     explicit CallQueue(std::function<void()> wake = {}) : wake_(std::move(wake)) {}
 
     /// Waits until the Target's thread has called `work`. Returns the result of `work` or throws
-    /// its exception. Throws std::runtime_error if the queue is already closed, and
-    /// std::future_error if it is closed during the wait. Also throws std::runtime_error if the
-    /// wait is longer than `limit`; `work` may still be called after that.
+    /// its exception. Throws std::runtime_error if the queue is closed before the call, or
+    /// if the wait is longer than `limit`; in the second case, `work` may still be called later.
     template <class Work>
     std::invoke_result_t<Work, Target&> call(Work work, std::chrono::milliseconds limit) {
         using Result = std::invoke_result_t<Work, Target&>;
@@ -35,7 +34,11 @@ public:
         put([task = std::move(task)](Target& target) { (*task)(target); });
         if (result.wait_for(limit) != std::future_status::ready)
             throw std::runtime_error("mfard is too busy to answer; try again later");
-        return result.get();
+        try {
+            return result.get();
+        } catch (const std::future_error&) {
+            throw std::runtime_error(kClosed);
+        }
     }
 
     /// Must be called by the Target's thread.
@@ -60,10 +63,12 @@ public:
     }
 
 private:
+    static constexpr const char* kClosed = "mfard is ending";
+
     void put(std::function<void(Target&)> work) {
         {
             const std::lock_guard lock(mutex_);
-            if (closed_) throw std::runtime_error("mfard is ending");
+            if (closed_) throw std::runtime_error(kClosed);
             waiting_.push_back(std::move(work));
         }
         if (wake_) wake_();
