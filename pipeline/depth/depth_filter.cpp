@@ -20,7 +20,7 @@ constexpr double kDrift = 0.02;
 // The variance grows with the time since the points were last moved. This time counts as at most
 // kMostMoving [s]: if it is longer, the camera has rested in between.
 constexpr double kMostMoving = 0.2;
-// Points are moved only when the picture has moved by at least this distance [px], because each
+// Points are moved only when the picture has moved by more than this distance [px], because each
 // move rounds their positions to pixels.
 constexpr float kLeastMotion = 0.25F;
 // Smallest variance that fusing can reach, as a fraction of the variance of one measurement.
@@ -30,6 +30,8 @@ constexpr float kLeastShare = 0.09F;
 // Two inverse depths agree if their squared difference is at most this multiple of the sum of their
 // variances.
 constexpr float kGate = 9;
+// The known depth of a pixel is replaced after this number of consecutive measurements that
+// disagree with it.
 constexpr std::uint8_t kMostOutliers = 2;
 // Width and height of the blocks of forgetContradicted() [px].
 constexpr int kBlock = 16;
@@ -143,8 +145,8 @@ void DepthFilter::takeLanded(int firstRow, int lastRow) {
     }
 }
 
-// Fills the pixels without depth between points of one surface. Such gaps open when the surface
-// comes nearer and its points move apart.
+// Fills gaps of one pixel between points of one surface. Such gaps open when the surface comes
+// nearer and its points move apart.
 void DepthFilter::closeCracks() {
     const int width = field_.size.width;
     const int columns = known_.x1 - known_.x0 - 2, rows = known_.y1 - known_.y0;

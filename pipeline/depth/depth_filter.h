@@ -35,10 +35,11 @@ public:
     /// all depths.
     void predict(const RigidTransform& T_world_video, double seconds);
     /// Fuses the depth of a frame, measured within `where` at the pose of the last predict(). If a
-    /// measurement agrees with the known depth of its pixel, the two are averaged. If measurements
-    /// disagree repeatedly, the last of them replaces the known depth. Pixels of `measured` without
-    /// a valid inverse depth and variance are ignored, and so are pixels whose flag in `fixed` is
-    /// not 0. `fixed` is empty or has a flag for each pixel of the picture.
+    /// measurement agrees with the known depth of its pixel, the two are averaged. If two
+    /// consecutive measurements of a pixel disagree with its known depth, the second of them
+    /// replaces it. Pixels of `measured` without a valid inverse depth and variance are ignored,
+    /// and so are pixels whose flag in `fixed` is not 0. `fixed` is empty or has a flag for each
+    /// pixel of the picture.
     void fuse(const InverseDepthField& measured, const PixelRect& where,
               std::span<const std::uint8_t> fixed = {});
     void forget(const PixelRect& where);

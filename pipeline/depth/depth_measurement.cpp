@@ -18,6 +18,8 @@ constexpr float kSlope = 1.5F;
 // Cells and a pixel show the same surface if the match interpolated between the cells differs from
 // the pixel's own match by less than this [px].
 constexpr double kSameSurface = 0.5;
+// A pixel is measured only if the depth of its point in the video camera exceeds this fraction of
+// the point's depth in the other camera.
 constexpr float kLeastDepth = 0.05F;
 constexpr float kNothing = -1e9F;
 

@@ -8,7 +8,7 @@
 namespace mfar {
 namespace {
 
-constexpr int kSampleStep = 5;
+constexpr int kSampleStep = 5;  // distance between the pixels that summaryOf() samples [px]
 // Largest width and height of a part of the picture [px]. Each part has its own keyframe.
 constexpr int kPart = 160;
 // The searched area is larger than the requested one by this margin on each side [px], because
@@ -71,7 +71,8 @@ void DepthStage::run(const Rows<const std::uint8_t>& luma, const Pose& pose,
             filter_.fuse(measured_, where, fixed_);
             source_ = DepthSource::Still;
         }
-        // A new still brings new evidence at rest, a keyframe does not.
+        // While the camera rests, a keyframe brings no new evidence, unlike a new still. So the
+        // keyframe may add only unknown depths.
         if (rechecks) fixKnown(where);
         findNeeds(pose, brightness, source_ == DepthSource::Still ? still->unit : 0, where);
         searchKeyframe(luma, pose);

@@ -80,7 +80,8 @@ private:
     DepthSource source_ = DepthSource::None;
     long searchedKey_ = -1;
     std::optional<RigidTransform> measuredPose_;
-    // isLost_: forget(where) was called after the last measurement.
+    // isRenewed_: the still changed after the last measurement. isLost_: after the last
+    // measurement, forget(where) deleted depths of the measured rectangle.
     bool isRenewed_ = false, isLost_ = false;
     PixelRect measuredWhere_;
     // Empty, or for each pixel: 1 if the current frame must not change the pixel's depth, else 0.

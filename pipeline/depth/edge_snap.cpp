@@ -17,8 +17,8 @@ constexpr int kBand = 4;
 // Pixels that are at most this far away along each axis vote on a pixel's depth [px].
 constexpr int kVoteRadius = 10;
 constexpr int kVoters = simd::kVoterStep;
-// A depth edge is where the inverse depth changes within 2 kBand + 1 pixels by more than kJump *
-// (larger inverse depth) + kSigmas * (standard deviation).
+// A pixel is near a depth edge if the inverse depths that are at most kBand pixels away along each
+// axis differ by more than kJump * (largest of them) + kSigmas * (the pixel's standard deviation).
 constexpr float kJump = 0.08F, kSigmas = 3;
 constexpr float kLikeness = 12;  // colour distance that halves the weight of a vote [grey levels]
 // The voters are divided into a near and a far group. A pixel gets the depth of the group with the

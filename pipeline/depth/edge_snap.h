@@ -13,11 +13,11 @@
 namespace mfar {
 
 /// Moves the edges of a depth picture to the edges of the video. Matching is ambiguous near a depth
-/// edge, because the compared windows contain both sides, and the other picture shows only a part
-/// of one side. Therefore, pixels near an edge and pixels without depth get the depth of pixels of
-/// similar colour that are farther from the edge. Source: Tomasi and Manduchi 1998 (weights); Ma et
-/// al., Constant time weighted median filtering for stereo matching, ICCV 2013 (depth by similarity
-/// of colours).
+/// edge, because the compared neighbourhoods contain both sides, and the other picture shows only a
+/// part of one side. Therefore, pixels near an edge and pixels without depth get the depth of
+/// pixels of similar colour that are farther from the edge. Source: Tomasi and Manduchi 1998
+/// (weights); Ma et al., Constant time weighted median filtering for stereo matching, ICCV 2013
+/// (depth by similarity of colours).
 class EdgeSnap {
 public:
     EdgeSnap(Size video, std::shared_ptr<Workers> workers);
