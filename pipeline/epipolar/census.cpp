@@ -8,8 +8,8 @@ namespace mfar {
 namespace {
 
 constexpr int kRadius = simd::kCensusRadius, kSide = 2 * kRadius + 1;
-// Number of pixels of a row, at both ends together, whose windows extend beyond the picture. Rows
-// that are not longer than this are processed completely by censusAtEnd().
+// Number of pixels of a row, at both ends together, whose 5x5 neighbourhoods extend beyond the
+// picture. Rows that are not longer than this are processed completely by censusAtEnd().
 constexpr int kMostAtEnd = 2 * kRadius;
 
 /// Computes the census of `count` pixels from pixel `first` on. Pixels beyond the ends of the rows

@@ -168,7 +168,8 @@ float EpipolarFlow::sAt(int x, int y) const {
 
 // Returns where the still shows the point with inverse depth s on a ray of the frame. The result is
 // a pixel position in the still after its resampling with the video's lens. It is far outside the
-// picture if the point is behind the still camera or too close to the image plane.
+// picture if the point is behind the still camera, or if the still camera's ray to the point is
+// almost parallel to the image plane.
 EpipolarLens::Point EpipolarFlow::endOf(float rayX, float rayY, float s) const {
     const Eigen::Vector3f& t = search_.translation();
     const Eigen::Vector3f p = rotation_ * Eigen::Vector3f(rayX + s * (t.x() - rayX * t.z()),

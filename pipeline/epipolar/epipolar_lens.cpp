@@ -4,8 +4,8 @@ namespace mfar {
 namespace {
 
 // Largest radius of valid rays, as a multiple of the radius of the picture's corners. Some lens
-// models fold rays back from a certain radius on: the distorted radius decreases again. If that
-// radius is smaller, it is the limit.
+// models fold rays back: beyond a certain radius, the distorted radius decreases. Rays are then
+// valid only up to this radius.
 constexpr double kBeyondPicture = 2;
 
 }  // namespace

@@ -54,8 +54,8 @@ public:
     /// pose is first refined from the pictures. Without it, the pose counts as exact. `predicted`
     /// is empty or contains an approximate s of every cell in the area, row-major. With it, the
     /// coarser pyramid levels are not searched.
-    /// Returns false and sets s() to zero if the pose is invalid (soundMotion()) or if the area, as
-    /// far as the still can show it, is less than 16 px wide or high.
+    /// Returns false and sets s() to zero if the pose is invalid (soundMotion()) or if the
+    /// resampled still (see TurnedPicture::place()) is less than 16 px wide or high.
     bool run(const Rows<const std::uint8_t>& video, const RigidTransform& T_still_video,
              const std::optional<Matrix6>& covariance = std::nullopt,
              std::span<const float> predicted = {});

@@ -16,8 +16,8 @@ public:
     explicit FieldPrediction(const CameraModel& video);
 
     /// Stores s of every cell of a frame, row-major, see EpipolarLens. s and the translation of
-    /// `T_still_frame` are in the search's unit of length. `unit` is the length of this unit in the
-    /// tracked poses.
+    /// `T_still_frame` use the search's unit of length. `unit` is the size of this unit [unit of
+    /// length of the tracked poses], see UnitPose::unit.
     void keep(std::span<const float> s, const RigidTransform& T_still_frame, double unit);
     /// Must be called when a new still arrives, or when the stored depths are no longer valid.
     void forget() { kept_.clear(); }

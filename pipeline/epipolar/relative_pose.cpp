@@ -17,6 +17,8 @@ using Matrix23 = Eigen::Matrix<double, 2, 3>;
 
 constexpr int kMostSolves = 15;
 constexpr double kSettled = 0.01;  // a step shorter than this ends the refinement [px]
+// A refinement is accepted only with at least this number of inliers, and at least this share of
+// the matches.
 constexpr int kFewest = 16;
 constexpr double kFewestShare = 0.4;
 // A match whose error exceeds this number of standard deviations has no weight.
@@ -24,7 +26,7 @@ constexpr double kTukey = 4.685;
 // Standard deviation of a good match [px]. Robust weights assume at least half of this value, even
 // if the matches fit better.
 constexpr double kMatchError = 0.3;
-constexpr double kExplained = 1;
+constexpr double kExplained = 1;       // the error of an inlier is below this [px]
 constexpr double kNotExplained = 1e6;  // error of a match that fits no pose [px]
 
 /// The estimated motion of points from the frame's camera to the still camera. Its rotation is

@@ -16,8 +16,8 @@ constexpr double kBeside = 0.2;
 constexpr int kSidePoints = 16;
 
 // Largest radius of valid rays, as a multiple of the radius of the picture's corners. Some lens
-// models fold rays back from a certain radius on: the distorted radius decreases again. If that
-// radius is smaller, it is the limit.
+// models fold rays back: beyond a certain radius, the distorted radius decreases. Rays are then
+// valid only up to this radius.
 constexpr double kFarthestRay = 4;
 
 double rimOf(const CameraModel& camera) {
