@@ -9,8 +9,8 @@
 
 namespace mfar {
 
-inline constexpr int kCell = 4;
-inline constexpr int kCellsPerTile = 4;
+inline constexpr int kCell = 4;          ///< width and height of a cell [video px]
+inline constexpr int kCellsPerTile = 4;  ///< along each axis
 
 [[nodiscard]] constexpr int divideUp(int a, int b) {
     return (a + b - 1) / b;

@@ -26,7 +26,7 @@ struct Flow2dOptions {
 /// per pixel is 16, and at the coarsest pyramid level a multiple of 16, because their costs are
 /// processed as vectors of 16 bytes. Costs are aggregated from four directions.
 struct EpipolarOptions {
-    /// Largest number of pyramid levels, [1, 4]. All below full size have at least 60x60 px.
+    /// Largest number of pyramid levels, [1, 4]. Levels below full size have at least 60x60 px.
     int levels = 4;
     /// Largest searched parallax, as a share of the picture's width, (0, 1].
     double longestParallax = 0.8;
@@ -46,9 +46,9 @@ struct EpipolarOptions {
     bool operator==(const EpipolarOptions&) const = default;
 };
 
-/// These functions return `wanted`, but keep `levels` and `longestParallax` of `now`. These two
-/// options determine the memory layout, so they cannot change between frames. If `wanted` is
-/// invalid, the functions throw like validate().
+/// These functions return `wanted`, but with `levels` and EpipolarOptions::longestParallax of
+/// `now`. These two options determine the memory layout, so they cannot change between frames. If
+/// `wanted` is invalid, the functions throw like validate().
 [[nodiscard]] Flow2dOptions changed(const Flow2dOptions& now, const Flow2dOptions& wanted);
 [[nodiscard]] EpipolarOptions changed(const EpipolarOptions& now, const EpipolarOptions& wanted);
 

@@ -13,7 +13,8 @@ using params::kLumaSmoothing;
 using params::LumaLevel;
 
 /// Number of unused words after the last pyramid level. They are necessary because the shaders
-/// always read three words for a row of a patch, which can be beyond the end of the last level.
+/// always read three words for a row of a patch. The last two of them can lie beyond the end of the
+/// last level.
 inline constexpr int kLumaSpareWords = 2;
 
 /// Returns the width of a box filter [video px] that blurs as much as the area of a pixel and the
