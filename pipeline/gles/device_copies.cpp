@@ -82,7 +82,8 @@ void TextureCopy::download(void* data, std::ptrdiff_t pitch) {
         glPixelStorei(GL_PACK_ROW_LENGTH, static_cast<GLint>(pitch / layout.bytes));
         glReadPixels(0, 0, width, height, layout.channels, layout.type, data);
         glPixelStorei(GL_PACK_ROW_LENGTH, 0);
-        gpu::checkErrors("TextureCopy");  // if the GL context was lost, `data` is unchanged
+        // Throws if the GL context was lost: `data` is then unchanged.
+        gpu::checkErrors("TextureCopy");
         return;
     }
     const auto row = [&](int y) { return static_cast<std::byte*>(data) + y * pitch; };

@@ -7,7 +7,8 @@
 
 namespace mfar {
 
-/// Compares doubtful cells with the still itself, see params::kPatchSamples.
+/// Compares doubtful cells with the still at its own resolution instead of the video's, see
+/// params::kPatchSamples.
 class DirectMatcher {
 public:
     /// The still camera of `stillRig` must have the resolution of the still that is compared.

@@ -14,7 +14,7 @@ namespace mfar {
 /// Computes the dense flow from video to still (forward) and from still to video (backward) without
 /// the cameras' pose. Its parts are a coarse-to-fine inverse search, propagation, Gauss-Newton
 /// refinement, and the removal of outliers and noise. Each cell is matched by the 8x8 patch around
-/// it. An offset between the pictures does not change the cost of a match, and a gain hardly does.
+/// it. A brightness offset does not change the cost of a match, and a gain hardly changes it.
 /// Sources: Kroeger et al., ECCV 2016 (inverse search); Barnes et al., 2009 (propagation).
 class Flow2d {
 public:

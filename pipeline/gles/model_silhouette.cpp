@@ -150,7 +150,7 @@ void ModelSilhouette::clear(const PixelRect& where) const {
 void ModelSilhouette::draw(const RigidTransform& T_world_camera, const PixelRect& where) {
     target_.bind();
     // Paint is read only where this call draws a surface. Without the following line, tile-based
-    // GPUs load the last frame's paint.
+    // GPUs would load the last frame's paint.
     constexpr std::array<GLenum, 2> kPaint{GL_COLOR_ATTACHMENT1, GL_COLOR_ATTACHMENT2};
     glInvalidateFramebuffer(GL_FRAMEBUFFER, static_cast<GLsizei>(kPaint.size()), kPaint.data());
     if (!drawn_.empty()) clear(drawn_);
