@@ -7,8 +7,9 @@ constexpr long kMemory = 64;  // number of frames for which a change of a tile i
 constexpr long kNever = -kMemory;
 // Largest share of the tiles with structure that may change while the camera rests.
 constexpr double kMostChanged = 0.25;
-// Largest number of recent frames that draw more than kMostChanged of the tiles. New stills cause
-// fewer, at two per second.
+// While the camera rests, at most this number of recent frames may draw more than kMostChanged of
+// the tiles although these have not changed. Each new still causes one such frame: two stills per
+// second cause about four, at 30 frames per second.
 constexpr double kMostRenewals = 6;
 // Smallest share of tiles with structure with which a motion of the camera is noticed.
 constexpr double kLeastStructured = 0.1;

@@ -16,9 +16,9 @@ class CameraRest {
 public:
     /// Adds a frame. `tiles` are its measurements, see WorkPlan::measured(). A tile has structure
     /// if its TileMeasure::structure exceeds `leastStructure`. `renewedShare`: share of the tiles
-    /// that were drawn although they had not changed. The next frame is compared with them, so a
-    /// slow motion does not accumulate. If more than a quarter of the tiles is drawn in many
-    /// frames, nothing shows that the camera rests.
+    /// that were drawn although they had not changed. The next frame is compared with the newly
+    /// drawn tiles, so a slow motion does not add up to a change. Therefore, if this share exceeds
+    /// a quarter in many frames, the camera counts as moving.
     void add(const std::vector<TileMeasure>& tiles, double leastStructure, double renewedShare,
              Timestamp time);
     /// True if the camera rested at time `t` and has rested since then: frames before and after `t`
@@ -29,9 +29,10 @@ public:
 
 private:
     long frame_ = 0;
-    double renewals_ = 0;             // number of recent frames that drew a quarter of the tiles
+    // Number of frames whose `renewedShare` exceeded a quarter. Older frames count less.
+    double renewals_ = 0;
     std::vector<long> changed_;       // for each tile: the last frame in which it changed
-    std::optional<Timestamp> since_;  // time of the first frame since which the camera rests
+    std::optional<Timestamp> since_;  // time from which on the camera has rested, if it is known
     Timestamp last_;                  // time of the last frame
 };
 

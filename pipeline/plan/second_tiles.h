@@ -22,8 +22,8 @@ public:
     static constexpr float kLack = 0.1F;
     /// Smallest gain in mean weight that is worth the time of matching with the second still.
     static constexpr float kGain = 0.05F;
-    /// If the second still does not show a tile, the tile is not matched with it in the next frames
-    /// in which it would be a candidate. This is the number of these frames.
+    /// If a match with the second still gains less than kGain in a tile, the tile is not a
+    /// candidate (see choose()) in this number of later frames in which it would be one.
     static constexpr int kRest = 8;
 
     struct Match {
@@ -39,8 +39,8 @@ public:
     /// `measured` must belong to the same frame. The result is valid until the next call.
     const TileWork& choose(const TileWork& work, std::span<const TileMeasure> measured,
                            const Match& newest, int most);
-    /// Finds which of the tiles that choose() returned the second still improves. `newest`,
-    /// `second`: results of matching this frame with both stills.
+    /// Finds out in which of the chosen tiles the second still is better by at least kGain.
+    /// `newest`, `second`: results of matching this frame with both stills.
     void judge(const Match& newest, Rows<const WeighedCell> second);
     /// Must be called when the second still or the newest still is replaced.
     void forget();

@@ -20,7 +20,7 @@ constexpr double kSignificant = 5;
 constexpr double kLeast = 0.03;
 
 constexpr int kStructureBins = 84;  // a bin is a quarter of an octave
-constexpr float kKept = 1.19F;
+constexpr float kKept = 1.19F;      // factor for the structure of tiles of the last choice
 
 int structureBin(float structure) {
     return std::clamp(static_cast<int>(4 * std::log2(structure + 1)), 0, kStructureBins - 1);

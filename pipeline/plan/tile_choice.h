@@ -38,8 +38,8 @@ void markBeside(std::span<TileMeasure> tiles, int columns);
 /// Tiles of the last choice are preferred, so that noise does not make detail appear and vanish.
 class StructuredTiles {
 public:
-    /// `none` is the largest structure that noise alone causes. If it is negative, every tile has
-    /// structure. `most` is the upper limit of the number of chosen tiles.
+    /// A tile has structure if its TileMeasure::structure exceeds `none`, or if `none` is negative.
+    /// `most` is the upper limit of the number of chosen tiles.
     void choose(std::span<const TileMeasure> tiles, int columns, double none, int most);
     [[nodiscard]] bool operator[](std::size_t tile) const { return chosen_[tile]; }
     [[nodiscard]] int count() const;

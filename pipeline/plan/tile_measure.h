@@ -13,7 +13,7 @@ struct TileMeasure {
     /// True if the tile certainly changed. This is so if the mean difference or the mean absolute
     /// difference of one of its cells exceeds the noise, or if the mean and the slopes of the whole
     /// tile's difference together exceed it. The colour channel with the largest difference counts.
-    /// markDrifted() can set `changed` later.
+    /// markDrifted() and markBeside() can set `changed` later.
     bool changed = false;
     /// One bit for each cell, row-major: 1 if the cell certainly changed. Its mean absolute
     /// difference then exceeds ChangeBounds::absolute, or its mean difference exceeds
