@@ -50,10 +50,10 @@ private:
 /// True if tagMapFromRosYaml() reads the file: its name ends with .yaml or .yml.
 [[nodiscard]] bool isRosTagMap(const std::filesystem::path& file);
 
-/// Reads a tag map from a file. If isRosTagMap(), its tags are of the given family. Any other file
-/// is TOML like tags.toml: `family` for all tags, and a list `[[tags]]` with `id`, `size` [m],
-/// `position` [x, y, z] [m] and `orientation` [w, x, y, z]. A tag of another family has its own
-/// `family`. Throws TagMapError.
+/// Reads a tag map from a file. If isRosTagMap(file), its tags are of the family `ofRosMap`. Any
+/// other file is TOML like tags.toml: `family` for all tags, and a list `[[tags]]` with `id`,
+/// `size` [m], `position` [x, y, z] [m] and `orientation` [w, x, y, z]. A tag of another family has
+/// its own `family`. Throws TagMapError.
 [[nodiscard]] TagMap loadTagMap(const std::filesystem::path& file,
                                 TagFamily ofRosMap = TagFamily::Tag36h11);
 

@@ -26,17 +26,16 @@ struct CameraPose {
     RigidTransform T_world_camera;
     /// Covariance of a small motion x = (rotation, translation) in T_world_camera * exp(x).
     Matrix6 covariance = Matrix6::Zero();
-    double squaredError = 0;
-    int tags = 0;
-    double edgeShift = 0;  ///< shift of the tags' edges outwards [px]; 0 with one tag
+    double squaredError = 0;  ///< sum over all corners of the used tags [px^2]
+    int tags = 0;             ///< number of used tags
+    double edgeShift = 0;     ///< shift of the tags' edges outwards [px]; 0 with one tag
 
     /// Root mean square of the corners' errors [px].
     [[nodiscard]] double rms() const;
 };
 
-/// The two poses from which a plane of tags looks nearly the same. `best` has the smaller error;
-/// the two errors are compared before the edge shift is estimated. `other` is the second local
-/// minimum for the same tags, or empty if there is none.
+/// The two poses from which a plane of tags looks nearly the same. `best` has the smaller error.
+/// `other` is the second local minimum for the same tags, or empty if there is none.
 struct CameraPoses {
     CameraPose best;
     std::optional<CameraPose> other;

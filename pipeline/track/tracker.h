@@ -26,8 +26,9 @@ struct TrackerOptions {
     /// DetectorOptions::decimation for video and for stills.
     double decimation = 2;
     double stillDecimation = 4;
-    int threads = 1;              ///< threads of libapriltag for each sensor
-    int fullSearchInterval = 15;  ///< most frames from one search of the whole picture to the next
+    int threads = 1;  ///< threads of libapriltag for each sensor
+    /// The whole picture is searched in at least every n-th frame, n >= 1.
+    int fullSearchInterval = 15;
     /// Gamma of the video and of stills, see CornerRefiner.
     double gamma = 2;
     double stillGamma = 2;
@@ -36,8 +37,8 @@ struct TrackerOptions {
 
 struct TrackStats {
     std::int64_t frames = 0;
-    std::int64_t fullSearches = 0;
-    std::int64_t roiSearches = 0;
+    std::int64_t fullSearches = 0;  ///< frames that were searched completely
+    std::int64_t roiSearches = 0;   ///< frames that were searched only around the expected tags
     /// flips: number of changes from one of the two planar solutions to the other. rejected: number
     /// of poses that the filter rejected as outliers. jumps: number of restarts of the filter
     /// because several outliers agreed with each other.
