@@ -28,8 +28,8 @@ struct Candidate {
     double Prediction::* frame;
 };
 
-/// All assignments of steps to engines, in the order in which they are tried on a GPU without
-/// predicted times. SIMD is first, because it needs no shader compilation.
+/// The assignments that promisingEngines() considers, in the order in which they are tried on a GPU
+/// without predicted times. SIMD is first, because it needs no shader compilation.
 std::array<Candidate, 4> candidates() {
     constexpr auto kSimd = EngineKind::Simd, kGles = EngineKind::Gles;
     return {{{placed(kSimd, kSimd), &Prediction::simd},

@@ -14,8 +14,8 @@
 namespace mfar {
 namespace {
 
-constexpr int kWarmUp = 2, kFrames = 5;
-constexpr int kShift = 3;
+constexpr int kWarmUp = 2, kFrames = 5;  // numbers of unmeasured and of measured frames
+constexpr int kShift = 3;                // motion of the generated video [px per frame]
 
 /// Grey value of a texture of random squares in three sizes, so that every pyramid level has
 /// structure.

@@ -257,7 +257,7 @@ const CellWeights& Pipeline::State::weighed(const Reference& still, const VideoF
 
 const CellWeights* Pipeline::State::matchSecond(const VideoFrame& frame, const TileWork& work) {
     if (keepsSecond() && work.matched == 0) return nullptr;
-    // A frame without this match makes the flow too old for later frames to start a search from it.
+    // A search may start only from the flow of the last frame with matched tiles, not an older one.
     const FlowCells* const lastFlow = std::exchange(second.lastFlow, nullptr);
     if (!keepsSecond()) return nullptr;
     if (newest.first.empty()) newest.keepFirst();

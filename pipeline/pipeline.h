@@ -136,8 +136,8 @@ public:
     [[nodiscard]] const InverseDepthField& inverseDepth() const;
 
     // The functions below read results back, for tests, evaluation and the preview. They wait for
-    // the GPU. With the GLES engine, the first group of numbers in FrameResult::stats belongs to
-    // the run before the last one; readStats() returns the numbers of the last run.
+    // the GPU. With the GLES engine, some numbers in FrameResult::stats are those of the run before
+    // the last one (see FrameStats); readStats() returns all numbers of the last run.
     [[nodiscard]] FrameStats readStats() const;
     /// Flow of every video pixel (x, y interleaved), interpolated between cells. If the flow was
     /// searched along epipolar lines, each pixel also has its own vector from this search.

@@ -9,7 +9,7 @@
 namespace mfar {
 namespace {
 
-constexpr double kFollows = 1.0 / 8;
+constexpr double kFollows = 1.0 / 8;  // weight of the newest frame in the mean Reference::shows
 // Two stills count as taken from the same position if the cells have moved by less than this in the
 // mean [video px]. The areas that the two stills miss then differ by less than a tile.
 constexpr double kSameView = 0.5 * kTileSize;

@@ -14,8 +14,8 @@ namespace mfar {
 struct FrameStats {
     // With the GLES engine, the GPU counts these numbers, and they are those of the frame before.
     // In the first frame, they are 0.
-    std::array<int, kTileClasses> tiles{};
-    double meanConfidence = 0;  ///< mean of the confidence (eq. 2 of the paper), [0, 1]
+    std::array<int, kTileClasses> tiles{};  ///< number of tiles of each TileClass
+    double meanConfidence = 0;              ///< mean of the confidence (eq. 2 of the paper), [0, 1]
     /// Share of tiles that are flat or match a still, [0, 1]. If Quality::detailShare leaves out
     /// some tiles with structure, they are assumed to match as often as the others. 0 without a
     /// still.
