@@ -6,8 +6,8 @@
 namespace mfar {
 
 /// Relative pose between another picture and a frame. The unit of length is the distance between
-/// the two cameras, or that of the tracked poses if the distance is 0. A search with this pose does
-/// not depend on the unit of the tracked poses (metres or millimetres).
+/// the two cameras. If this distance is 0, the unit is the unit of the tracked poses. A search with
+/// this pose does not depend on the unit of the tracked poses (metres or millimetres).
 struct UnitPose {
     RigidTransform T_other_frame;
     Matrix6 covariance;  ///< covariance of a small motion x in T_other_frame * exp(x)
