@@ -9,9 +9,9 @@
 
 namespace mfar {
 
-/// Finds out from the changes of the picture since when the camera has rested. Things may move in
-/// front of a resting camera: the camera counts as moving only if more than a quarter of the tiles
-/// with structure changed within the last 64 frames.
+/// Determines from the changes of the picture how long the camera has rested. Things may move in
+/// front of a resting camera: changes count as a motion of the camera only if more than a quarter
+/// of the tiles with structure changed within the last 64 frames.
 class CameraRest {
 public:
     /// Adds a frame. `tiles` are its measurements, see WorkPlan::measured(). A tile has structure
