@@ -157,8 +157,8 @@ std::vector<TagDetection> TagDetector::detect(const ImageView& luma,
     const double least = kSmallestSide * options_.decimation;
     if (!(width >= least && height >= least)) return {};
     const std::uint8_t* first = luma.data + part.y0 * luma.stride + part.x0;
-    // If libapriltag blurs a picture that is not decimated, it writes to its input. It then gets a
-    // copy.
+    // If libapriltag blurs a picture that is not decimated, it writes to its input. In this case,
+    // its input is a copy.
     auto* pixels = const_cast<std::uint8_t*>(first);
     auto stride = static_cast<int>(luma.stride);
     if (options_.blur > 0 && options_.decimation == 1) {
