@@ -8,8 +8,8 @@
 namespace mfar {
 
 /// An assignment of steps to engines is hopeless if a frame takes more than kHopelessFrame times as
-/// long as with the fastest assignment. It is not tried if this was predicted; otherwise its trial
-/// is cut short.
+/// long as with the fastest assignment. It is not tried if predictions show this. If only its trial
+/// shows this, the trial is cut short.
 inline constexpr double kHopelessFrame = 2;
 
 /// Returns the assignments of steps to engines that may be the fastest while the camera moves, the
