@@ -1,5 +1,8 @@
 #include "pipeline/plan/camera_rest.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace mfar {
 namespace {
 
@@ -8,9 +11,10 @@ constexpr long kNever = -kMemory;
 // Largest share of the tiles with structure that may change while the camera rests.
 constexpr double kMostChanged = 0.25;
 // While the camera rests, at most this number of recent frames may draw more than kMostChanged of
-// the tiles although these have not changed. Each new still causes one such frame: two stills per
-// second cause about four, at 30 frames per second.
-constexpr double kMostRenewals = 6;
+// the tiles although these have not changed. A frame counts less the older it is: after
+// kRenewalTime [s], its weight is 1/e. Each new still causes one such frame, so two stills per
+// second count as about four.
+constexpr double kMostRenewals = 6, kRenewalTime = 2;
 // Smallest share of tiles with structure with which a motion of the camera is noticed.
 constexpr double kLeastStructured = 0.1;
 
@@ -18,7 +22,8 @@ constexpr double kLeastStructured = 0.1;
 
 void CameraRest::add(const std::vector<TileMeasure>& tiles, double leastStructure,
                      double renewedShare, Timestamp time) {
-    renewals_ *= 1 - 1.0 / kMemory;
+    const double passed = static_cast<double>((time - last_).count()) * 1e-9;
+    renewals_ *= std::exp(-std::max(passed, 0.0) / kRenewalTime);
     if (renewedShare > kMostChanged) ++renewals_;
     changed_.resize(tiles.size(), kNever);
     ++frame_;

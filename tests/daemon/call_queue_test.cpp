@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <gmock/gmock.h>
 #include <string>
 #include <thread>
 
@@ -57,7 +58,8 @@ TEST(CallQueue, CallsOnAClosedQueueReturnAtOnce) {
     std::atomic<bool> asked{false};
     std::thread waiting([&] {
         asked = true;
-        EXPECT_THROW(queue.call([](int&) {}, kLimit), std::exception);
+        EXPECT_THAT([&] { queue.call([](int&) {}, kLimit); },
+                    testing::ThrowsMessage<std::runtime_error>("mfard is ending"));
     });
     while (!asked)
         std::this_thread::yield();

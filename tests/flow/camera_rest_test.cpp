@@ -55,6 +55,19 @@ TEST(CameraRest, TilesThatChangeOneAfterTheOtherShowASlowMotion) {
     EXPECT_FALSE(rest.restedSince(frameTime(1)));
 }
 
+TEST(CameraRest, TwoNewStillsPerSecondDoNotCountAsMotionAtAnyFrameRate) {
+    for (const int rate : {5, 10, 30, 120}) {
+        CameraRest rest;
+        const auto timeOf = [&](int i) { return Timestamp::fromSeconds(1 + double(i) / rate); };
+        for (int i = 0; i < 20 * rate; ++i)
+            rest.add(tilesWith(0), kStructure, i % (rate / 2) == 0 ? 1 : 0, timeOf(i));
+        EXPECT_TRUE(rest.restedSince(timeOf(1))) << rate;
+        for (int i = 20 * rate; i < 22 * rate; ++i)
+            rest.add(tilesWith(0), kStructure, 1, timeOf(i));
+        EXPECT_FALSE(rest.restedSince(timeOf(1))) << rate << ": every frame is drawn as a whole";
+    }
+}
+
 TEST(CameraRest, WithoutStructureNothingShowsThatTheCameraRests) {
     CameraRest rest;
     std::vector<TileMeasure> tiles = tilesWith(0);
