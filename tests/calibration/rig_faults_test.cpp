@@ -151,7 +151,7 @@ TEST(RigFiles, DeeplyNestedOrVeryLongFilesAreRefusedBeforeParsing) {
     }
 }
 
-// The name is too long. A file without read permission would not do, because root may read it.
+// The name is too long. The test uses no file without read permission, because root may read it.
 TEST(RigFiles, APathThatCannotBeLookedUpIsRefused) {
     const std::string name(300, 'a');
     EXPECT_NE(faultOf(name).find(name), std::string::npos);

@@ -19,7 +19,8 @@ struct Motion {
 };
 
 [[nodiscard]] StereoRig trueRig();
-/// A rig like trueRig(), but with a still camera of 4608x2592 pixels and 95 degrees.
+/// A rig like trueRig(), but the still camera has 4608x2592 pixels and a wide lens. Without its
+/// distortion, the lens would show 95 degrees horizontally.
 [[nodiscard]] StereoRig wideRig();
 
 struct BothViews {
