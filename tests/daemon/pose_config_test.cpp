@@ -90,7 +90,7 @@ TEST(PoseConfig, TheTrackerGetsTheOptionsOfTheConfiguration) {
     EXPECT_EQ(options.threads, 3);
     EXPECT_EQ(options.fullSearchInterval, 7);
     EXPECT_EQ(options.pose.filter.bridgeFrames, 60);
-    EXPECT_GT(options.pose.filter.bridge, std::chrono::seconds(2)) << "60 frames at 30 Hz";
+    EXPECT_GT(options.pose.filter.bridge, std::chrono::seconds(2)) << "60 frames at 30 Hz last 2 s";
 }
 
 }  // namespace

@@ -121,7 +121,8 @@ TEST_F(RigOfCameras, OnlyTheRecordingOfTheCommandLineMustBeComplete) {
 }
 
 // The file gpiochip0 makes the simulated devices the only ones in /dev. Both cameras offer all
-// sizes; of two equal cameras, the one with the last path counts as the larger one.
+// sizes. Of two equal cameras, the one whose path comes last in the order of paths counts as the
+// larger one.
 TEST_F(RigOfCameras, IfTheLargerOfTwoUnnamedCamerasIsConnectedFirstTheVideoGivesItUp) {
     config_.cameras.video.camera.clear();
     config_.cameras.still.camera.clear();
