@@ -90,7 +90,7 @@ public:
     /// If true, requests for more than mostBuffers buffers fail with ENOMEM. Otherwise mostBuffers
     /// buffers are granted.
     bool refusesMore = false;
-    int sizeFault = 0;  ///< added to the size of a picture that the driver reports [bytes]
+    int sizeFault = 0;  ///< error of the picture size that S_FMT reports [bytes]
     std::uint32_t colorspace = V4L2_COLORSPACE_SRGB, quantization = V4L2_QUANTIZATION_DEFAULT;
     std::vector<FakeFormat> formats{{V4L2_PIX_FMT_YUYV, {{32, 24}, {64, 48}}}};
     std::vector<FakeControl> controls{};
