@@ -44,7 +44,7 @@ void expectPicture(Rows<const std::uint32_t> drawn, F&& of, double most) {
 // twin::residualAt() clamps the enlarged luma.
 constexpr double kLearnedError = 1.3;
 
-// Shaders read the still with weights of 8 bits, at positions in half precision.
+// Shaders interpolate the still with weights of 8 bits, at positions in half precision.
 double learnedErrorWithStill(bool shaders) {
     return shaders ? (kLearnedError + 1.2) * roundingFactor() : kLearnedError;
 }

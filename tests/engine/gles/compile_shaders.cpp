@@ -8,9 +8,10 @@
 // a shader when it is linked. On machines without its GPU (with Mesa's drm-shim), Panfrost crashes
 // at dispatches and at shaders that spill registers. --new-contexts: compiles each shader in a new
 // context, because V3D prints no statistics of a shader that the same context has already compiled,
-// such as the vertex shader that a fragment shader was linked with. (The driver for Adreno compiles
-// its own shaders in each context, and their statistics would be taken for the shader's.) FILE: a
-// shader to be compiled instead, in the format of gles_shaders/, but with every #include resolved.
+// such as the vertex shader that a fragment shader was linked with. Not for Adreno: its driver also
+// compiles its own shaders in each context, and their statistics would be taken for the shader's.
+// FILE: a shader to be compiled instead, in the format of gles_shaders/, but with every #include
+// resolved.
 // Exit status 1: a shader did not compile.
 
 #include "base/gl/buffer.h"

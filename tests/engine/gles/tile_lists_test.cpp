@@ -238,7 +238,7 @@ TEST_F(TileListsGl, WithoutAMatchTwoWayErrorsFollowFromTheMatchingCost) {
         EXPECT_NEAR(errors[i][0], 5 * (vectors[i][2] - 0.1F), 1e-3) << "cell " << i;
     }
     EXPECT_GT(offLine, 0);
-    EXPECT_LT(offLine, kCount / 2) << "fewer than half of the cells may leave their line";
+    EXPECT_LT(offLine, kCount / 2) << "fewer than half of the cells may leave their epipolar line";
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ TEST(LumaFilters, HalvedRowsAreMeansOfFourPixels) {
         halveRow(a.data(), b.data(), width, out.data());
         for (std::size_t x = 0; x < width; ++x)
             ASSERT_EQ(out[x], (a[2 * x] + a[2 * x + 1] + b[2 * x] + b[2 * x + 1] + 2) / 4);
-        EXPECT_EQ(out[width], 99) << "wrote past the row";
+        EXPECT_EQ(out[width], 99) << "the kernel wrote past the row";
     }
 }
 
@@ -34,7 +34,7 @@ TEST(LumaFilters, ThinnedRowsContainEverySecondByte) {
         thinRow(in.data(), width, out.data());
         for (std::size_t x = 0; x < width; ++x)
             ASSERT_EQ(out[x], in[2 * x]);
-        EXPECT_EQ(out[width], 99) << "wrote past the row";
+        EXPECT_EQ(out[width], 99) << "the kernel wrote past the row";
     }
 }
 

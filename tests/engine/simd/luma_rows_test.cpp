@@ -28,7 +28,7 @@ TEST(LumaRows, LumaMatchesRec601WithinAGreyLevelAtAnyLength) {
                 0.299 * texels[4 * i] + 0.587 * texels[4 * i + 1] + 0.114 * texels[4 * i + 2];
             EXPECT_LE(std::abs(luma[i] - exact), 1.0) << i << " of " << pixels;
         }
-        EXPECT_EQ(luma[pixels], 99) << "wrote past the row";
+        EXPECT_EQ(luma[pixels], 99) << "the kernel wrote past the row";
     }
 }
 

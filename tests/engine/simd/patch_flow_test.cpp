@@ -248,8 +248,8 @@ TEST(PatchFlow, FilteringOfFlowRemovesALoneOutlier) {
     cleanUpCells({field, FlowField::first(known), out.data(), 2}, 5, 3, 10);
     const float* row = &out[4UL * 5 * kCells.width];
     EXPECT_EQ(row[4 * 7], 0);
-    EXPECT_EQ(row[4 * 2], 99) << "wrote left of its cells";
-    EXPECT_EQ(row[4 * 10], 99) << "wrote right of its cells";
+    EXPECT_EQ(row[4 * 2], 99) << "cleanUpCells() wrote left of its cells";
+    EXPECT_EQ(row[4 * 10], 99) << "cleanUpCells() wrote right of its cells";
 }
 
 }  // namespace
