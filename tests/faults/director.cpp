@@ -134,7 +134,7 @@ void checkGrowth(std::uint64_t moreBytes = grows()) {
         if (Judge::get().holdsNoMore(moreBytes)) return;
         sleepFor(70 * kMs);
     }
-    Judge::get().fail("mfard uses more descriptors, threads or memory than at the start");
+    Judge::get().fail("mfard uses more descriptors, threads or memory than at the first check");
 }
 
 void checkLine() {

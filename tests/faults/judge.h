@@ -51,7 +51,8 @@ public:
     [[nodiscard]] std::uint64_t frames() const { return frames_; }
 
 private:
-    /// Number of active faults of a kind, and time at which it last changed.
+    /// Number of active faults of one group (see Watched), and time at which this number last
+    /// changed.
     struct Calm {
         int active = 0;
         Ns since = 0;

@@ -52,8 +52,8 @@ private:
             reinterpret_cast<const std::uint8_t*>(text_.data()) + at_ + kFrame.size();
         at_ += whole;
         if (const auto ms = pretended::stampOf({pixels, luma}, width_)) {
-            // The stamp contains only the lower bits of the time. The upper bits are those of the
-            // present time.
+            // The stamp contains only the lower bits of the time. The picture's time is the latest
+            // time up to now that has these lower bits.
             const std::int64_t now = Scheduler::get().now() / kMs;
             constexpr std::int64_t kMask = (1LL << pretended::kStampBits) - 1;
             Judge::get().shows((now - ((now - *ms) & kMask)) * kMs);
