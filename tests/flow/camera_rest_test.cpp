@@ -40,8 +40,7 @@ TEST(CameraRest, APersonInFrontOfARestingCameraDoesNotCountAsMotion) {
     EXPECT_FALSE(rest.restedSince(frameTime(200)));
     rest.add(tilesWith(0), kStructure, 0, frameTime(202));
     EXPECT_TRUE(rest.restedSince(frameTime(201)));
-    EXPECT_FALSE(rest.restedSince(frameTime(203)))
-        << "no frame shows yet whether the camera rests then";
+    EXPECT_FALSE(rest.restedSince(frameTime(203))) << "no frame of this time or later was added";
 }
 
 TEST(CameraRest, TilesThatChangeOneAfterTheOtherShowASlowMotion) {
