@@ -10,7 +10,7 @@ namespace mfar::test {
 
 /// A folder of files, made from one input. A file begins with a line "#@ NAME", followed by its
 /// bytes. It ends before the newline that precedes the next such line, or at the end of the input.
-/// Only files with names in `known` are written. The folder is in memory if possible. The
+/// Only files with names in `known` are written. The folder is in /dev/shm if that exists. The
 /// destructor removes it.
 class FileBundle {
 public:
