@@ -89,7 +89,8 @@ TEST(GltfMotion, AChildMovesWithItsParentsMotion) {
     const Model model = modelOf(maker);
     ASSERT_EQ(model.meshes.size(), 3U);
     ASSERT_EQ(model.paths.size(), 2U);
-    EXPECT_EQ(model.meshes[1].part, model.meshes[0].part) << "the first child rests on its parent";
+    EXPECT_EQ(model.meshes[1].part, model.meshes[0].part)
+        << "the first child does not move relative to its parent";
     expectNear(vertexAt(model, 1, 0, 2), {1, 1, 1});
     expectNear(vertexAt(model, 2, 1, 2), {1 + kHalf, 0, 1 + kHalf});
 }
@@ -171,7 +172,8 @@ TEST(GltfMotion, KeyframesAreCountedWhereverTheyAreStored) {
             return false;
         }
     };
-    EXPECT_TRUE(loads(10)) << "each of the five keyframes counts as read and in the node's path";
+    EXPECT_TRUE(loads(10))
+        << "each of the five keyframes counts twice: when it is read and in the path";
     EXPECT_FALSE(loads(9));
     EXPECT_FALSE(loads(4));
 }
