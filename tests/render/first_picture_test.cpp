@@ -58,7 +58,7 @@ TEST(FirstPicture, ObjectsOutOfViewNeedLittleMemory) {
 }
 
 // If the memory was provided before, at least half of it is unused after the first picture. If not,
-// the film allocates a few blocks whenever it needs some; then almost no unused memory is left.
+// the film allocates only a few blocks at a time, so that almost no memory is unused.
 TEST(FirstPicture, ThreadsOfTheRendererProvideItsMemory) {
     const std::shared_ptr<FilmMemory> expected = Film::makeMemory(), piece = Film::makeMemory();
     TracedPictures pictures(kThirtyTwo, kProduct, expected);

@@ -27,7 +27,8 @@ void expectUnsound(const std::function<void(Scene&, Model&)>& change) {
             object.model = shared;
         return shown;
     };
-    ASSERT_NO_THROW(validate(withModels(scene, model))) << "without the change";
+    ASSERT_NO_THROW(validate(withModels(scene, model)))
+        << "the scene must be valid before the change";
     change(scene, model);
     EXPECT_THROW(validate(withModels(scene, model)), std::invalid_argument);
 }
