@@ -8,7 +8,7 @@ ctl="$(dirname "$sim")/mfarctl"
 "$sim" --scene office --path handheld --seconds 0.3 --stills 3 --no-truth \
     --out run >/dev/null || fail "mfar-sim made no recording"
 
-# last NAME [ARGUMENT...]: saves the last picture of the recording. NAME.raw contains its pixels.
+# last NAME [ARGUMENT...]: plays the recording. NAME.raw gets the last shown picture.
 last() {
     local name=$1
     shift

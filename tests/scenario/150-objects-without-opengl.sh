@@ -12,7 +12,7 @@ mkdir hidden
 : >hidden/libGLESv2.so.2
 export LD_LIBRARY_PATH=$PWD/hidden${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}
 
-# last NAME [ARGUMENT...]: saves the last picture of the recording. NAME.raw contains its pixels.
+# last NAME [ARGUMENT...]: plays the recording. NAME.raw gets the last shown picture.
 last() {
     local name=$1
     shift
