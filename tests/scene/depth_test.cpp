@@ -20,9 +20,9 @@ using synthetic::Path;
 
 constexpr int kSettling = 12;  // number of frames after which depth has settled
 constexpr double kMostError = 0.015, kLeastKnown = 0.85;
-/// Limit of the median change of depth per frame, as a share of the depth. It is three times the
-/// expected change of 0.26 %: in these scenes, a match with the still has an error of 4.5 % of the
-/// inverse depth, and the depth filter gives each new match a weight of 1/12.
+/// Limit of the median change of depth per frame, as a share of the depth. It is about three times
+/// the expected change of 0.26 %. In these scenes, a match with the still has an error of 4.5 % of
+/// the inverse depth, and the depth filter gives each new match a weight of 1/12.
 constexpr double kMostChange = 0.0075;
 
 /// A scene with a virtual object. Depth is measured in the whole picture.

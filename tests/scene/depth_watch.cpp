@@ -41,9 +41,10 @@ cv::Mat DepthWatch::trueDepth(Timestamp time) const {
     return out;
 }
 
-// Returns inverse depth / true inverse depth in the previous frame, at the measured pixel nearest
-// to a point's position in that frame. `inverseDepth`: true inverse depth of the point in the new
-// frame.
+// For the point that pixel (x, y) of the new frame shows: returns inverse depth / true inverse
+// depth of the previous frame, at the measured pixel nearest to the point's position in that frame;
+// 0 if it is unknown. `inverseDepth`: true inverse depth of the point in the new frame. `pose`:
+// pose of the new frame (T_world_video).
 double DepthWatch::ratioBefore(int x, int y, double inverseDepth,
                                const RigidTransform& pose) const {
     const CameraModel& video = board_.rig().video;

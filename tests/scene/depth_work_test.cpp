@@ -23,8 +23,8 @@ protected:
         pipeline_.emplace(scene_->rig(), PipelineOptions{});
     }
 
-    /// Places a sphere of 10 cm in front of the camera's first position, at the share `share` of
-    /// the distance to the desk.
+    /// Places a sphere with a diameter of 10 cm in front of the camera's first position, at the
+    /// share `share` of the distance to the desk.
     void placeSphere(double share) {
         VirtualObject sphere;
         sphere.shape = VirtualShape::Sphere;
