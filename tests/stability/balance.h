@@ -12,9 +12,10 @@
 namespace mfar::stress {
 
 /// Chooses cases to be run at Scale::Product, so that all passes process about equally many pixels.
-/// next() finds the pass with the fewest pixels and returns the case that processes most pixels of
-/// this pass per second. If no case has reached the pass at Scale::Product, next() returns a case
-/// that reached it with smaller pictures, until this case has run for kTrial seconds.
+/// next() first returns each case once. Later, it finds the pass with the fewest pixels and returns
+/// the case that processes most pixels of this pass per second. If no case has reached the pass at
+/// Scale::Product, next() returns a case that reached it with smaller pictures, until this case has
+/// run for kTrial seconds.
 class Balance {
 public:
     explicit Balance(const std::vector<Case>& cases);

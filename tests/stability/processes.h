@@ -15,7 +15,7 @@ struct Tally {
 /// Calls `work` with 0, 1, ... in `count` processes and adds up the results. A crash of a process
 /// is a failure and is reported. After a failure the other processes are ended, unless `keepGoing`
 /// is true. Must be called before any thread or graphics context is created. Throws
-/// std::runtime_error.
+/// std::system_error if a system call fails.
 [[nodiscard]] Tally inProcesses(int count, bool keepGoing, const std::function<Tally(int)>& work);
 
 }  // namespace mfar::stress

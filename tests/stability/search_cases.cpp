@@ -281,7 +281,7 @@ void hostileAggregation(Context& c) {
     for (std::size_t i = 0; i < far.size(); ++i) {
         c.checks.within(far[i], -0.5, 16 * vectors - 0.5, "index of a label in its search window");
         c.checks.within(far[i] - near[i], -0.01, 0.01,
-                        "change of a label with the distance of windows");
+                        "change of a label if windows without common labels move apart");
     }
     c.checks.through("SemiGlobal", pixelsOf(size));
 }
