@@ -65,8 +65,8 @@ protected:
         FAIL() << "no frame has used its pose";
     }
 
-    /// Returns the look-ups after a frame, or after a second frame in which only the flat part
-    /// differs.
+    /// Returns the look-ups after a frame with the pose `first`. If `second` is given, returns
+    /// those after another frame with the pose *second, in which only the flat part differs.
     std::vector<LookUpCell> lookUps(const std::optional<Pose>& first,
                                     const std::optional<std::optional<Pose>>& second) const {
         Pipeline pipeline(discsRig(), {.output = {}, .engines = EngineChoice::all(GetParam())});
@@ -122,7 +122,7 @@ TEST_P(FlatChange, HasNoEffectOnTilesMatchedAlongEpipolarLines) {
     expectNoEffect(pose_, pose_);
 }
 
-TEST_P(FlatChange, WithoutAPoseHasNoEffectOnTilesMatchedAlongEpipolarLines) {
+TEST_P(FlatChange, InAFrameWithoutAPoseHasNoEffectOnTilesMatchedAlongEpipolarLines) {
     expectNoEffect(pose_, {});
 }
 
