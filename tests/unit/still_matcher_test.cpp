@@ -193,7 +193,8 @@ TEST(StillMatcher, AStepOfSeveralTriggerPeriodsIsNotLearned) {
         EXPECT_EQ(matcher.stillArrived(pulse + 2ms + step).has_value(), i < 25) << i;
         (void)matcher.poll(pulse + 900ms);
     }
-    EXPECT_EQ(matcher.counters().relearned, 0U) << "such times would belong to other pulses";
+    EXPECT_EQ(matcher.counters().relearned, 0U)
+        << "after such a step, the times would belong to other pulses";
 }
 
 TEST(StillMatcher, UnmatchedStillsWithDifferentOffsetsAreNotAClockStep) {
