@@ -45,7 +45,8 @@ TEST_F(WarpEngines, BothEnginesShowTheSamePicture) {
                 apart += std::abs(error) > 8 ? 1 : 0;
             }
             const auto values = static_cast<double>(gles.colour.size());
-            EXPECT_LT(std::sqrt(sum / values), 1.0) << degrees << " [grey levels]";
+            EXPECT_LT(std::sqrt(sum / values), 1.0)
+                << "difference in grey levels, at " << degrees << " degrees";
             EXPECT_LT(apart, 0.002 * values) << degrees;
             const int holes = gles.warp.counters().openHoles;
             EXPECT_NEAR(simd.warp.counters().openHoles, holes, 5 + 0.02 * holes) << degrees;

@@ -162,7 +162,8 @@ TEST_F(WarpHolesGl, HolesInTheShadowAreFilledFromItsSurroundingsAndNotRequested)
             shadow += truth.colour[i][3];
         }
         EXPECT_GT(holes, 50);
-        EXPECT_GT(shadow, 10 * holes) << "[levels of 255]";
+        EXPECT_GT(shadow, 10 * holes)
+            << "sum of the true shadow's alpha in the holes, 0 to 255 each";
         if (filling == HoleFilling::None) {
             EXPECT_GT(error, 0.8 * shadow);
         } else {

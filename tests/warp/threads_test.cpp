@@ -43,7 +43,8 @@ std::uint64_t hashOfWarps(int threads) {
 
 TEST_F(WarpThreadsGl, WritesTheHashOfItsPicture) {
     const char* file = std::getenv(kHashFile);
-    if (file == nullptr) GTEST_SKIP() << "run by WarpThreads.PicturesAreEqualWithOneAndTwoThreads";
+    if (file == nullptr)
+        GTEST_SKIP() << "only WarpThreads.PicturesAreEqualWithOneAndTwoThreads runs this test";
     std::ofstream(file) << hashOfWarps(std::atoi(std::getenv("LP_NUM_THREADS")));
 }
 

@@ -115,7 +115,7 @@ void expectSame(const std::vector<std::uint8_t>& gles, const std::vector<std::ui
     }
     const auto values = static_cast<double>(gles.size());
     EXPECT_GT(bright, 0.1 * values);
-    EXPECT_LT(std::sqrt(sum / values), 1.2) << "[grey levels]";
+    EXPECT_LT(std::sqrt(sum / values), 1.2) << "root mean square difference [grey levels]";
     EXPECT_LT(apart, 0.002 * values);
 }
 
