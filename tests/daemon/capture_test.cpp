@@ -212,7 +212,8 @@ TEST(CaptureThread, RepeatedPicturesAreDetectedOnlyForRealSensors) {
 
 TEST(CaptureThread, OneThreadReadsALosslessSourceInOrder) {
     Capture capture(HandOver::Lossless);
-    // All waiting stills must be delivered with the frame, because no other thread fetches them.
+    // The thread that fetches the frames also fetches the stills. Each frame must come with the
+    // still before it.
     for (int i = 1; i <= 4; ++i)
         capture.still().send(i);
     for (int i = 1; i <= 4; ++i)
