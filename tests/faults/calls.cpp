@@ -94,8 +94,8 @@ Ns deadlineIn(Ns time) {
     return Scheduler::get().look() + std::max<Ns>(time, 0);
 }
 
-/// Repeats `attempt` until it succeeds. A thread that releases a lock wakes the threads that wait
-/// with the same key.
+/// Repeats `attempt` while it returns EBUSY. Returns its other result, or ETIMEDOUT at the
+/// deadline. A thread that releases a lock wakes the threads that wait with the same key.
 template <class Attempt>
 int lockWith(const void* key, Attempt attempt, Ns deadline = kNever) {
     Scheduler& all = Scheduler::get();

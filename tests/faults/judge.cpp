@@ -335,7 +335,7 @@ bool Judge::holdsNoMore(std::uint64_t moreBytes) {
     const Held is{openFiles(), entries("/proc/self/task"), residentBytes()};
     if (!first_) first_ = is;
     const Held& first = *first_;
-    note(fmt::format("mfard has {} descriptors, {} threads, {} KB; at the start {}, {}, {}",
+    note(fmt::format("mfard has {} descriptors, {} threads, {} KB; at the first check {}, {}, {}",
                      is.files.size(), is.threads, is.bytes >> 10U, first.files.size(),
                      first.threads, first.bytes >> 10U));
     const bool moreFiles = is.files.size() > first.files.size();
