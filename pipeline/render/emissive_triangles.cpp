@@ -12,8 +12,8 @@ namespace {
 // The mean emission of a textured triangle is computed from about four points per texel, and from
 // at most kMostSteps^2 points.
 constexpr int kMostSteps = 32;
-// A sample's ray ends behind the sampled point, at its distance times this factor. Otherwise,
-// rounding errors could make the ray end before it hits the triangle.
+// A sample's ray ends behind the sampled point, at the point's distance times this factor. If it
+// ended at the point, rounding errors could make it end before it hits the triangle.
 constexpr float kBehind = 1.001F;
 constexpr double kLastBit = 0x1p-24;  // smallest difference of two numbers of PixelSampler
 

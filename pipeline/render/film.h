@@ -38,7 +38,7 @@ struct SeenSurface {
 
 struct FilmSample {
     FirstHit hit;
-    Eigen::Vector3f radiance{0, 0, 0};  ///< radiance of the object or catcher, with all objects
+    Eigen::Vector3f radiance{0, 0, 0};  ///< radiance of the hit surface if all objects exist
     Eigen::Vector3f without{0, 0, 0};   ///< radiance of the shadow catcher if no object existed
     SurfaceLight light{};               ///< light on the hit object
     SurfaceLight far{{1, 1, 1}, {1, 1, 1}};
@@ -82,7 +82,8 @@ public:
 
     /// Number of samples so far, including dropped ones; also the index of the next sample.
     [[nodiscard]] std::uint32_t samples(std::size_t pixel) const { return at(pixel).taken; }
-    /// Number of samples of all pixels that were dropped because they were negative or not finite.
+    /// Number of dropped samples of all pixels. A sample is dropped if its light is negative or not
+    /// finite.
     [[nodiscard]] std::uint64_t dropped() const;
 
     void add(std::size_t pixel, const FilmSample& sample);
@@ -131,8 +132,9 @@ public:
     /// Returns a pixel's light as input of a NoiseFilter. resolvedFrom() converts the filter's
     /// output to a pixel.
     [[nodiscard]] LightPixel light(std::size_t pixel, const Exposure& exposure) const;
-    /// Stores filtered light as carried light in a pixel that shows a surface and has no samples. A
-    /// part of the light that the pixel already carries stays unchanged.
+    /// Stores filtered light as carried light in a pixel that shows a surface and has no samples.
+    /// If the pixel already carries a part of its light (`first` or `second`), this part stays
+    /// unchanged.
     void remember(std::size_t pixel, const LightPixel& light);
     /// Returns a pixel of the picture from filtered light. At an edge, the pixel shows a mixture of
     /// all its surfaces. If `layered` is true, it shows only the surface that has the filtered
@@ -202,8 +204,8 @@ private:
         return (block.begun.load(std::memory_order_relaxed) >> i & 1U) != 0 ? block.pixels[i]
                                                                             : kNothing;
     }
-    /// Returns the index in memory. Pixels of a tile lie together in sampling order, so that a
-    /// sparsely sampled tile uses few blocks.
+    /// Returns the pixel's index in the sequence of all blocks. Pixels of a tile lie together in
+    /// sampling order, so that a sparsely sampled tile uses few blocks.
     [[nodiscard]] std::size_t placeOf(std::size_t pixel) const;
     [[nodiscard]] Pixel& begun(std::size_t pixel);
 

@@ -98,8 +98,9 @@ Film::Resolved Film::resolvedFrom(const LightPixel& light, std::size_t pixel,
     const bool mixed = !layered && !isWhole(p);
     Resolved out = resolved(p, mixed ? shown(p, exposure) : shown(m, exposure));
     out.light = words;
-    // A layered picture shows the surface at the pixel's centre. Here the shadow comes from the
-    // neighbours; the pixel's own samples may all have hit an object.
+    // A layered picture shows the surface at the pixel's centre. On the shadow catcher, its shadow
+    // may come from neighbouring pixels only, while all samples of the pixel itself hit an object.
+    // Then resolved() has returned this object's hit.
     const bool onCatcher = light.id == kCatcherId && p.seen.hit.id == kCatcherId;
     if (layered && onCatcher && out.hit.id != 0) out.hit = p.seen.hit;
     return out;

@@ -13,9 +13,9 @@
 namespace mfar {
 namespace {
 
-// An unknown variance of a pixel is estimated from neighbours up to kSpreadReach steps of
-// kSpreadStep pixels away. Sparse sampling gives samples to one pixel in 16, at distances of 4
-// pixels. If fewer than kSurely neighbours have samples, the estimate is raised.
+// An unknown variance of a pixel is estimated from the pixel and from neighbours up to kSpreadReach
+// steps of kSpreadStep pixels away. Sparse sampling gives samples to one pixel in 16, at distances
+// of 4 pixels. If fewer than kSurely of these pixels have samples, the estimate is raised.
 constexpr int kSpreadReach = 2, kSpreadStep = 4;
 constexpr float kSurely = 4;
 // A difference of more than this many standard errors is not noise.

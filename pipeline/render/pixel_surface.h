@@ -21,8 +21,7 @@ public:
           eye_(view.T_world_camera.translation.cast<float>()),
           focal_(static_cast<float>(view.camera.fx)) {}
 
-    /// The direction has z = 1 in the camera's frame, so that a distance along the ray is the
-    /// depth.
+    /// The direction has z = 1 in the camera's frame, so that RayHit::t of a hit is its depth.
     [[nodiscard]] Ray at(const Eigen::Vector2f& pixel) const {
         return {eye_, rotation_ * lens_->at(pixel.x(), pixel.y()).homogeneous()};
     }

@@ -80,7 +80,8 @@ private:
 
     explicit RayScene(std::shared_ptr<RTCDeviceTy> device);
     void attach(RTCGeometryTy* geometry, std::uint32_t firstMesh);
-    /// `instance` is Embree's number of the placed part, or kNone for a single mesh.
+    /// `instance` is Embree's number of the placed part, or RTC_INVALID_GEOMETRY_ID for a mesh that
+    /// add() added.
     [[nodiscard]] std::uint32_t meshOf(std::uint32_t instance, std::uint32_t geometry) const;
     template <std::size_t Width, typename Packet>
     void intersectInPackets(std::span<const Ray> rays, std::span<RayHit> hits) const;
