@@ -39,8 +39,8 @@ public:
     explicit BudgetController(double msPerFrame);
 
     /// Begins a frame. `workWaits` must be true if work was left over in the last frame. If it is
-    /// true, kept() counts the last frame, and a small part of the last frame's unused time is
-    /// added to the new frame. `extraMs` is added to the budget of the new frame alone.
+    /// true, kept() counts the last frame, and the last frame's unused time, up to 8 % of the
+    /// budget, is added to the new frame. `extraMs` is added to the budget of the new frame alone.
     void beginFrame(bool workWaits, double extraMs = 0);
 
     [[nodiscard]] BudgetGrant grant();

@@ -13,8 +13,8 @@
 namespace mfar {
 
 /// Divides hole requests into portions to trace, one request after the other. Only one thread at a
-/// time may call it, except that threads that trace a portion may use request() and film() at any
-/// time until done().
+/// time may call it. One exception: a thread that traces a portion may use request() and film()
+/// until done() is called for the portion, also while another thread calls another function.
 class HoleTracer {
 public:
     /// Pixels of a request beyond `mostPixels` are dropped. `memory` is for the film.
@@ -31,9 +31,8 @@ public:
     /// the view is invalid.
     void prepare();
 
-    /// Returns pixels to trace now, with request().samples samples each. They have at most
-    /// `mostSamples` samples in total, but there is at least one pixel. Empty if all pixels were
-    /// returned before.
+    /// Returns the next pixels to trace, with request().samples samples each: as many as fit into
+    /// `mostSamples` samples in total, but at least one. Empty if all pixels were returned before.
     [[nodiscard]] std::span<const std::uint32_t> next(std::int64_t mostSamples);
     void done(std::span<const std::uint32_t> pixels) { done_ += pixels.size(); }
     [[nodiscard]] bool tracing() const {

@@ -12,9 +12,9 @@ namespace {
 
 using sampling::evenlySpread, sampling::mortonCode, sampling::kTileEdge, sampling::kTilePixels;
 
-// Numbers of turns in Slicing::Time. In turn kLook, one ray is traced through each pixel's centre.
-// The turns between kLook and kFirstFull sample only some pixels. From turn kFirstFull on, all
-// pixels are sampled.
+// The turns of Slicing::Time are numbered from 1. In turn kLook, one ray is traced through each
+// pixel's centre. The turns between kLook and kFirstFull sample only some pixels. From turn
+// kFirstFull on, all pixels are sampled.
 constexpr int kLook = 1, kFirstFull = 4;
 
 int gathered(std::uint32_t v) {

@@ -81,7 +81,8 @@ public:
     /// wait for the kernel.
     void provide(RenderedPicture& out);
 
-    /// The next portion of the picture in progress. Without pixels, there is nothing to trace now.
+    /// The next portion of the picture in progress. If it has no pixels, there is nothing to trace
+    /// now.
     struct Portion {
         Slice slice;
         std::size_t picture = 0;
