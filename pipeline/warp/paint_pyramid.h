@@ -27,9 +27,10 @@ struct PaintPicture {
     Size size;
     std::vector<PaintWords> texels;
 };
-/// Combines a material's textures of base colour and metallic into one picture. The picture has the
-/// size of the larger texture, but no side is longer than `longestSide` texels. Returns it and all
-/// smaller pyramid levels down to one texel, largest first. Takes 4 ns per texel.
+/// Combines a material's textures of base colour and metallic into one picture. Its width is that
+/// of the wider texture, its height that of the higher texture, both limited to `longestSide`
+/// texels. Returns it and all smaller pyramid levels down to one texel, largest first. Takes 4 ns
+/// per texel.
 [[nodiscard]] std::vector<PaintPicture> paintPyramid(const PaintSource& source, int longestSide);
 
 }  // namespace mfar

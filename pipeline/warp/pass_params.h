@@ -79,8 +79,8 @@ struct alignas(16) EyeLight {
     std::int32_t mirrors;  ///< 1: mirrored light is computed for `eye`; 0: it stays unchanged
 };
 
-/// One level of the pyramid from which missing pixels are filled: its position in memory and in the
-/// picture.
+/// One level of the pyramid from which missing pixels are filled: its position in the array of all
+/// levels and in the picture.
 struct alignas(16) HoleLevel {
     std::int32_t first;  ///< index of this level's first texel in the array of all levels
     std::int32_t columns;

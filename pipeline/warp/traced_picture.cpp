@@ -79,7 +79,7 @@ private:
 
 /// Replaces a pixel's colour and light by the mean of adjacent pixels that show the same surface
 /// and have an unmixed colour (isPlain()). For the shadow catcher, pixels without a surface count,
-/// too, because they have no shadow. Returns false if there are none.
+/// too, because they have no shadow. Returns false if no adjacent pixel counts.
 bool takeFromNeighbours(const PictureGrid& grid, std::span<const LightWords> light,
                         TracedPicture& r, int x, int y) {
     const int own = grid.id(x, y);

@@ -80,8 +80,8 @@ struct TracedPicture {
 
 /// Motion of a traced picture's points from the picture's own view to another view of the layer.
 struct WarpMotion {
-    /// [px]. Infinite if a point moves behind the near plane, or if the picture shows a surface and
-    /// its size differs from the layer's.
+    /// Largest motion of a point [px]. Infinite if a point moves in front of the near plane, or if
+    /// the picture shows a surface and its size differs from the layer's.
     double greatest = 0;
     PixelRect bounds;  ///< bounds of the points in the other view
 };

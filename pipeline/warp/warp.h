@@ -16,7 +16,7 @@ namespace mfar {
 struct WarpCounters {
     std::uint64_t warped = 0;     ///< frames that were warped
     std::uint64_t unmoved = 0;    ///< frames that show the traced picture without a warp
-    std::uint64_t empty = 0;      ///< frames without a virtual object in view
+    std::uint64_t empty = 0;      ///< frames for which run() returned an empty layer
     std::uint64_t requested = 0;  ///< pixels requested for individual rendering
     std::uint64_t answered = 0;   ///< requested pixels that were rendered
     std::uint64_t rays = 0;       ///< samples of the requested pixels
@@ -86,8 +86,8 @@ private:
     std::optional<TracedPicture> traced_;
     std::uint64_t scene_ = 0;
     bool asked_ = false;
-    // The last requests for missing pixels, all for the same view, at most kPictures of
-    // RerenderedPictures.
+    // The last requests for missing pixels, all for the same view. Keeps at most
+    // RerenderedPictures::kPictures of them.
     struct {
         RigidTransform T_world_camera;
         std::vector<std::vector<std::uint32_t>> pixels;
