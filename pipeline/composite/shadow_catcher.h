@@ -38,11 +38,12 @@ struct GroundPlane {
 [[nodiscard]] ShadowCatcher planeCatcher(std::span<const GroundPlane> planes,
                                          int cells = kPlaneCells);
 
-/// Returns the measured surface of the real scene near the objects, up to the distance
-/// planes[0].reach from their bounds. Its vertices are video pixels of `where` with known depth, a
-/// few pixels apart. Four neighbours are joined by two triangles unless depth jumps between them.
-/// Vertices that cannot be distinguished from one of the planes are moved onto it. planes[0] must
-/// be the plane of the tag map with the bounds of all objects, as groundPlanes() returns it.
+/// Returns the measured surface of the real scene near the objects: inside their bounds, extended
+/// on all sides by planes[0].reach times half of the diagonal. Its vertices are video pixels of
+/// `where` with known depth, a few pixels apart. Four neighbours are joined by two triangles unless
+/// depth jumps between them. Vertices that cannot be distinguished from one of the planes are moved
+/// onto it. planes[0] must be the plane of the tag map with the bounds of all objects, as
+/// groundPlanes() returns it.
 [[nodiscard]] ShadowCatcher depthCatcher(const InverseDepthField& field, const CameraModel& video,
                                          const RigidTransform& T_world_video,
                                          const PixelRect& where,

@@ -39,8 +39,8 @@ public:
     /// the approximate depth of the real scene as the camera sees it. Returns the rectangle of the
     /// video pixels whose real depth must be measured to find which parts of the objects are
     /// visible. The rectangle is empty if neither an object nor a surface that may be shaded is in
-    /// the picture. It is also empty in up to kMostRelied frames in a row if `known` shows that the
-    /// real scene lies behind all objects.
+    /// the picture. It is also empty in up to 8 frames in a row (kMostRelied) if `known` shows that
+    /// the real scene lies behind all objects.
     PixelRect place(const std::optional<RigidTransform>& T_world_video, Timestamp time,
                     const InverseDepthField& known);
     [[nodiscard]] const PixelRect& region() const { return region_; }
