@@ -21,9 +21,9 @@ constexpr int kMostHdrWidth = 16384, kMostLdrWidth = 8192;
 
 void requireLatLong(Size size, int mostWidth) {
     if (size.width < 2 || size.height < 1 || size.width > mostWidth || size.height > mostWidth)
-        throw std::runtime_error(
-            fmt::format("the picture has {}x{} pixels; at most {} per side are supported",
-                        size.width, size.height, mostWidth));
+        throw std::runtime_error(fmt::format(
+            "the picture has {0}x{1} pixels; at least 2x1 and at most {2}x{2} are supported",
+            size.width, size.height, mostWidth));
     if (std::abs(size.width - 2 * size.height) > std::max(size.width / 100, 1))
         throw std::runtime_error(
             fmt::format("the picture of {}x{} pixels is not a latitude-longitude picture, which "

@@ -32,8 +32,8 @@ struct ModelLimits {
     int textureSide = 8192;                       ///< largest width and height of a texture [px]
     std::size_t texels = std::size_t{64} << 20U;  ///< in all textures together
     std::size_t jsonValues = 2'000'000;
-    /// Sum over all tracks of the animation that are read, and over the tracks of all moving nodes
-    /// and their moving ancestors.
+    /// Keyframes of all tracks together. A track counts when it is read, and once more for each
+    /// moving node that it moves, directly or because it moves an ancestor of the node.
     std::size_t keyframes = 1'000'000;
     /// Largest absolute value of a coordinate after all transforms, and of each coordinate in an
     /// animation [m, m/s].

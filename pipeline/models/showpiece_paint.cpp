@@ -18,8 +18,9 @@ float step(float from, float to, float x) {
     return t * t * (3 - 2 * t);
 }
 
-/// Returns the coverage of a painted line at this distance from its middle: 1 at distance zero,
-/// decreasing smoothly to 0 around `half`, half of the line's width.
+/// Returns the coverage of a painted line at this distance from its middle. `half` is half of the
+/// line's width. The coverage is 1 up to 0.6 `half` and 0 from 1.4 `half` on, and falls smoothly
+/// between.
 float line(float distance, float half) {
     return 1 - step(0.6F * half, 1.4F * half, std::abs(distance));
 }
