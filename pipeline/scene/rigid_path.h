@@ -16,8 +16,8 @@ struct MotionTrack {
     Between between = Between::Linear;
     std::vector<double> times;  ///< [s], strictly increasing; empty: the value does not change
     /// One value for each time: a translation (x, y, z, 0) [m] or a unit quaternion (x, y, z, w).
-    /// CubicSpline has three entries for each time: tangent before the time [1/s], value, and
-    /// tangent after the time [1/s].
+    /// CubicSpline has three entries for each time: tangent before the time, value, and tangent
+    /// after the time. A tangent is the change of the value per second.
     std::vector<Eigen::Vector4d> values;
 
     /// Returns the first value before the first time, and the last value after the last time.

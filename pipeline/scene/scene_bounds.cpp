@@ -20,7 +20,8 @@ std::vector<double> timesOf(const RigidPath& path) {
         for (const MotionTrack* track : {&joint.translation, &joint.rotation})
             for (const double time : track->times) {
                 out.push_back(time);
-                // At its end, the motion has begun again.
+                // At time `length`, the path returns the pose of time 0, because the motion
+                // repeats. The last pose of the motion is found just before.
                 out.push_back(std::nextafter(time, 0.0));
             }
     return out;

@@ -74,8 +74,8 @@ struct VirtualOptions {
     HoleFilling holes = HoleFilling::Both;
     int threads = 1;
     bool filter = true;
-    /// A new traced picture is begun at the latest when the view has turned by this angle
-    /// [degrees].
+    /// A new traced picture is begun at the latest when the direction from an object to the camera
+    /// has turned by this angle [degrees].
     double turnDeg = 4;
 
     bool operator==(const VirtualOptions&) const = default;
