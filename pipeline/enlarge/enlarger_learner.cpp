@@ -32,7 +32,7 @@ constexpr double kLeastSharpness = 1.03;
 // A tile has changed if the mean of one of its 4x4-pixel blocks changed by more than this [grey
 // levels].
 constexpr int kNewFrom = 4;
-constexpr double kLeastNew = 0.1;
+constexpr double kLeastNew = 0.1;  // least share of changed tiles in a still that is learned from
 // A learned filter is selected if its error is less than kWorthwhile times the error of the shipped
 // filter or of the zero filter, whichever is better.
 constexpr double kWorthwhile = 0.998;
@@ -85,7 +85,8 @@ EnlargerLearner::Outcome EnlargerLearner::add(const MatchedPictures& pictures,
         ++counts_.refused;
         return Outcome::Refused;
     }
-    // If fineMatch_ has learned from the still, the other parts must, too.
+    // Once fineMatch_ has learned from the still, everything else must learn from it, too, even if
+    // `stop` is requested meanwhile.
     if (!fineMatch_.add(pictures, stop) && stop.stop_requested()) return Outcome::Stopped;
     learnTone(pairs, pictures.tone);
     ++counts_.stills;
@@ -100,8 +101,8 @@ EnlargerLearner::Outcome EnlargerLearner::add(const MatchedPictures& pictures,
     return replaced ? Outcome::Replaced : Outcome::Kept;
 }
 
-// A wrong tone curve can prevent all matches. Then no still is ever learned from that could correct
-// the curve, so it is dropped after several refused stills.
+// A wrong tone curve can prevent all matches. As nothing is learned without matches, the curve
+// would then never be corrected. So it is dropped after several refused stills.
 EnlargerLearner::Outcome EnlargerLearner::refusedWith(const StillTone& tone) {
     if (tone.isIdentity() || ++refusedInARow_ < kMostRefused) return Outcome::Refused;
     refusedInARow_ = 0;

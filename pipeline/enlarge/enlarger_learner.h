@@ -40,7 +40,8 @@ public:
         Repeated,  ///< nothing learned: the still shows too little new
         Stopped,   ///< nothing learned: `stop` was requested
         Refused,   ///< nothing learned: few trusted pixels, a still hardly sharper than the video,
-                   ///< a still that contradicts the filters in use, or different tone curves
+                   ///< or a still that contradicts the filters in use; in addOlder() also if
+                   ///< the tone curves differ or GuidanceLearner::add() returns false
     };
     /// Learns from a still. If `stop` is requested, the call returns soon and nothing is learned.
     Outcome add(const MatchedPictures& pictures, const std::stop_token& stop = {});
@@ -111,9 +112,9 @@ private:
     enlarge::ToneLearner tone_;
     int refusedInARow_ = 0;  // number of stills with a tone curve that were refused in a row
     std::shared_ptr<const FilterBank> inPlace_;
-    // Means over 4x4 video pixels. `shown_`: for each tile, the means when filters were last
-    // learned from it; its size in blocks is `shownSize_`. `means_`: the means of the picture that
-    // was last given to findNew().
+    // Means over blocks of 4x4 video pixels. `shown_` (`shownSize_` blocks): for each tile, its
+    // means when filters were last learned from it. `means_`: the means of the picture that was
+    // last given to findNew().
     std::vector<std::uint8_t> shown_, means_;
     Size shownSize_{};
     std::vector<std::uint8_t> isNew_;

@@ -170,7 +170,7 @@ void FactorSums::fade(double share) {
 }
 
 bool FactorSums::isFinite() const {
-    // Products of different values are not larger than their squares, so they are finite as well.
+    // The product of two values is at most the larger of their squares, so it is finite as well.
     return std::isfinite(products_.trace() + missing2_);
 }
 

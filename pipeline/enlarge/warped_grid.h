@@ -29,8 +29,8 @@ public:
         return mean_[static_cast<std::size_t>(y) * video_.width + x];
     }
 
-    /// Returns the root of the mean square of a pixel's grey levels minus their mean. It is never
-    /// negative, and 0 if all are equal.
+    /// Returns the difference a - b for the sub-pixels of a pixel, where a is the root of their
+    /// mean square and b is their mean. It is never negative, and 0 if all are equal.
     [[nodiscard]] float rootAboveMean(int x, int y) const;
 
 private:
