@@ -11,7 +11,7 @@ namespace mfar {
 namespace {
 
 constexpr float kUnitTolerance = 1e-3F;
-constexpr float kHalfTurn = 1.57079632679F;
+constexpr float kQuarterTurn = 1.57079632679F;
 
 void require(bool sound, const std::string& what) {
     if (!sound) throw std::invalid_argument("scene: " + what);
@@ -93,7 +93,7 @@ void checkLighting(const Lighting& lighting) {
     require(std::abs(sun.towards.norm() - 1) < kUnitTolerance,
             "the sun's direction does not have length 1");
     require(isRadiance(sun.irradiance), "the sun's irradiance is negative or not finite");
-    require(sun.angularRadius > 0 && sun.angularRadius < kHalfTurn,
+    require(sun.angularRadius > 0 && sun.angularRadius < kQuarterTurn,
             "the sun's angular radius is not between 0 and pi/2 rad");
 }
 
