@@ -17,8 +17,8 @@ vec2 projectRay(Lens c, vec2 ray) {
 }
 
 // Inverts the lens distortion by fixed-point iterations. Newton steps are not used: outside the
-// lens's field of view, where the distorted radius falls again, a step could end far from the
-// solution.
+// lens's field of view, where the distorted radius decreases as the ray's radius grows, a step
+// could end far from the solution.
 vec2 unprojectPixel(Lens c, vec2 pixel) {
     vec2 target = (pixel - vec2(c.cx, c.cy)) / vec2(c.fx, c.fy);
     vec2 ray = target;

@@ -103,8 +103,9 @@ void main() {
     prepareSteps(known, cell);
     vec2 u = flowAt(cell), best = u;
     float cost = 1e9;
-    // After the first iteration that does not lower the cost, the remaining iterations compare the
-    // best position again. On vector processors, this is cheaper than leaving the loop.
+    // After an iteration that does not lower the cost, or whose step is too short, the remaining
+    // iterations compare the best position again. On vector processors, this is cheaper than
+    // leaving the loop.
     for (int k = 0; k <= params.steps; ++k) {
         Match m = compareBent(lb, cell, u, dx, dy);
         bool better = m.cost < cost;

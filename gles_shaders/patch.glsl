@@ -1,4 +1,4 @@
-// Reads patches of 8x8 pixels of a luma pyramid level, row by row. A cell's patch has the centre of
+// Reads patches of 8x8 pixels of a luma pyramid level, row by row. A cell's patch is centred on
 // the cell, except at the border; see patch_start.glsl. Needs `uint luma[]` and the functions of
 // luma.glsl.
 #include "patch_start.glsl"
@@ -43,7 +43,7 @@ struct Window {
     int first, y;
     uint shift;     // number of bits in the first word before the patch's first pixel
     vec2 f;         // fractional part of the patch's position (x, y) [px]
-    uvec3 above;
+    uvec3 above;    // packed pixels of row y
 };
 
 uvec3 fetchPixels(LumaLevel l, Window w) {

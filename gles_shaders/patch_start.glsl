@@ -7,7 +7,7 @@ ivec2 patchStart(ivec2 cell, ivec2 size) {
     return max(min(4 * cell - 2, size - 8), ivec2(0));
 }
 
-// Returns how far patchStart() moves a patch from the place around the middle of its cell.
+// Returns how far [px] patchStart() moves a patch away from the centre of its cell.
 ivec2 patchShift(ivec2 cell, ivec2 size) {
     return patchStart(cell, size) - (4 * cell - 2);
 }

@@ -8,9 +8,9 @@
 // pixel from the mean (x, y), inverse Hessian (xx, xy, yy). The next five floats belong to
 // patch_refine.glsl. Two more are the position (x, y) of the patch's first pixel without
 // displacement; a comparison has no free registers for them. The last words are not used.
-// No GPU has enough registers for the template and a comparison. Indexing by variables makes the
-// compiler keep the array in memory; Mali's compiler does so only for more than 64 words. Here and
-// in the files that include this file, the compiler does not know the length of loops over the
+// A board's GPU lacks registers for both the template and a comparison. Indexing by variables makes
+// the compiler keep the array in memory; Mali's compiler does so only for more than 64 words. Here
+// and in the files that include this file, the compiler does not know the length of loops over the
 // rows. So it does not unroll the loops and keeps only one row in registers.
 uint templateWords[72];
 

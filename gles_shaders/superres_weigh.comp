@@ -10,7 +10,7 @@
 // two gains is used.
 // Where the flow is uniform, both sensors see the surface from the same direction. Their
 // correlation at the video's resolution says little about detail that aliases in the video. A match
-// that is probably correct is therefore trusted fully.
+// that is probably correct is therefore trusted fully: its trust is kLookUpLoss.
 // Where the flow varies, the still shows the surface from another direction. The trust is then the
 // square of the share of the video's variance that the still explains. Where the flow is
 // discontinuous, look-ups between cells are invalid, and the trust is 0.

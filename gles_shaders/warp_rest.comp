@@ -1,7 +1,7 @@
 // Second pass of the warp for the pixels that warp_look_up.frag leaves: pixels at edges, whose
-// coverage is a multiple of a quarter, and pixels that the traced picture does not show. Pixels of
-// objects among the latter are looked up in re-rendered pictures, which contain pixels that were
-// traced later to fill gaps.
+// coverage is a multiple of a quarter, and pixels that the traced picture does not show. If such a
+// pixel belongs to an object, it is looked up in the re-rendered pictures, which contain pixels
+// that were traced later to fill gaps.
 // A pixel is composed of an object and, below it, the shadow catcher.
 // In: list[] of warp_rest_list.comp. Out: colour, z and state of the pixels; holes[];
 // holeCommands[].

@@ -13,7 +13,7 @@ layout(binding = 2) uniform sampler2D alpha;
 #endif
 in vec2 texel;
 // Added to the mipmap level, to make the paint sharper. This causes no aliasing, because a pixel
-// shows the mean of four samples.
+// of the layer shows the mean of four pixels of this pass.
 const float kSharper = -0.5;
 layout(location = 0) out uint surface;
 layout(location = 1) out vec4 diffuse;

@@ -1,5 +1,5 @@
 // Packs a surface into one word: the upper 24 bits are those of z as a float [m] (relative
-// precision 2^-16), and the lower 8 bits are the number of the object.
+// precision 2^-16), and the lower 8 bits are the surface's number (of an object or the catcher).
 #include "pipeline/warp/pass_params.h"
 
 const uint kCatcher = kCatcherNumber;
