@@ -109,8 +109,8 @@ private:
 };
 
 /// mfar's flow: along epipolar lines if both poses are known, otherwise in two dimensions.
-/// The time includes the pyramid and the search: along the lines with its refinement, or in two
-/// dimensions in both directions.
+/// The time includes the pyramid and the search. The search along epipolar lines includes its
+/// refinement; the search in two dimensions computes both directions of the flow.
 class ProductMethod final : public FlowMethod {
 public:
     ProductMethod(const StereoRig& rig, bool usePoses)

@@ -18,7 +18,8 @@ public:
     virtual void setStill(const Shot& still) = 0;
     struct Result {
         cv::Mat flow;  ///< CV_32FC2 [video px], see FlowField in pipeline/results.h; NaN: no result
-        /// Median wall time of three runs after one that warms up, without the work for each still.
+        /// Median time of three runs (by methodClock) after one that warms up, without the work for
+        /// each still.
         double ms = 0;
         cv::Mat confidence{};  ///< CV_32F of every pixel; empty if the method has none
     };

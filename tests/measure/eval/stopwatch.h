@@ -37,7 +37,7 @@ template <class F>
     return (now() - begin) / std::max(1U, std::thread::hardware_concurrency());
 }
 
-/// The clock of FlowMethod::Result::ms and DepthMethod::Result::ms.
+/// The clock of FlowMethod::Result::ms, and thus of depth methods that use a FlowMethod.
 inline Clock methodClock = Clock::Wall;
 
 template <class F>

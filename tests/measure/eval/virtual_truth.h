@@ -21,7 +21,7 @@ struct VirtualTruth {
     cv::Mat silhouette;  ///< whole object, also where it is occluded
     cv::Mat visible;     ///< part that real objects do not occlude
     /// Pixels whose visibility needs accurate depth: the real surface is in front of the object, or
-    /// behind it by less than a tenth of its distance.
+    /// behind it by less than a tenth of the object's depth.
     cv::Mat undecided;
 };
 

@@ -12,8 +12,9 @@ inline Eigen::Vector2f onGrid(const Eigen::Vector2f& v) {
 }
 
 /// Returns w with distort(r + w) - distort(r) = g: the change of the ray `r` that belongs to a
-/// displacement `g` of up to a pixel on the sensor [normalised units]. Newton's method computes the
-/// difference term by term to avoid cancellation. Returns 0 where the lens model is not invertible.
+/// displacement `g` of up to a pixel on the sensor [normalised units]. Uses Newton's method
+/// with the Jacobian at `r`. The difference is computed term by term to avoid cancellation. Returns
+/// 0 where the lens model is not invertible.
 SplitVector undistortStep(const CameraModel& camera, const Eigen::Vector2f& r,
                           const Eigen::Vector2f& g);
 
