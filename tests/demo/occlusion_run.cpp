@@ -119,8 +119,9 @@ OcclusionRun runOcclusion(const Recording& recording, synthetic::Scene scene,
     }
     if (run.last.composite.empty())
         throw std::runtime_error(recording.root.string() +
-                                 ": the last frame needs a pose and the true pictures in "
-                                 "truth/inverse_depth and truth/highres");
+                                 ": the last frame must follow at least eight others and needs a "
+                                 "pose and the true pictures in truth/inverse_depth and "
+                                 "truth/highres");
     divideByFrames(run.quality);
     return run;
 }
