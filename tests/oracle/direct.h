@@ -61,8 +61,8 @@ inline Eigen::Vector2d smoothLine(const DirectCase& in, int x, int y) {
 }
 
 /// Change of the flow per pixel along one axis, at most kSteepestFlow: the smaller one-sided
-/// difference, or 0 if the signs differ. The neighbours are `i` columns and `j` rows away: 2 cells,
-/// 8 px.
+/// difference, or 0 if the signs differ. The neighbours are 2 cells (8 px) away along this axis:
+/// (`i`, `j`) is (2, 0) or (0, 2).
 inline Eigen::Vector2d lineSlope(const DirectCase& in, int x, int y, int i, int j) {
     // A cell at the border has the change of the nearest cell with both differences.
     x = std::max(std::min(x, in.cells.width - 1 - i), i);
@@ -81,7 +81,7 @@ inline Eigen::Vector2d lineSlope(const DirectCase& in, int x, int y, int i, int 
 }
 
 /// Compares the patch of a cell with the still. Returns covariance, variance of the video, variance
-/// of the still, and squared correlation; zeros if the patch is outside of the still.
+/// of the still, and squared correlation; zeros if the patch's centre is outside the still.
 inline Eigen::Vector4d directLikeness(const DirectCase& in, int x, int y,
                                       const Eigen::Vector2d& flow) {
     const Eigen::Vector2d middle(4 * x + 1.5, 4 * y + 1.5);

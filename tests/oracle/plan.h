@@ -119,6 +119,7 @@ inline double structureOf(const Grey& grey, int x0, int y0) {
 }
 
 /// Change of the tile (tileX, tileY) from picture `drawn` to picture `now`. `grey`: luma of `now`.
+/// `grain`: see Drift::beyondNoise().
 inline TileChange tileChange(const TestPicture& now, const TestPicture& drawn, const Grey& grey,
                              int tileX, int tileY, double grain = 1) {
     TileChange out;
@@ -175,7 +176,8 @@ struct ChangeBounds {
 };
 
 /// Sums TileChange::energy over the tiles that do not count as changed by ChangeBounds. If the sum
-/// is larger than noise explains, all these tiles count as changed.
+/// of energy[1] is larger than that of white noise with the same energy[0], all these tiles count
+/// as changed.
 class Drift {
 public:
     void add(const TileChange& t) {

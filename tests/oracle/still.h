@@ -24,7 +24,8 @@ Grey seen(Size grid, const At& at, double footprintX = params::kSeen,
 }
 
 /// Like seen(), for a warped still of the output's size. Bilinear look-ups blur the warped still,
-/// so the footprint is smaller than that of seen(). Both filters have the same variance in total.
+/// so the footprint is smaller than that of seen(): look-ups and footprint together have the
+/// variance of the footprint of seen().
 inline Grey seenOf(const Grey& warped, Size video) {
     const double stepX = static_cast<double>(warped.size.width) / video.width,
                  stepY = static_cast<double>(warped.size.height) / video.height;
@@ -39,8 +40,8 @@ inline Grey seenOf(const Grey& warped, Size video) {
         footprint(stepX), footprint(stepY));
 }
 
-/// Amplifies the finest detail of luma. `neighbours`: share of each of a pixel's four neighbours
-/// that is subtracted.
+/// Amplifies the finest detail of luma. Each of the four neighbours of a pixel is subtracted with
+/// the weight `neighbours`.
 inline Grey raised(const Grey& luma, double neighbours) {
     return greyOf(luma.size, [&](int x, int y) {
         const double beside =

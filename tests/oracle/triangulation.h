@@ -65,8 +65,9 @@ struct Midpoint {
     bool ahead;
 };
 
-/// The method of the paper (see docs/paper.md): returns the midpoint of the shortest line between
-/// the rays of both pixels.
+/// The method of the paper (see docs/paper.md): finds the shortest line between the rays of both
+/// pixels. Returns the inverse depth of its midpoint, its length, and whether both of its ends are
+/// in front of the cameras.
 inline Midpoint midpoint(const TwoViews& views, const Eigen::Vector2d& pixel,
                          const Eigen::Vector2d& flow) {
     const Eigen::Vector3d c = views.T_b_a.inverse().translation;
