@@ -27,6 +27,6 @@ if [[ ! -d $sysroot ]]; then
     mv "$sysroot.part" "$sysroot"
 fi
 touch "$sysroot"
-# Removes sysroots that were not used for two weeks. They were made from other lists of packages.
+# Removes sysroots that were not used for two weeks. Their inputs (see `hash`) were different.
 find "$cache" -maxdepth 1 -name "sysroot-$architecture-*" -mtime +14 -exec rm -rf {} +
 echo "$sysroot"

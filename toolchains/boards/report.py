@@ -50,11 +50,11 @@ def budget_rows(compiled):
 
 
 def check(compiled, allowed, unknown):
-    """Prints the shaders that exceed their budget, and the messages `unknown`. Returns the number of these lines."""
+    """Prints the messages of budget.faults(), and the messages `unknown`. Returns the number of these messages."""
     faults = budget.faults(budget_rows(compiled), allowed)
     for fault in faults + unknown:
         print(fault)
-    print(f'{sum(map(len, compiled.values()))} shaders on {len(compiled)} GPUs; {len(faults)} exceed their budget')
+    print(f'{sum(map(len, compiled.values()))} shaders on {len(compiled)} GPUs; {len(faults)} faults against the budget')
     return len(faults) + len(unknown)
 
 

@@ -13,8 +13,8 @@ MEMORY = re.compile(r'(load|store)_(ssbo|global|shared|scratch)|atomic|image_(lo
 
 @dataclasses.dataclass
 class Loop:
-    """A loop of a shader. Its operations run as often as the outer loop, times its own trip count. The first `loop`
-    of a shader is the whole shader."""
+    """A loop of a shader, without the loops in it. Its operations run as often as those of the outer loop, times its own
+    trip count. The first entry of Shader.loops is the whole shader."""
     depth: int
     parent: int = -1
     arithmetic: int = 0

@@ -14,8 +14,9 @@ complaints() {
     grep -E 'Validation (Error|Warning|Performance)' "$1" | sort | uniq -c | cut -c 1-400
 }
 
-# testDriver DRIVER [CTEST-OPTION...]: runs the tests with the label "driver" on this Mesa driver.
-# These tests draw with GL, and their display does not read pixels into a buffer. For such reads,
+# testDriver DRIVER [CTEST-OPTION...]: runs tests on this Mesa driver: on zink those with the label
+# "driver", on softpipe those with the label "softpipe". The label "driver" is for tests that draw
+# with GL, but without a display for which mfard reads pixels into a buffer object. For such reads,
 # Mesa 22.3 draws into a framebuffer without attachments, and zink then does not call
 # vkCmdSetColorBlendEnableEXT, which the validation layer reports as an error.
 testDriver() {

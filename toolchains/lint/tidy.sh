@@ -1,8 +1,8 @@
 # Functions that run clang-tidy on all files that have changed since clang-tidy last passed. `run`
 # reads this file in the project's folder.
 
-# Prints all files to check: the build's unity files, so that a header of several sources is checked
-# once. Generated sources are left out.
+# Prints all files to check: the build's unity files, which check a header of several sources only
+# once, and the sources that are in no unity file. Generated sources are left out.
 everything() {
     sed -n 's|^ *"file": "\(.*\)",\?$|\1|p' .build/host/compile_commands.json |
         sort -u |
@@ -22,8 +22,7 @@ unlinted() {
     if [[ -n $changed ]]; then everything; return; fi
     changed=$(find base daemon hal pipeline gles_shaders tests -name '*.cpp' -newer "$stamp" -printf "$PWD/%p\n")
     [[ -n $changed ]] || return 0
-    # Unity files that include a changed source, or the source itself, each with the flags of its
-    # target.
+    # Unity files that include a changed source, and changed sources that are in no unity file.
     {
         everything | xargs grep -sFl -e "$changed" || true
         everything | grep -xF -e "$changed" || true
@@ -70,7 +69,8 @@ tidyOptions() {
 }
 
 # tidyFile FILE OPTION...: checks a file. Prints the names of its sources as progress, then
-# clang-tidy's messages. A kernel's file is checked for one instruction set only.
+# clang-tidy's messages. A SIMD kernel is checked for one instruction set only, because
+# sharedOptions() contains HWY_COMPILE_ONLY_STATIC.
 tidyFile() {
     local file=$1 sources=$1 said status=0
     shift

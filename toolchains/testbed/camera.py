@@ -8,7 +8,7 @@ from collections import deque
 import usbredir
 import uvc
 
-END_OF_PICTURE = 0x8e  # flags of the UVC header: end of picture, both times present
+END_OF_PICTURE = 0x8e  # flags of the UVC header: end of picture, both times present, end of header
 ERROR = 0x40
 
 
