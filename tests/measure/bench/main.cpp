@@ -180,11 +180,12 @@ int run(int argc, char** argv) {
             work->filters = learnedFrom(*work);
     const SuperResMode mode = o.mode == "blend" ? SuperResMode::Blend : SuperResMode::Detail;
     const EngineKind engine = EngineChoice::fromEnvironment().detail;
+    const int parts = o.scaling ? 3 : 2;
     BenchResult result = runBench(moving, posed, mode, engine, eval::engineAndRenderer(*context),
-                                  all.part(0, o.scaling ? 2 : 1, ""));
+                                  all.part(0, parts, ""));
     if (o.scaling)
-        result.scaling = runScaling(moving, posed, mode, engine, all.part(1, 2, "scaling"));
-    all.part(9, 10, "").show(0, 1, "path tracer");
+        result.scaling = runScaling(moving, posed, mode, engine, all.part(1, parts, "scaling"));
+    all.part(parts - 1, parts, "").show(0, 1, "path tracer");
     result.render = measureRender(o.quick);
     progress.clear();
     write(result, o);
