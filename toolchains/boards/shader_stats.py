@@ -40,17 +40,6 @@ class Shader:
     def key(self):
         return (self.name + ' ' + self.defines).strip()
 
-    def structure(self):
-        """Returns the nested loops as text: 'L L(L)' is one loop, then a loop that contains another loop."""
-        out, depth = '', 0
-        for loop in self.loops[1:]:
-            if loop.depth > depth:
-                out += '('
-            out += ')' * max(depth - loop.depth, 0)
-            out += ' L' if out and not out.endswith('(') else 'L'
-            depth = loop.depth
-        return out + ')' * max(depth - 1, 0)
-
     def weights(self, trips):
         """Returns the mean number of executions of an operation in one invocation: (arithmetic, memory, texture).
         `trips` contains the trip count of each loop, in order."""
