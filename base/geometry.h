@@ -59,6 +59,7 @@ struct CameraModel {
     /// Returns the model of the same lens for another resolution. A pixel coordinate c becomes
     /// (c + 0.5) s - 0.5, where s is the new width or height divided by the old one.
     [[nodiscard]] CameraModel scaledTo(Size to) const;
+    bool operator==(const CameraModel&) const = default;
 };
 
 /// A rotation and a translation [m]. T_a_b converts coordinates in frame b to coordinates in

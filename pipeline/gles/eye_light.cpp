@@ -66,7 +66,7 @@ void EyeLight::clear() const {
 }
 
 bool EyeLight::mirrorsMove() const {
-    return !traced_->gloss.empty() && traced_->mirrors && sameRays(traced_->camera, layer_);
+    return !traced_->gloss.empty() && traced_->mirrors && traced_->camera == layer_;
 }
 
 void EyeLight::uploadTables() {

@@ -54,11 +54,6 @@ PixelRect LensRays::pixelsIn(const Eigen::Vector2f& least, const Eigen::Vector2f
     return common(out, {0, 0, camera_.size.width, camera_.size.height});
 }
 
-bool sameLens(const CameraModel& a, const CameraModel& b) {
-    return a.size == b.size && a.fx == b.fx && a.fy == b.fy && a.cx == b.cx && a.cy == b.cy &&
-           a.distortion == b.distortion;
-}
-
 bool isSound(const CameraModel& camera) {
     const auto side = [](int pixels) { return pixels >= 1 && pixels <= kLongestSide; };
     const auto focal = [](double f) { return std::isfinite(f) && f > 0; };

@@ -35,7 +35,6 @@ private:
     std::vector<Eigen::Vector2f> nodes_;
 };
 
-[[nodiscard]] bool sameLens(const CameraModel& a, const CameraModel& b);
 /// True if all numbers are finite, the focal lengths are above 0, and the size is 1 to 16384 pixels
 /// per side.
 [[nodiscard]] bool isSound(const CameraModel& camera);

@@ -91,7 +91,7 @@ LightMoments momentsOf(const Lighting& light) {
 
 double viewChange(const RenderView& from, const RenderView& to, std::span<const ObjectBall> objects,
                   const ViewLimits& limits) {
-    if (!sameLens(from.camera, to.camera)) return kInfinity;
+    if (!(from.camera == to.camera)) return kInfinity;
     const ViewCones cones(from.camera);
     const double turnLimit = limits.turnDegrees * std::numbers::pi / 180;
     double change = 0;
@@ -118,7 +118,7 @@ bool isSeen(std::span<const ObjectBall> balls, const RenderView& view) {
 
 double pixelChange(const RenderView& from, const RenderView& to,
                    std::span<const ObjectBall> objects) {
-    if (!sameLens(from.camera, to.camera)) return kInfinity;
+    if (!(from.camera == to.camera)) return kInfinity;
     const RigidTransform before = from.T_world_camera.inverse(),
                          after = to.T_world_camera.inverse();
     const Eigen::Vector2d focal{from.camera.fx, from.camera.fy};

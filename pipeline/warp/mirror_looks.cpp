@@ -29,9 +29,4 @@ std::array<MirrorLook, kRoughnesses> mirrorLooks(const MirrorLight& mirrors) {
     return out;
 }
 
-bool sameRays(const CameraModel& a, const CameraModel& b) {
-    return a.size == b.size && a.fx == b.fx && a.fy == b.fy && a.cx == b.cx && a.cy == b.cy &&
-           a.distortion == b.distortion;
-}
-
 }  // namespace mfar

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "base/geometry.h"
 #include "base/mirror_light.h"
 
 #include <array>
@@ -19,8 +18,5 @@ struct MirrorLook {
 inline constexpr std::size_t kRoughnesses = 256;
 /// Returns the looks of all roughnesses. The index is the roughness byte of GlossWords.
 [[nodiscard]] std::array<MirrorLook, kRoughnesses> mirrorLooks(const MirrorLight& mirrors);
-
-/// True if the pixels of both cameras have the same rays.
-[[nodiscard]] bool sameRays(const CameraModel& a, const CameraModel& b);
 
 }  // namespace mfar
