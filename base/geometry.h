@@ -50,8 +50,8 @@ struct CameraModel {
     /// Returns the derivative of project() with respect to the ray [px].
     [[nodiscard]] Eigen::Matrix2d projectJacobian(const Eigen::Vector2d& ray) const;
     /// Returns the normalised ray (x/z, y/z) of a pixel. Newton iterations invert the distortion.
-    /// They stop shortly before the lens model folds over, which means that several rays map to one
-    /// pixel. The result is then the ray reached so far.
+    /// They end early where the lens model is about to fold over, because several rays map to one
+    /// pixel there. In this case, the result is the ray reached so far.
     [[nodiscard]] Eigen::Vector2d unproject(const Eigen::Vector2d& pixel) const;
     /// Returns unproject(pixel), but faster. `close` is the known ray of a nearby pixel.
     [[nodiscard]] Eigen::Vector2d unproject(const Eigen::Vector2d& pixel,

@@ -76,7 +76,7 @@ void addOthers(CLI::App& app, Options& options, bool& printConfig) {
     app.add_option("--config", options.config, "Configuration file (TOML)")->type_name("FILE");
     app.add_flag("--check-config", options.checkConfig,
                  "Only check the configuration: print ok, or its faults with their lines. The\n"
-                 "files that it names are checked after the keys are correct");
+                 "files that it names are checked only if all keys are correct");
     app.add_flag("--print-config", printConfig,
                  "Only print a configuration file with every key, its meaning and default");
     app.add_flag("--release-trigger", options.releaseTrigger,
@@ -91,12 +91,14 @@ void addOthers(CLI::App& app, Options& options, bool& printConfig) {
                    "At the end, write all measurements to this file (JSON); \"-\" prints them")
         ->type_name("FILE");
     app.add_option("--report", options.report,
-                   "Write a page with charts and pictures to this file (HTML), at the start\nand at the end")
+                   "Write a page with charts and pictures to this file (HTML), at the start\nand "
+                   "at the end")
         ->type_name("FILE");
-    app.add_option("--control", options.control,
-                   "Create this socket, through which mfarctl controls mfard. Members of mfard's\n"
-                   "group may use status and stats. Those who are also in the group mfar-operators\n"
-                   "may use every command")
+    app.add_option(
+           "--control", options.control,
+           "Create this socket, through which mfarctl controls mfard. Members of mfard's\n"
+           "group may use status and stats. Those who are also in the group mfar-operators\n"
+           "may use every command")
         ->type_name("SOCKET");
     app.add_flag("--validate", options.validate,
                  "Check that the engine writes no NaN, infinity or value out of range, and log\n"

@@ -6,8 +6,9 @@
 
 namespace mfar::simd {
 
-// Functions for rows of a still. Rows that are written, and luma rows and 16-bit rows that are
-// read, need 64 more bytes after their end, because the last vector may reach beyond it.
+// Functions for rows of a still. All rows but the cameras' rows that lumaOfPlane() and
+// lumaOfPairs() read need 64 more bytes after their end, because the last vector may reach beyond
+// it.
 
 /// Parameters of lumaOfPlane() and lumaOfPairs(), which compute luma from Y and chroma.
 /// lumaOfPlane() reads a plane of Y; lumaOfPairs() reads byte pairs with Y first. The result is Y *

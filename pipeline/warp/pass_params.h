@@ -16,8 +16,9 @@ inline constexpr std::uint32_t kAnyObjectNumber = 254U;
 inline constexpr int kSurfaceNumbers = 256;
 /// Two depths belong to the same surface if they differ by less than this factor times z.
 inline constexpr float kSameDepth = 0.003F;
-/// A surface's colour is interpolated only between texels that show this surface. The colour is
-/// unreliable if the sum of the texels' weights is not above this limit.
+/// A surface's colour is interpolated only between texels that show this surface; for the
+/// shadow catcher, texels that show no surface count, too. The colour is unreliable if the sum of
+/// these texels' weights is not above this limit.
 inline constexpr float kLeastLookUpWeight = 0.2F;
 /// Cracks of one pixel are filled even if HoleFilling leaves larger holes in the surface empty. In
 /// this case, only this number of pyramid levels is used, the finest ones.

@@ -47,7 +47,7 @@ TEST_F(LibcameraControls, ValuesHaveTheTypeOfTheirControl) {
     EXPECT_EQ(values.at(0).first, controls::ExposureTime.id());
 }
 
-TEST_F(LibcameraControls, ArraysAreSeparatedByCommas) {
+TEST_F(LibcameraControls, ElementsOfAnArrayAreSeparatedByCommas) {
     const ControlValue limits = one("FrameDurationLimits", "33333,40000");
     ASSERT_TRUE(limits.isArray());
     const auto us = limits.get<libcamera::Span<const std::int64_t>>();

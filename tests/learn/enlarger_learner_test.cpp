@@ -125,7 +125,7 @@ TEST(EnlargerLearner, StillsOutOfFocusAreRefused) {
     EXPECT_TRUE(sameFilters(*learner.filters(), FilterBank::prior()));
 }
 
-TEST(EnlargerLearner, ASingleSoftStillIsRefusedButNotASecondOne) {
+TEST(EnlargerLearner, ASoftStillIsRefusedUnlessTheStillBeforeWasAlsoSoft) {
     constexpr SensorPair kSharp{.videoBlur = 1}, kSoft{.videoBlur = 1, .stillBlur = 12};
     EnlargerLearner learner = learned(kSharp, 3);
     const auto before = learner.filters();

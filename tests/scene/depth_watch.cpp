@@ -41,10 +41,10 @@ cv::Mat DepthWatch::trueDepth(Timestamp time) const {
     return out;
 }
 
-// For the point that pixel (x, y) of the new frame shows: returns inverse depth / true inverse
-// depth of the previous frame, at the measured pixel nearest to the point's position in that frame;
-// 0 if it is unknown. `inverseDepth`: true inverse depth of the point in the new frame. `pose`:
-// pose of the new frame (T_world_video).
+// Returns the ratio (measured / true inverse depth) that the previous frame had for the point that
+// pixel (x, y) of the new frame shows. It is read at the measured pixel nearest to the point's
+// position in the previous frame. Returns 0 if it is unknown. `inverseDepth`: true inverse depth of
+// the point in the new frame. `pose`: pose of the new frame (T_world_video).
 double DepthWatch::ratioBefore(int x, int y, double inverseDepth,
                                const RigidTransform& pose) const {
     const CameraModel& video = board_.rig().video;

@@ -120,9 +120,10 @@ void turnedRow(Context& c) {
 struct WholeLabels {
     simd::LabelLines lines{};
     Row raysX, raysY;
-    std::vector<std::array<int, 2>> pixels;  ///< for each pixel, the pixel nearest to its label 0
-    std::vector<double> feet;                ///< position of each pixel's foot [labels]
-    std::array<int, 2> way{};                ///< step per label [px]
+    /// For each pixel of the row, the pixel of the canvas nearest to the point of label 0.
+    std::vector<std::array<int, 2>> pixels;
+    std::vector<double> feet;  ///< position of each pixel's foot [labels]
+    std::array<int, 2> way{};  ///< step per label [px]
 
     WholeLabels(Context& c, std::size_t count, Size canvas) {
         const double focal = c.hostile.integer(60, 120);

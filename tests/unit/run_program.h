@@ -13,7 +13,7 @@
 namespace mfar::test {
 
 struct Outcome {
-    int status = -1;  ///< exit status; -1: a signal ended the program
+    int status = -1;  ///< exit status; 128 + n if signal n ended the program
     std::string text;
 };
 

@@ -141,7 +141,7 @@ TEST_F(PlanDrift, SlowChangesLeaveNoStaleTiles) {
 
 // WorkPlan looks for slow changes in two ways: by a sum over many tiles, which contains only luma,
 // and in each tile, in all channels. Only the second can detect a change of colour alone.
-TEST_F(PlanDrift, ChangesOfColourOnlyAreRedrawnBeforeTheyAreVisible) {
+TEST_F(PlanDrift, ChangesOfColourAloneAreRedrawnBeforeTheyAreVisible) {
     for (const double sigma : {0.5, 2.0})
         EXPECT_LT(watch(brightening(0.3, true), {sigma}, 4, 12).stale,
                   0.1 * (sigma * sigma + 1.0 / 12))

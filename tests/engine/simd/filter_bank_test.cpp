@@ -26,7 +26,7 @@ std::string faultOf(std::span<const std::uint8_t> bytes) {
     return "";
 }
 
-TEST(FilterBank, EachFilterHasOneWeightPerNeighbour) {
+TEST(FilterBank, EachTapIsADifferentNeighbour) {
     std::set<std::pair<int, int>> seen;
     for (int i = 0; i < kTaps; ++i) {
         const Offset at = kTapAt[i];

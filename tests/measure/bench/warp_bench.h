@@ -15,7 +15,7 @@ struct WarpTimes {
     Summary remap;       ///< peer: cv::remap of the whole picture, bilinear
 };
 
-/// Makes `runs` runs after one that warms up. GLES needs a current context.
+/// Measures each quantity in `runs` runs, after one run to warm up. GLES needs a current context.
 [[nodiscard]] WarpTimes measureWarp(Size size, int runs, EngineKind engine);
 
 }  // namespace mfar::bench

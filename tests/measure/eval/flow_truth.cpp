@@ -95,8 +95,8 @@ cv::Mat flowOfInverseDepth(const FloatImage& inverseDepth, const StereoRig& rig,
     CV_Assert(size == rig.video.size);
     const Projection projection(rig, T_still_frame);
     const auto seenAt = [&](int x, int y) -> std::optional<Seen> {
-        const double inverseDepth = inverseDepth.at(x, y);
-        return inverseDepth >= 0 ? projection.see({x, y}, inverseDepth) : std::nullopt;
+        const double here = inverseDepth.at(x, y);
+        return here >= 0 ? projection.see({x, y}, here) : std::nullopt;
     };
     cv::Mat flow(size.height, size.width, CV_32FC2, cv::Scalar(kNan, kNan));
     NearestSurface nearest(flow.size());

@@ -32,8 +32,9 @@ std::vector<double> sumsInOrder(std::span<const float> error, std::span<const fl
     return out;
 }
 
-/// Removes pixels from the end of the order in steps. Returns for each step the mean error of the
-/// remaining pixels divided by the mean error of all pixels.
+/// `sums`: sums of the errors of the first 0, 1, 2, ... pixels in an order. Removes pixels from the
+/// end of the order in steps. Returns for each step the mean error of the remaining pixels divided
+/// by the mean error of all pixels.
 std::vector<double> curveOf(const std::vector<double>& sums) {
     const std::size_t all = sums.size() - 1;
     const double mean = sums.back() / static_cast<double>(all);
