@@ -68,7 +68,7 @@ void expectOnlyChangedTiles(const StepEngines& engines, const simd::Sizes& sizes
                                            static_cast<int>(channel(old, x, y, 1))));
         }
     EXPECT_TRUE(most > 5 || output == video)
-        << "the test needs a still that changes the picture; change: " << most;
+        << "the changed look-ups must change the picture; largest change: " << most;
 }
 
 TEST_P(DetailTilesTest, OnlyChangedTilesAreDrawnAndMatchAWholeFrame) {

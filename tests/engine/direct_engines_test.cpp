@@ -29,7 +29,8 @@ Eigen::Vector2d trueFlow(double x, double y) {
 
 /// A video of fine print that aliases. The flow along epipolar lines (`lines`) is correct except
 /// for small errors and some outliers; most of the refined flow (`given`) has errors of up to 0.8
-/// px along each axis. Some cells are not doubtful, and some are not matched.
+/// px along each axis. Some cells are not doubtful (see params::kGoodCost), and some tiles are not
+/// matched.
 struct Print : SeenStill {
     Print()
         : SeenStill(bentRig(kVideo, kStill), printAt,

@@ -67,7 +67,7 @@ private:
 struct Difference {
     double close = 0;   ///< share of cells that differ by less than kClose
     double median = 0;  ///< median difference [px]
-    double cost = 0;
+    double cost = 0;    ///< mean difference of the matching cost
 };
 constexpr double kClose = 0.02;  // largest difference of two flows that count as close [px]
 

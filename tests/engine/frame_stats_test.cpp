@@ -48,7 +48,7 @@ TestPicture faded(TestPicture picture) {
     return picture;
 }
 
-TEST_P(FrameStatsTest, IfFewTilesAreMatchedTheOthersDoNotCountAsExplained) {
+TEST_P(FrameStatsTest, TilesThatAreNotMatchedAreAssumedToBeExplainedAsOftenAsTheOthers) {
     const TestPicture frame = faded(case_.video({2, 0}));
     for (const bool fits : {false, true}) {
         Pipeline p = pipeline();

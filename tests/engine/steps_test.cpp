@@ -217,13 +217,14 @@ TEST_P(StepsTest, WithoutAStillTheVideoIsEnlarged) {
     for (const Size output : {Size{191, 133}, Size{61, 140}, Size{424, 296}})
         for (const bool cubic : {true, false}) {
             const auto engine = engineFor(plainRig(video, output), output);
-            // Tolerance [grey levels]: shaders round columns to 8 bits; kernels round rows to 1/64
-            // grey level and products to 1/32 grey level.
+            // Tolerance [grey levels]: shaders first enlarge along columns and round the result to
+            // 8 bits. Kernels first enlarge along rows and round the result to 1/64 grey level,
+            // later products to 1/32 grey level.
             const double gain = cubic ? twin::kCubicGain : 1;
             const double most = isGles() ? 0.51 * (1 + gain) * roundingFactor() : 0.65;
             expectEnlarged(*engine, Waves(1, 3, 40, 20).shoot(video, {}), output, cubic, most);
-            // In the pictures below, enlarged columns can leave a byte's range. Shaders clamp them
-            // there, but the oracle and the kernels do not.
+            // When the pictures below are enlarged along columns, values can leave a byte's range.
+            // Shaders clamp them, but the oracle and the kernels do not.
             if (isGles()) continue;
             expectEnlarged(*engine, randomPicture(video, 2), output, cubic, most);
             expectEnlarged(*engine, checkerboard(video), output, cubic, most);

@@ -54,7 +54,8 @@ Eigen::Vector2d middleOf(int x, int y) {
     return {kCell * x + 1.5, kCell * y + 1.5};
 }
 
-/// Flow with errors of 0.15 px. Some tiles are not matched, some cells are not in the still.
+/// Two surfaces, and a given flow with errors of 0.15 px (standard deviation along each axis). Some
+/// tiles are not matched, and some cells are not shown in the still. `light`: see SeenStill.
 struct Surfaces : SeenStill {
     explicit Surfaces(Size video = kVideo, decltype(&textureAt) texture = textureAt,
                       double light = 0)
@@ -175,7 +176,7 @@ TEST_F(SubpixelEngines, BothEnginesMatchTheOracleForPixelsThatAverageLight) {
         double most = 0;
         for (std::size_t i = 0; i < onHost.size(); ++i)
             most = std::max<double>(most, std::abs(onHost[i].x - withoutLight[i].x));
-        EXPECT_GT(most, 0.05) << "the light must make a difference";
+        EXPECT_GT(most, 0.05) << "the way in which pixels average light must change the flow";
     }
 }
 
@@ -188,7 +189,7 @@ TEST_F(SubpixelEngines, BothEnginesMatchTheOracleInPicturesOfAnySize) {
     }
 }
 
-/// Errors of the matched cells in the columns [first, end), without the first and last row [px].
+/// Errors [px] of the matched cells in the columns [first, end), without the first and last row.
 std::vector<double> errorsOf(const Surfaces& in, const std::vector<FlowCell>& flow, int first,
                              int end) {
     std::vector<double> out;
@@ -306,7 +307,7 @@ TEST_F(SubpixelEngines, TheFlowStepsOfBothEnginesCorrectTheirFlow) {
     }
 }
 
-TEST_F(SubpixelEngines, FlowIsMoreExactIfTheLightIsKnown) {
+TEST_F(SubpixelEngines, FlowIsMoreExactIfItIsKnownHowPixelsAverageLight) {
     const Surfaces in(kVideo, patchesAt, 1);
     const StepSetup setup{in.rig, in.rig.still.size, {}, std::make_shared<Workers>(2), nullptr};
     const TileWork work = TileWork::everything(tilesOf(kVideo));
@@ -319,7 +320,7 @@ TEST_F(SubpixelEngines, FlowIsMoreExactIfTheLightIsKnown) {
     }
 }
 
-TEST_F(SubpixelEngines, TheFrameMatcherIsMoreExactIfTheLightIsKnown) {
+TEST_F(SubpixelEngines, TheFrameMatcherIsMoreExactIfItIsKnownHowPixelsAverageLight) {
     const Surfaces in(kVideo, patchesAt, 1);
     FrameMatcher matcher(in.rig);
     const ImageView still = in.stillView();

@@ -18,9 +18,9 @@ using gpu::TexelFormat;
 constexpr Size kSmallVideo{53, 37};  // 4x3 tiles, 14x10 cells
 constexpr Size kOutput{191, 133};
 constexpr Size kSmallStill{200, 140};
-// Tolerances [grey levels]. onceRounded: for a result that is rounded once. twiceRounded: for a
-// result from columns that were rounded to 8 bits. lookedUp: twiceRounded plus a bilinear look-up
-// with weights of 8 bits and positions in half precision.
+// Tolerances [grey levels]. onceRounded: for a result that is rounded once to 8 bits. twiceRounded:
+// for a picture that is rounded after it is enlarged along columns, and again after rows. lookedUp:
+// twiceRounded plus a bilinear look-up with weights of 8 bits and positions in half precision.
 
 double onceRounded() {
     return 0.51 * roundingFactor();
@@ -254,7 +254,7 @@ TEST_F(Draw, TilesCoverThePictureWithoutSeams) {
         drawn("composite_enlarge.frag", params, {gpu::sampler(0, columns)}, kOutput).readRgba8());
 }
 
-TEST_F(Draw, TilesOfConstantWeightEqualTilesWithAnImageOfWeights) {
+TEST_F(Draw, LookUpsBetweenTileCornersGiveTheSamePictureAsLookUpsBetweenCells) {
     const TileParams params = tileParams(kSmallVideo, kSmallStill, kOutput);
     const gpu::Texture columns = columnsOf(Waves(2, 6, 40, 20).shoot(kSmallVideo, {}), params);
     const gpu::Texture still =

@@ -73,7 +73,8 @@ TEST_F(PictureTexture, RowsMayHaveAnyNumberOfBytes) {
     }
 }
 
-// Constant chroma needs no filter. So the tolerance for chroma cannot hide an error of luma.
+// Constant chroma needs no filter. So the test needs no tolerance for chroma, which could hide an
+// error of luma.
 TEST_F(PictureTexture, LumaIsExact) {
     for (const PixelFormat format : {PixelFormat::Yuyv, PixelFormat::Nv12, PixelFormat::Yuv420}) {
         PaddedPicture source(format, kEvenSize, 4);

@@ -22,8 +22,8 @@ TEST_F(PipelineTest, WithoutAStillTheVideoIsEnlarged) {
     const PipelineCase c;
     Pipeline p(c.rig, {});
     p.setQuality({.learned = false});
-    // Low contrast, so that no value leaves a byte's range after the columns are enlarged: the
-    // shaders would clamp it there, but the oracle does not.
+    // Low contrast, so that no value leaves a byte's range when the video is enlarged along
+    // columns: the shaders would clamp it, but the oracle does not.
     const TestPicture video = Waves(1, 1.2, 60, 25, 96).shoot(c.rig.video.size, {});
     const FrameResult& r = p.run(video.view(), {});
     EXPECT_FALSE(r.stats.usedStill);
@@ -34,7 +34,8 @@ TEST_F(PipelineTest, WithoutAStillTheVideoIsEnlarged) {
     for (const double value : twin::enlargedColumns(luma, p.outputSize().height).values)
         ASSERT_TRUE(value > 0 && value < 255);
     const twin::Grey wanted = twin::enlarged(luma, p.outputSize());
-    // Tolerance: the shaders round columns to 8 bits, the kernels round rows to 1/64 grey level.
+    // Tolerance: the shaders first enlarge along columns and round the result to 8 bits. The
+    // kernels first enlarge along rows and round the result to 1/64 grey level.
     const double twiceRounded = 0.51 * (1 + twin::kCubicGain) * roundingFactor();
     const auto image = p.readImage();
     for (std::size_t i = 0; i < wanted.values.size(); ++i)

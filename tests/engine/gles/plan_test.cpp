@@ -41,7 +41,7 @@ TestPicture changedIn(TestPicture base, int tiles, int by) {
     TestPicture out = base;
     for (int t = 0; t < tiles; ++t)
         for (int i = 0; i < 64; ++i) {
-            // Pixels at least four pixels inside the tile. The last column of tiles is only four
+            // Columns and rows 4 to 11 of the tile change. The last column of tiles is only four
             // pixels wide: there, all columns of pixels change.
             const int x = t % 7 == 6 ? 96 + i % 4 : 16 * (t % 7) + 4 + i % 8;
             std::uint8_t* pixel = out.at(x, 16 * (t / 7) + 4 + i / 8);
@@ -217,8 +217,8 @@ TEST_F(Plan, ManyChangedTilesAreDrawnAsAWholeFrame) {
     }
 }
 
-/// A noisy brightness ramp with columns of dots, which are four tiles apart. Column i has the
-/// contrast contrasts[i].
+/// A noisy brightness ramp with columns of dots, which are four tiles apart. The dots of column i
+/// are brighter than the ramp by contrasts[i] [grey levels].
 TestPicture dotted(Size size, const std::vector<int>& contrasts) {
     TestPicture out(size);
     for (int y = 0; y < size.height; ++y)

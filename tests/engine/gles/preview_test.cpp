@@ -106,8 +106,8 @@ TEST_F(Preview, SurfacesAroundAndBehindTheCameraAreDrawnCorrectly) {
     folding.fx = folding.fy = 130;
     folding.distortion = {-0.17, 0, 0, 0, 0};
     // The surfaces are a wall beside the camera, a wall 13 mm from the camera, and a floor that
-    // begins behind the camera. The tolerance is 5 %, because surfaces are drawn as flat cells. So
-    // near the camera, the lens would bend such a cell by a few percent.
+    // begins behind the camera. The tolerance is 5 %, because surfaces are drawn as flat cells. The
+    // lens would bend a cell, near the camera by a few percent.
     for (const CameraModel& camera : {lens(), folding}) {
         PreviewRenderer renderer(camera, kOutput);
         for (const VirtualObject& o : inWorld({
@@ -191,7 +191,8 @@ TEST_F(Preview, NothingOfEarlierFramesIsVisible) {
     EXPECT_EQ(std::count(empty.begin(), empty.end(), 0), static_cast<long>(empty.size()));
 }
 
-/// Colour of a plain quad in front of the camera. `angle`: between the quad's normal and the light.
+/// Red of a plain quad in front of the camera, 0 to 255. `angle`: between the quad's normal and the
+/// light [rad].
 int litQuad(double angle, double ambient) {
     PreviewRenderer renderer(
         lens(), kOutput,

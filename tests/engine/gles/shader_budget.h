@@ -6,10 +6,10 @@
 
 namespace mfar {
 
-/// Limits of shaders, because the software renderer accepts far more than the GPUs of boards. All
-/// are guaranteed by OpenGL ES 3.1 for compute shaders, with two exceptions: a driver may allow
-/// only four storage blocks and images together, and none in fragment shaders. Mesa's drivers allow
-/// more.
+/// Limits of shaders, because the software renderer accepts far more than the GPUs of boards.
+/// Except kFileLines, they are guaranteed by OpenGL ES 3.1 for compute shaders. But a driver may
+/// allow only four storage blocks and images together, and none in fragment shaders. Mesa's drivers
+/// allow more.
 struct ShaderBudget {
     static constexpr int kStorageBlocks = 4;  ///< number of blocks; each binding must be below it
     static constexpr int kImages = 4;         ///< number of images; each binding must be below it

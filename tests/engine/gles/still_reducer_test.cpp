@@ -105,7 +105,8 @@ TEST_F(StillReducerTest, ASmallOutputIsAsGoodAsAReducedLargeOutput) {
     const auto truth = c.fine(half, shift).bytes;
     EXPECT_EQ(small.outputSize(), half);
     EXPECT_GT(psnr(small.readImage(), truth), psnr(halved(large.readImage(), full), truth) - 0.2);
-    // The flow is not the same, because its last correction reads the still that is shown.
+    // The flows differ, because their last correction reads the still, which is reduced for the
+    // small output.
     const std::vector<float> flow = small.readFlow(), other = large.readFlow();
     ASSERT_EQ(flow.size(), other.size());
     for (std::size_t i = 0; i < flow.size(); ++i)

@@ -31,6 +31,7 @@ std::shared_ptr<const Scene> hovering() {
     return scene;
 }
 
+/// Depth of the table. `share`: its standard deviation, divided by the inverse depth.
 InverseDepthField tableField(double share) {
     InverseDepthField field(kSeen);
     for (std::size_t i = 0; i < field.inverseDepth.size(); ++i) {
@@ -128,7 +129,8 @@ TEST_F(ShadowDepthGl, AHiddenObjectIsOnlySkippedIfItsShadowIsHiddenToo) {
             for (int x = from; x < to; ++x)
                 field.inverseDepth[static_cast<std::size_t>(y) * kSeen.width + x] = 1 / 0.3F;
     };
-    coverColumns(0, 192);  // the object ends at column 181, the shaded part of the table at 205
+    // The object's bounding box ends at column 181, the part of the table that it may shade at 205.
+    coverColumns(0, 192);
     view().place(above(0), {}, field);
     EXPECT_FALSE(view().isHidden());
     coverColumns(192, kSeen.width);

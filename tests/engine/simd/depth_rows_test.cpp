@@ -13,7 +13,8 @@ constexpr Size kPicture{100, 80};
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 using Row = std::vector<float>;
 
-/// Index of the pixel, row by row; -1: outside the picture; -2: rounding decides.
+/// Index of the pixel, row by row; -1: the point is invalid or outside the picture; -2: rounding
+/// decides which pixel it is.
 int pixelOf(const test::Ray& p, bool valid) {
     if (!valid) return -1;
     if (test::isBetween(p.x) || test::isBetween(p.y)) return -2;

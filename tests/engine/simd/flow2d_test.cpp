@@ -230,7 +230,7 @@ TEST(Flow2d, TilesThatDidNotChangeKeepTheirVectors) {
             if (pair.work.at(x / 4, y / 4).changed == 0) {
                 EXPECT_EQ(before[40UL * y + x].x, pair.flow.forward()[y][x].x);
             }
-    pair.run(false);  // a new still makes earlier results invalid
+    pair.run(false);  // as after a new still, which makes earlier results invalid
     EXPECT_LT(errorsOf(pair.flow.forward(), {3, 1}, 3).worst, 0.3);
 }
 
