@@ -117,7 +117,7 @@ TEST_F(WarpHolesGl, AnswersFadeInOverSeveralFrames) {
     EXPECT_NEAR(mean(), last, 0.5);
 }
 
-TEST_F(WarpHolesGl, HolesBeyondTheRequestLimitAreSampledEvenly) {
+TEST_F(WarpHolesGl, IfThereAreTooManyHolesAnEvenSampleOfThemIsRequested) {
     Turned all({}), few({.mostRequested = 100});
     const auto every = all.requestAt(kTurn), some = few.requestAt(kTurn);
     ASSERT_TRUE(every && some);
