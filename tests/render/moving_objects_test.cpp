@@ -152,7 +152,7 @@ TEST(MovingObjects, NoShadowStaysWhereTheObjectWas) {
         ghost += std::abs(double(after.colour[i][3]) - truth.colour[i][3]);
     }
     ASSERT_GT(shadowed, 20);
-    EXPECT_LT(ghost / shadowed, 8) << "mean coverage of the old shadow";
+    EXPECT_LT(ghost / shadowed, 8) << "mean error of the alpha in the old shadow, 0 to 255";
 }
 
 TEST(MovingObjects, LightFarFromTheMotionIsKept) {

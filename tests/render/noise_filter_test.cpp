@@ -125,7 +125,7 @@ TEST(NoiseFilter, MoreSamplesOfASoftShadowHardlyIncreaseTheSpots) {
     EXPECT_LT(meanSpotsOf(kCatcherId, 16), meanSpotsOf(kCatcherId, 4));
 }
 
-// Filters a dark picture in which only the middle pixel is bright, and returns this pixel.
+// Filters a picture whose light is 0.5 except in the bright middle pixel, and returns this pixel.
 // `variance` is that of the bright pixel if it has at least LightPixel::kFew samples.
 LightPixel brightPixelFiltered(float samples, std::uint8_t id, float variance = 1e-6F) {
     Pixels pixels = noisyPicture(flat, 0);

@@ -103,8 +103,9 @@ TEST(PixelSurface, PixelsOfSmallBallsAreRougherThanTheMaterialAndThoseOfLargeBal
     }
 }
 
-// Pixels whose mirrored light varies get more points. The limit is a share of the light's
-// brightness. A fixed limit would give dim and bright scenes different numbers of points.
+// If the light that the points of a pixel mirror differs by more than a limit, the pixel gets more
+// points. The limit is proportional to the brightness of the environment. A fixed limit would give
+// dim and bright scenes different numbers of points.
 TEST(PixelSurface, LightIsProportionalToTheBrightnessOfTheEnvironment) {
     const Film dim = seen(balls(0.1F, 0.05F), kSmall), bright = seen(balls(0.1F, 1), kSmall);
     for (std::size_t i = 0; i < render_scenes::allPixels(kSmall).size(); ++i) {

@@ -90,7 +90,7 @@ struct Cells {
 TEST(SurfaceScatter, SamplesFollowTheirDensity) {
     for (const SurfaceLook& look : looks({0.8F, 0.5F, 0.3F}))
         for (const float mu : {0.2F, 0.9F}) {
-            // Narrower lobes are too sharp for the quadrature.
+            // Lobes of a lower roughness are too sharp for the quadrature.
             if (look.roughness < 0.3F && !look.matt) continue;
             const Cells cells(look, mu);
             for (std::size_t i = 0; i < cells.sampled.size(); ++i)

@@ -78,7 +78,8 @@ TEST(TracedPictures, CameraThatComesToRestGetsAPictureOfItsView) {
     for (int i = 0; i < 12; ++i)
         driver.look(22);
     driver.settle();
-    ASSERT_EQ(driver.shown.size(), before + 1) << "a picture of a worse view was shown";
+    ASSERT_EQ(driver.shown.size(), before + 1)
+        << "only the picture of the view at rest may be shown";
     EXPECT_EQ(driver.shown.back().samples, 32);
     EXPECT_TRUE(driver.shows(22));
     EXPECT_TRUE(driver.pictures.settled());
