@@ -87,7 +87,7 @@ TEST(EnlargerLearner, MatchesOffByAFifthOfAPixelHardlyRaiseTheError) {
     EXPECT_LT(other, 1.05 * same);
 }
 
-TEST(EnlargerLearner, StillsOfAnotherSceneAreRefused) {
+TEST(EnlargerLearner, StillsWithWrongOrUntrustedMatchesAreRefused) {
     EnlargerLearner learner;
     EXPECT_EQ(learner.add(matchedPictures(sharpDiscs(1), sharpDiscs(2), {})), Outcome::Refused);
     EXPECT_EQ(learner.add(matchedPictures(sharpDiscs(1), {.weight = 0})), Outcome::Refused);
@@ -102,8 +102,8 @@ TEST(EnlargerLearner, AToneCurveWithWhichStillsAreRefusedIsDropped) {
     EnlargerLearner learner = learned(darker, 2);
     const StillTone curve = learner.filters()->tone();
     ASSERT_FALSE(curve.isIdentity());
-    // The exposure of the still now equals that of the video. So the curve makes most of the still
-    // white; here, all of it.
+    // The curve was learned from dark stills. It would make most of a still with the video's
+    // exposure white. Here, the whole still is white.
     const auto overexposed = [&](int seed) {
         MatchedPictures out = matchedPictures(sharpDiscs(seed), seeded({}, seed));
         for (int y = 0; y < out.still.size().height; ++y)

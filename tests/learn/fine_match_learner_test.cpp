@@ -24,8 +24,8 @@ TEST(FineMatchLearner, FineMatchIsUnknownBeforeTheFirstStill) {
 TEST(FineMatchLearner, FindsTheNoiseOfTheVideo) {
     EXPECT_LT(learned({}).noise, 0.5);
     for (const double noise : {2.0, 4.0}) {
-        // The learner finds less than the noise's variance, because it uses the 10 % quantile over
-        // all cells.
+        // The learner finds less than the noise's variance, because it uses the 10 % quantile of
+        // the variances that the still leaves unexplained in the cells.
         const double fine = noise * noise;
         const float found = learned({.videoNoise = noise}).noise;
         EXPECT_GT(found, 0.4 * fine) << noise;

@@ -76,7 +76,7 @@ TEST(GuidanceLearner, FindsWhetherAVideoPixelAveragesGreyLevelsOrLight) {
     }
 }
 
-TEST(GuidanceLearner, NoiseOfTheStillAloneGivesNoGuidance) {
+TEST(GuidanceLearner, AStillMuchNoisierThanTheVideoGivesNoGuidance) {
     EXPECT_FALSE(learned(0, 16).guidance().any());
     EXPECT_FALSE(learned(1, 24).guidance().any())
         << "the gain would be smaller than the possible loss";

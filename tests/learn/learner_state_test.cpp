@@ -128,7 +128,7 @@ TEST(LearnerState, StateOfVersionSevenIsReadWithGuidanceButWithoutLight) {
     EXPECT_EQ(then.light, 0);
 }
 
-TEST(LearnerState, StatesOfVersionsFourToSixAreReadWithoutMissingAndOutdatedValues) {
+TEST(LearnerState, StatesBeforeVersionSixAreReadWithoutFineMatchAndBeforeFiveWithoutTone) {
     EnlargerLearner now;
     for (const int scene : {1, 5})
         now.add(matchedPictures(sharpDiscs(scene), {.gain = 0.7, .gamma = 1.3}));

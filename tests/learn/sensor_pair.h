@@ -22,7 +22,7 @@ struct SensorPair {
     /// Blur of the still: number of passes of (1 2 1)/4 along both axes.
     int stillBlur = 0;
     double shift = 0;  ///< error in x of all matched positions in the still [video px]
-    double weight = 1, confidence = 1;
+    double weight = 1, confidence = 1;  ///< of all matches
     unsigned seed = 1;
 };
 
@@ -36,7 +36,8 @@ inline constexpr Size kDiscsVideo{256, 192}, kDiscsStill{1024, 768};
 /// Sensors of kDiscsVideo and kDiscsStill at the same place, without lens distortion.
 [[nodiscard]] StereoRig discsRig();
 [[nodiscard]] std::vector<std::uint8_t> bytesOf(const twin::Grey& picture);
-/// Calls listener.matched() with the video frame of `sharp` and with `still`.
+/// Calls listener.matched() with the frame that the video sensor takes of `sharp`, and with the
+/// picture that the still sensor takes of `still`.
 void showTo(MatchListener& listener, const twin::Grey& sharp, const twin::Grey& still,
             const SensorPair& pair);
 /// Calls listener.replaced(), as the pipeline does before it replaces a still.
@@ -49,8 +50,8 @@ void showReplacedTo(MatchListener& listener, const twin::Grey& sharp, const twin
     return matchedPictures(sharp, sharp, pair);
 }
 
-/// Mean squared error of the video after enlarging with the filters of `bank` [grey levels^2]. If
-/// `bank` is null, Keys' cubic enlarges it.
+/// Mean squared error of the video after enlarging with the filters of `bank` [grey levels^2],
+/// without a border of 32 px. If `bank` is null, Keys' cubic enlarges the video.
 [[nodiscard]] double enlargingError(const twin::Grey& sharp, const SensorPair& pair,
                                     const FilterBank* bank);
 
