@@ -116,7 +116,8 @@ void run(const Request& request) {
     const mfar::Recording recording = mfar::loadRecording(request.recording);
     mfar::Progress progress;
     const mfar::ProgressPart all(progress);
-    // mfard measures which assignment of steps to engines is fastest. Here, all steps run on one.
+    // mfard measures which assignment of steps to engines is fastest. Here, one engine runs all
+    // steps.
     const mfar::EngineKind engine =
         context->isSoftware() ? mfar::EngineKind::Simd : mfar::EngineKind::Gles;
     const DemoRun run =

@@ -26,8 +26,9 @@ cv::Mat depthOf(const InverseDepthField& field) {
     return out;
 }
 
-/// Makes two pictures of a frame: the true one, in which real surfaces occlude the objects, and one
-/// with the objects drawn over everything.
+/// Makes two pictures of a frame and two masks. In the true picture, real surfaces occlude the
+/// objects; in the other, the objects are drawn over everything. The masks are those of
+/// OcclusionShown.
 class SceneTruth {
 public:
     SceneTruth(const Recording& recording, synthetic::Scene scene,
