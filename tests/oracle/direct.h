@@ -64,7 +64,7 @@ inline Eigen::Vector2d smoothLine(const DirectCase& in, int x, int y) {
 /// difference, or 0 if the signs differ. The neighbours are 2 cells (8 px) away along this axis:
 /// (`i`, `j`) is (2, 0) or (0, 2).
 inline Eigen::Vector2d lineSlope(const DirectCase& in, int x, int y, int i, int j) {
-    // A cell at the border has the change of the nearest cell with both differences.
+    // A cell at the border has the change of the nearest cell that has both neighbours.
     x = std::max(std::min(x, in.cells.width - 1 - i), i);
     y = std::max(std::min(y, in.cells.height - 1 - j), j);
     const Eigen::Vector2d before = in.line(x, y) - in.line(x - i, y - j),
@@ -80,8 +80,9 @@ inline Eigen::Vector2d lineSlope(const DirectCase& in, int x, int y, int i, int 
     return out;
 }
 
-/// Compares the patch of a cell with the still. Returns covariance, variance of the video, variance
-/// of the still, and squared correlation; zeros if the patch's centre is outside the still.
+/// Compares the patch of a cell with the still. Returns covariance, variance of the video and
+/// variance of the still, each summed over the patch, and the squared correlation. Returns zeros if
+/// the patch's centre is outside the still.
 inline Eigen::Vector4d directLikeness(const DirectCase& in, int x, int y,
                                       const Eigen::Vector2d& flow) {
     const Eigen::Vector2d middle(4 * x + 1.5, 4 * y + 1.5);
@@ -125,8 +126,8 @@ struct DirectResult {
     Eigen::Vector4d likeness;
     double error;
     bool compared;  ///< true: `likeness` replaces the cell's statistics
-    /// Change of a squared correlation at which the other flow would be chosen; 1 if there is no
-    /// other flow.
+    /// Change of a squared correlation at which the other candidate (see params::kClearlyAlike)
+    /// would be chosen; 1 if both candidates are equal or the cell is not doubtful.
     double choiceMargin;
 };
 

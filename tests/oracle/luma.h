@@ -43,7 +43,8 @@ Grey greyOf(Size size, F valueAt) {
     return out;
 }
 
-/// Position of a pixel's centre in a picture of another size that covers the same area.
+/// A row of `to` pixels covers the same length as a row of `from` pixels. Returns the position of
+/// the centre of its pixel `x` in the row of `from` pixels.
 inline double centre(int x, int from, int to) {
     return (x + 0.5) * from / to - 0.5;
 }

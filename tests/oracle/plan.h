@@ -15,14 +15,14 @@ namespace mfar::twin {
 /// Measures of a tile. "Difference" is the new picture minus the picture that was drawn last.
 struct TileChange {
     /// For each cell, row by row: absolute value of the mean difference, and mean of the absolute
-    /// difference. Each is the largest value over the channels.
+    /// difference. Each is the largest value over red, green and blue.
     std::array<double, 16> mean{}, absolute{};
-    /// Variance that noise gives to a cell's mean difference [grey levels^2]. Maximum over the
-    /// channels.
+    /// Variance that noise gives to a cell's mean difference [grey levels^2]. Maximum over red,
+    /// luma and blue.
     double cellNoise = 0;
     double noise = 0;  ///< standard deviation of the luma's noise [grey levels]
-    /// Squared mean plus squared slopes of the cells' mean differences, divided by the variance
-    /// that noise gives them. Maximum over the channels.
+    /// Sum of the squared mean and the two squared slopes of the cells' mean differences, each
+    /// divided by the variance that noise gives to it. Maximum over red, luma and blue.
     double moments = 0;
     /// Mean squares of three measures of the luma's difference: [0] twist() of pixels, [1] 2x2
     /// means times 2, [2] twist() of 2x2 means, times 2. If the difference is white noise, each

@@ -6,9 +6,9 @@
 /// Values are grey levels.
 namespace mfar::twin {
 
-/// Samples the function at(x, y), whose unit is a pixel of `grid`. A pixel is the mean of 4x4
-/// samples in an area of footprintX x footprintY pixels. The centre of the first pixel is (0.5,
-/// 0.5).
+/// Samples the function at(x, y); x and y are in pixels of `grid`, and the centre of the first
+/// pixel is (0.5, 0.5). A pixel is the mean of 4x4 samples in an area of footprintX x footprintY
+/// pixels.
 template <class At>
 Grey seen(Size grid, const At& at, double footprintX = params::kSeen,
           double footprintY = params::kSeen) {

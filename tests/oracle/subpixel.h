@@ -36,7 +36,7 @@ inline Eigen::Matrix2d slopesOf(const SubpixelCase& in, int x, int y) {
     Eigen::Matrix2d out;
     for (int column = 0; column < 2; ++column) {
         const int i = column == 0 ? 2 : 0, j = 2 - i;
-        // A cell at the border has the change of the nearest cell with both differences.
+        // A cell at the border has the change of the nearest cell that has both neighbours.
         const int c = std::max(std::min(x, in.cells.width - 1 - i), i);
         const int r = std::max(std::min(y, in.cells.height - 1 - j), j);
         const Eigen::Vector2d here = in.flow[in.index(c, r)];
