@@ -67,10 +67,10 @@ struct BenchResult {
 /// stderr. Returns null if there is no lesson.
 [[nodiscard]] std::shared_ptr<const FilterBank> learnedFrom(const Workload& work);
 
-/// Measures all cases. Before each case, its first frames are run once to warm up; these runs are
-/// not counted. "moving", "rest" and "rest-noise" use the frames of `moving` without poses.
-/// "handheld" uses frames and poses of `posed`; it is left out if `posed` has no frames. Needs a
-/// current GL context, which `renderer` describes.
+/// Fills all members of BenchResult but `scaling` and `render`. Before each case, its first
+/// frames are run once to warm up; these runs are not counted. "moving", "rest" and "rest-noise"
+/// use the frames of `moving` without poses. "handheld" uses frames and poses of `posed`; it is
+/// left out if `posed` has no frames. Needs a current GL context, which `renderer` describes.
 [[nodiscard]] BenchResult runBench(const Workload& moving, const Workload& posed, SuperResMode mode,
                                    EngineKind engine, const std::string& renderer,
                                    const ProgressPart& progress = {});

@@ -77,8 +77,8 @@ std::string toTable(const RenderFigures& render) {
     std::string out;
     for (const RayRates& r : render.rates)
         out += fmt::format("one thread, {:>6} triangles [million/s]: single rays of plain Embree "
-                           "{:.2f}, camera rays of mfar in packets {:.2f} ({:.0f} %), paths of "
-                           "mfar {:.2f}\n",
+                           "{:.2f}, camera rays of mfar in packets {:.2f} ({:.0f} % of "
+                           "plain Embree's), paths of mfar {:.2f}\n",
                            r.triangles, r.bare, r.ours, 100 * r.ours / r.bare, r.samples);
     for (const SamplingError& e : render.errors)
         out += fmt::format("RMSE of radiance at 16 samples per pixel, {:<36} mfar {:.5f}, "
@@ -172,7 +172,7 @@ std::string toTable(const BenchResult& result) {
     out += toTable(result.warp, result.objects);
     const TriangulationTimes& t = result.triangulation;
     out +=
-        fmt::format("triangulation [ns per point], used only for other flow methods: closed form "
+        fmt::format("triangulation of flow [ns per point], which mfard does not need: closed form "
                     "{:.1f}, midpoint {:.1f}, cv::triangulatePoints {:.0f} ({:.0f} times as "
                     "long as the closed form)\n",
                     t.flow, t.midpoint, t.opencv, t.opencv / t.flow);

@@ -12,7 +12,7 @@ struct CurveSample {
     std::string name;
     StereoRig rig;
     eval::Shot frame, still;
-    cv::Mat truth;  ///< CV_32FC2 [video px]; NaN or above 1e9: unknown
+    cv::Mat truth;  ///< true flow, CV_32FC2 [video px]; NaN or above 1e9: unknown
 
     [[nodiscard]] bool hasPoses() const { return frame.pose && still.pose; }
 };

@@ -13,7 +13,7 @@ namespace mfar::bench {
 struct CurvePoint {
     double value = 0;
     bool isDefault = false;
-    double ms = 0;    ///< median run time of three runs
+    double ms = 0;    ///< time of the flow, median of three runs
     double epe = 0;   ///< end-point error [px]
     double bad1 = 0;  ///< see FlowError::bad1
 };

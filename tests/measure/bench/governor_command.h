@@ -14,8 +14,8 @@ public:
     explicit GovernorCommand(CLI::App& app);
 
     [[nodiscard]] bool asked() const { return command_->parsed(); }
-    /// Throws ConfigError if the file with the quality levels is invalid, and Failure if it cannot
-    /// be read.
+    /// Throws ConfigError if the file with the quality levels is invalid, Failure if it cannot be
+    /// read, EvalError if the plot cannot be written, and the errors of createGlContext().
     void run(Progress& progress);
 
 private:

@@ -35,9 +35,10 @@ Scene sceneBefore(const CameraModel& camera, const RigidTransform& T_world_camer
     return scene;
 }
 
-/// Returns options with which all frames show a picture of the first frame's view. Otherwise,
-/// frames would take longer without new pictures, because an old picture has more holes. With
-/// `works`, the path tracer adds samples to this picture in every frame.
+/// Returns options with which all frames show a picture of the first frame's view. If pictures were
+/// replaced during the measurement, the frame times with and without work could not be compared: an
+/// older picture has more holes, and filling them takes time. With `works`, the path tracer adds
+/// samples to this picture in every frame.
 TracedLayerOptions optionsFor(Size output, bool works) {
     TracedLayerOptions out = tracedLayerOptions(VirtualOptions{}, 1);
     out.size = layerSize(VirtualOptions{}, output, output);

@@ -11,7 +11,7 @@ struct ParetoPoint {
 
     std::string name;
     Kind kind = Kind::Ours;
-    double ms = 0;     ///< median run time
+    double ms = 0;     ///< median run time, mean over the samples
     double error = 0;  ///< in the unit of ParetoStage::measure; smaller is better
 };
 

@@ -68,7 +68,7 @@ struct SequenceSample {
 
 /// Run time of whole frames and RMS error of their luma. Methods: super-resolution modes, settings
 /// of their flow, and combinations. Peers: bicubic enlargement, and the paper's method with
-/// OpenCV's flow. The first frame after a still is not counted.
+/// OpenCV's flow. The time of the first frame after a still is not counted.
 [[nodiscard]] ParetoStage superResStage(const std::vector<SequenceSample>& samples,
                                         const ParetoRun& run);
 

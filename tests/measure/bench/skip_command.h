@@ -14,7 +14,7 @@ public:
     explicit SkipCommand(CLI::App& app);
 
     [[nodiscard]] bool asked() const { return command_->parsed(); }
-    /// Throws EvalError.
+    /// Throws EvalError and the errors of createGlContext().
     void run(Progress& progress);
 
 private:

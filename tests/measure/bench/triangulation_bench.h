@@ -10,7 +10,7 @@ struct TriangulationTimes {
     double opencv = 0;              ///< cv::triangulatePoints, on undistorted points
 };
 
-/// Triangulates the flow of a hand-held camera with distorting lenses. Each round times all
+/// Triangulates the flow between two views of one camera with lens distortion. Each round times all
 /// methods, one after the other.
 [[nodiscard]] TriangulationTimes measureTriangulation(Size video);
 

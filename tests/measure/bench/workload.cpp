@@ -21,7 +21,7 @@ namespace mfar::bench {
 namespace {
 
 constexpr double kVideoNoise = 1.5;  // standard deviation for a good sensor indoors [grey levels]
-constexpr int kLessonEvery = 10;     // every tenth frame becomes a lesson
+constexpr int kLessonEvery = 10;     // at most every tenth frame becomes a lesson
 
 cv::Mat texture(cv::Size size) {
     cv::RNG random(20);

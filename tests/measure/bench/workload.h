@@ -24,7 +24,8 @@ struct Lesson {
     std::optional<Pose> stillPose{}, framePose{};
 };
 
-/// The input of a benchmark. All pictures are in memory, CV_8UC3, B G R.
+/// The input of a benchmark. All pictures are loaded or rendered before the measurement; CV_8UC3,
+/// B G R.
 struct Workload {
     std::string name;
     StereoRig rig;
@@ -56,7 +57,7 @@ inline constexpr int kLessons = 4;
 
 /// Frames of a recording with poses and with the stills that mfar-eval would use. A short recording
 /// starts again from its first frame. A lesson is a still with the first frame that uses it. Throws
-/// EvalError and RecordingError.
+/// EvalError, RecordingError and ImageFileError.
 [[nodiscard]] Workload recordedWorkload(const std::filesystem::path& folder, int frames);
 
 /// Repeats the first frame of `moving`, as a camera at rest would see it. `noise`: standard

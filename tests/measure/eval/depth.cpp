@@ -17,7 +17,7 @@ namespace {
 constexpr double kEdgeReach = 4;  // pixels up to this distance count as near a depth edge [px]
 
 struct DepthTruth {
-    cv::Mat visible;  ///< CV_32F [1/m]; NaN where unknown or occluded in the still
+    cv::Mat visible;  ///< inverse depth, CV_32F [1/m]; NaN: unknown, or occluded in the still
     cv::Mat all, edges, inner;
     double disparity;  ///< disparity of a point at a depth of 1 m [px]
 };

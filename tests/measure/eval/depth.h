@@ -5,8 +5,8 @@
 
 namespace mfar::eval {
 
-/// Measures the requested methods on every sample of depthSamplesOf(). Throws EvalError and
-/// RecordingError.
+/// Measures the requested methods on every sample of depthSamplesOf(). Throws EvalError,
+/// RecordingError, TagMapError and ImageFileError.
 [[nodiscard]] Report evaluateDepth(const SampleRequest& request);
 
 }  // namespace mfar::eval

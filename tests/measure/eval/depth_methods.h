@@ -20,7 +20,7 @@ public:
         /// Method `depth`: wall time of the needed stages in a single run. Other methods:
         /// FlowMethod::Result::ms, without the time of the triangulation.
         double ms = 0;
-        cv::Mat variance{};  ///< CV_32F [1/m^2]; empty if the method has none
+        cv::Mat variance{};  ///< of inverseDepth, CV_32F [1/m^2]; empty if the method has none
     };
     [[nodiscard]] virtual Result run(const Shot& frame) = 0;
 };

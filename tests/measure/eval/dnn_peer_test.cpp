@@ -92,7 +92,7 @@ TEST(DnnPeer, TheFileNameGivesTheModelAndItsFactor) {
         EXPECT_THROW((void)dnnModelNamed(name), EvalError) << name;
 }
 
-// The network repeats each pixel. The result shows if rows, channels and pixels keep their order.
+// The network repeats each pixel. The result shows if rows and columns keep their order.
 TEST(DnnPeer, AModelEnlargesTheVideo) {
     if (builtWithout()) GTEST_SKIP() << "built without OpenCV's dnn_superres";
     const TempFolder folder;

@@ -23,8 +23,8 @@ struct Figure7Request {
 
 /// Repeats Figure 7 of the paper: accuracy and sharpness of super-resolved frames in synthetic
 /// scenes and recordings. A synthetic scene begins with the frames for learning. Then a still is
-/// requested every ten frames, and the fifth frame after each request is measured. Throws EvalError
-/// and RecordingError.
+/// requested every ten frames, and the fifth frame after each request is measured. Throws
+/// EvalError, RecordingError and ImageFileError.
 [[nodiscard]] std::vector<Figure7Scene> evaluateFigure7(const Figure7Request& request);
 
 }  // namespace mfar::eval

@@ -119,7 +119,7 @@ std::string legend(double top, const PictureMetrics& metrics) {
     out +=
         svg::text(kFigureLeft, top + 46, "start",
                   "Bars: mean of the frames. Dots: single frames. Black marks at LPC-SI: median, "
-                  "10th and 90th percentile of 8x8 picture parts. Dashed: ground truth.",
+                  "10th and 90th percentile of the picture's 64 equal parts. Dashed: ground truth.",
                   11);
     return out + svg::text(kFigureLeft, top + 62, "start",
                            fmt::format("HDR-VDP 2.2.2 of luma at {:g} pixels per degree, display "

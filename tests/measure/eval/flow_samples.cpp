@@ -149,7 +149,7 @@ FlowSet samplesOfRecording(const fs::path& folder) {
     }
     if (out.samples.empty())
         throw EvalError(fmt::format(
-            "{}: no truth: neither truth/flow nor truth/inverse_depth maps a frame to a still",
+            "{}: no truth: neither truth/flow nor truth/inverse_depth gives the flow of a frame",
             folder.string()));
     std::sort(out.samples.begin(), out.samples.end(), [](const FlowSample& x, const FlowSample& y) {
         return std::pair(x.videoTime, x.stillTime) < std::pair(y.videoTime, y.stillTime);

@@ -27,7 +27,7 @@ struct FlowSet {
 /// Finds the samples of a recording, or of a folder with pairs of frames. The flow of a pair,
 /// flowNN.flo, leads from frameNN.png to the frame with the next higher number. Both frames of a
 /// pair get the same pinhole camera. Stills for which showsOwnView() is true are not used. Throws
-/// EvalError and RecordingError.
+/// EvalError, RecordingError and ImageFileError.
 ///
 /// The truth of a recording is the first that exists of: 1. truth/flow/<ns>_<ns>.flo from a video
 /// frame to a still; 2. truth/inverse_depth of a video frame in a scene at rest, if the pose

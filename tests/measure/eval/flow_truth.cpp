@@ -12,7 +12,7 @@ constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 // A point is accepted if its depth in the still's camera exceeds kNearPlane times its depth in the
 // frame's camera. Otherwise it is behind or too close to the still's camera.
 constexpr double kNearPlane = 1e-3;
-constexpr double kSplatWeight = 0.25;  // a point covers pixels at which its weight is larger
+constexpr double kSplatWeight = 0.25;  // a point covers pixels with a larger bilinear weight
 
 struct Seen {
     Eigen::Vector2d pixel;  ///< position in the still, resampled to the video's geometry

@@ -7,7 +7,7 @@ namespace {
 
 class Fnv1a {
 public:
-    /// T must have no padding, whose bytes are not defined.
+    /// T must have no padding, because the bytes of padding are not defined.
     template <class T>
     void add(const T* values, std::size_t count) {
         const auto* bytes = reinterpret_cast<const std::uint8_t*>(values);

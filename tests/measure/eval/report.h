@@ -47,7 +47,7 @@ public:
     struct Row {
         std::string recording, frame, method;
         std::vector<std::optional<double>> values;
-        bool ofFrames = false;
+        bool ofFrames = false;  ///< true: means or medians, from addMeans() or addMedians()
     };
     [[nodiscard]] const std::vector<Row>& rows() const { return rows_; }
     [[nodiscard]] const std::vector<Column>& columns() const { return columns_; }

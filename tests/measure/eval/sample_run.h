@@ -24,7 +24,8 @@ struct SampleRequest {
 
 class SampleRun {
 public:
-    /// `set`: samples of the folder. `request` must outlive this object. Throws EvalError.
+    /// `set`: samples of the folder. `request` must outlive this object. Throws EvalError,
+    /// RecordingError, TagMapError and ImageFileError.
     SampleRun(const SampleRequest& request, const std::filesystem::path& folder, std::string label,
               FlowSet set);
 

@@ -150,8 +150,8 @@ BudgetRun budgetRun(const SliceOptions& slices, Size size, double budgetMs, int 
     const auto period = std::chrono::nanoseconds(1'000'000'000 / 30);
     steady_clock::time_point next = steady_clock::now();
     RenderCounters counters;
-    // counters.budget counts only frames in which the tracer has work and gets processor time. The
-    // loop ends after 4 * frames + 60 frames, even if fewer than `frames` of them count.
+    // counters.budget.frames counts only frames in which the tracer has work and gets processor
+    // time. The loop ends after 4 * frames + 60 frames, even if fewer than `frames` of them count.
     for (int frame = 0; counters.budget.frames < frames && frame < 4 * frames + 60; ++frame) {
         const double azimuth = kAzimuth + frame * degreesPerSecond / 30;
         renderer.update(render_scenes::viewFrom(size, azimuth), Timestamp{} + frame * period);

@@ -29,9 +29,9 @@ struct ErrorAt {
     double filtered = 0;  ///< RMS error after the noise was smoothed
 };
 
-/// Errors of the unfinished picture. With time slices, they are measured after 1, 2, 4, ... samples
-/// per pixel. With spatial slices, they are measured after 1, 2, 4, ... sixteenths of the picture
-/// and at the end; pixels that have not been traced yet are empty.
+/// Errors of the unfinished picture and, at the end, of the finished one. With time slices, they
+/// are measured after 1, 2, 4, ... samples per pixel. With spatial slices, they are measured after
+/// 1, 2, 4, ... sixteenths of the picture; pixels that have not been traced yet are empty.
 [[nodiscard]] std::vector<ErrorAt> slicedErrors(const SlicedScene& scene,
                                                 const SliceOptions& slices);
 
@@ -44,8 +44,9 @@ struct ErrorAt {
 [[nodiscard]] std::vector<double> frameTimes(const SlicedScene& scene, const SliceOptions& slices,
                                              int frames);
 
-/// Result of budgetRun(), which lets mfard's renderer work in its threads for `frames` frames at 30
-/// per second. The view rotates by `degreesPerSecond`, so new pictures are needed.
+/// Result of budgetRun(), which lets mfard's renderer work in its threads, at 30 frames per second,
+/// until BudgetKept counts `frames` frames, for at most 4 * frames + 60 frames. The view rotates by
+/// `degreesPerSecond`, so new pictures are needed.
 struct BudgetRun {
     double mean = 0, deviation = 0;  ///< see BudgetKept
     double samplesPerSecond = 0;     ///< samples per second of processor time

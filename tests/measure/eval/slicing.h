@@ -21,7 +21,7 @@ struct SlicingRequest {
 
 /// Traces a picture of balls and boxes on a plane in time slices, in spatial slices, and as a
 /// whole. Rows are named after the samples per pixel. Columns: ms of processor time; RMS error of
-/// the picture without and with smoothed noise [grey levels of premultiplied RGBA inside the
+/// the picture before and after its noise is smoothed [grey levels of premultiplied RGBA inside the
 /// objects' bounds].
 ///
 /// Row `frames`: standard deviation, 95th percentile and maximum of the times of frames with

@@ -45,7 +45,7 @@ CLI::App* addSlicingCommand(CLI::App& app, SlicingRequest& request) {
     sub->add_option("--budget", request.budgetMs, "budget of processor time per frame [ms]")
         ->check(isBudget())
         ->capture_default_str();
-    sub->add_option("--frames", request.frames, "number of frames to render with this budget")
+    sub->add_option("--frames", request.frames, "number of frames that the rows `budget` count")
         ->check(CLI::Range(1, 300))
         ->capture_default_str();
     sub->add_option("--threads", request.threads,

@@ -70,7 +70,7 @@ TEST(StereoPeer, FindsTheFlowOfMotionsAcrossTheOpticalAxis) {
     }
 }
 
-TEST(StereoPeer, StereoBmFindsTheFlowToo) {
+TEST(StereoPeer, StereoBmFindsTheFlowOfAMotionAcrossTheOpticalAxis) {
     const FlowError error =
         errorAfter(moved(3, {1, 2, 1}, {-0.1, 0, 0}), StereoPeer::Matcher::Block);
     EXPECT_GT(error.coverage, 0.9);  // rows within half a block of the border have no result

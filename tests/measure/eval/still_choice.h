@@ -14,7 +14,7 @@ namespace mfar::eval {
 [[nodiscard]] std::optional<std::size_t> referenceStill(const Recording& recording,
                                                         Timestamp frame);
 
-/// Index of the still that referenceStill() would choose if its result were excluded.
+/// Index of the still that referenceStill() would choose if the recording lacked the reference.
 [[nodiscard]] std::optional<std::size_t> secondStill(const Recording& recording, Timestamp frame);
 
 /// True if the still at time `still` was taken from the same viewpoint and direction as the video

@@ -36,7 +36,7 @@ struct SuperResRequest {
 };
 
 /// Measures every method on every frame with truth/highres. Prints a line per skipped frame to
-/// stderr. Throws EvalError and RecordingError.
+/// stderr. Throws EvalError, RecordingError, TagMapError and ImageFileError.
 [[nodiscard]] Report evaluateSuperRes(const SuperResRequest& request);
 
 }  // namespace mfar::eval

@@ -16,7 +16,8 @@ struct Match {
     std::size_t frame, still;
 };
 
-/// Matches each still with a frame: the nearest in time for rank 0, the second-nearest for rank 1.
+/// Matches each still with a frame that does not show the still's own view: with the nearest in
+/// time for rank 0, with the second-nearest for rank 1.
 std::vector<Match> matchesOf(const Recording& recording, std::size_t rank) {
     std::vector<Match> out;
     for (std::size_t still = 0; still < recording.stills.size(); ++still) {

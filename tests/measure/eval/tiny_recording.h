@@ -33,8 +33,8 @@ inline std::vector<std::vector<std::string>> readCsv(const std::filesystem::path
     return out;
 }
 
-/// Writes video frames and a still of a synthetic scene. If `withTruth`, adds true high-resolution
-/// pictures of all frames.
+/// Writes video frames and a still of a synthetic scene. If `withTruth` is true, enlarged frames
+/// serve as the true pictures (truth/highres).
 inline void writeRecording(const std::filesystem::path& root, bool withTruth, int frames = 2) {
     const bench::Workload work = bench::syntheticWorkload({160, 120}, {576, 432}, frames);
     Recorder recorder(root, work.rig, 30);

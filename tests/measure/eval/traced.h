@@ -18,7 +18,7 @@ struct TracedRequest {
     Size size{640, 480};
     double budgetMs = 8;  ///< processor time of the path tracer per frame
     int frames = 90;      ///< frames per path, at 30 per second
-    int every = 10;       ///< frames between comparisons; flicker needs the next frame, too
+    int every = 10;  ///< frames between comparisons; flicker: from a compared frame to the next
     int truthSamples = 256;
     bool hdrVdp = false;
     std::filesystem::path truth;  ///< folder that keeps the truth for later runs; empty: not kept
@@ -38,7 +38,8 @@ struct TracedRequest {
 /// truth shows a shadow or light of an object on the real surface; flicker of the luma error of
 /// objects [grey levels], see metrics/flicker.h; pictures, the number of traced pictures shown so
 /// far; warp_ms, the time of drawing the layer; with `hdrVdp`, hdrvdp_q of the whole frame on the
-/// display HdrVdpDisplay{}. The GLES engine needs a current context. Throws EvalError.
+/// display HdrVdpDisplay{}. The GLES engine needs a current context. Throws EvalError and
+/// ImageFileError.
 [[nodiscard]] Report evaluateTraced(const TracedRequest& request);
 
 }  // namespace mfar::eval

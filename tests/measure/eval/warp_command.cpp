@@ -57,7 +57,8 @@ CLI::App* addWarpCommand(CLI::App& app, WarpRequest& request, WarpFiles& files) 
         ->check(isTurn)
         ->capture_default_str();
     addSize(*sub, request.size, "picture");
-    sub->add_option("--samples", request.referenceSamples, "samples per pixel of the picture")
+    sub->add_option("--samples", request.referenceSamples,
+                    "samples per pixel of the picture that is warped")
         ->check(CLI::Range(1, 65536));
     sub->add_option("--truth-samples", request.truthSamples, "samples per pixel of the truth")
         ->check(CLI::Range(1, 65536));

@@ -25,7 +25,8 @@ public:
     [[nodiscard]] Size size() const { return size_; }
     /// Pixels of a row [1/8 grey level]. Rows and columns outside the picture repeat its border.
     [[nodiscard]] const std::int16_t* row(int y) const;
-    /// Error of Keys' cubic, which the filter should correct [grey levels].
+    /// Error of Keys' cubic, which the filter should correct, at pixel (x, y) of the video enlarged
+    /// by enlarge::kGrid [grey levels].
     [[nodiscard]] double target(int x, int y) const { return target_.at(x, y); }
 
     static constexpr double kScale = 9.0 / 32;

@@ -28,9 +28,9 @@ struct TriangulatedPoint {
     /// 1/z in view a [1/m]; 0: unknown. Unknown if there is no parallax, if the point is behind a
     /// camera or at infinity, if the rays are too far apart, or if the flow is invalid.
     float inverseDepth = 0;
-    /// Standard deviation due to the error of the flow [1/m]. It grows without bound as the
-    /// component of the baseline across the ray vanishes. kUnknownSigma is its upper limit and its
-    /// value for an unknown depth.
+    /// Standard deviation due to the error of the flow [1/m]. As the component of the baseline
+    /// across the ray vanishes, it grows up to kUnknownSigma. This is also its value for an unknown
+    /// depth.
     float sigma = 0;
     /// Flow normal to the epipolar line [px of an undistorted view b that is oriented as view a].
     /// Positive: clockwise from the direction in which nearer points move. Without an epipolar

@@ -97,8 +97,8 @@ TEST(TriangulationOdd, AnyFlowAndAnyPoseGiveFiniteResults) {
     EXPECT_GT(known, 10000);
 }
 
-// The camera moves forward, so the epipole is a pixel of the picture, at which the epipolar line
-// vanishes.
+// The camera moves along its optical axis, so the epipole is the principal point, here a pixel's
+// centre. There, the epipolar line has no length.
 TEST(TriangulationOdd, DepthAtTheEpipoleIsUnknown) {
     twin::TwoViews views = plainViews(moved(0, Vector3d::UnitX(), {0, 0, -0.1}));
     views.a.cx = views.b.cx = 30;

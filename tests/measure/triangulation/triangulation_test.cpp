@@ -53,7 +53,7 @@ double inverseDepthOfMidpoint(const twin::TwoViews& v, const Vector2d& p, const 
     return twin::midpoint(v, p, f).inverseDepth;
 }
 
-TEST(Triangulation, ErrorIsBelowAMillionthAtAHundredthOfADegreeOfParallax) {
+TEST(Triangulation, ErrorIsBelowAMillionthFromAHundredthToTenDegreesOfParallax) {
     const RigidTransform motions[] = {moved(0, Vector3d::UnitX(), {-0.1, 0, 0}),
                                       moved(1, {1, 2, 3}, {0.02, 0.1, 0.03}),
                                       moved(10, {-1, 2, -2}, {-0.3, -0.05, 0.05})};
@@ -210,7 +210,7 @@ TEST(Triangulation, SigmaMatchesTheEffectOfFlowErrors) {
                     1e-3 * at[i].sigma);
 }
 
-TEST(Triangulation, SigmaGrowsWithoutBoundAsTheBaselineVanishes) {
+TEST(Triangulation, SigmaIsInverselyProportionalToTheBaseline) {
     double before = 0;
     for (const double baseline : {1e-1, 1e-3, 1e-5, 1e-7}) {
         const twin::TwoViews views = plainViews(moved(0, Vector3d::UnitX(), {-baseline, 0, 0}));

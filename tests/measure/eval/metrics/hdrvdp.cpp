@@ -54,7 +54,8 @@ double pixelsPerDegree(double diagonal, cv::Size resolution, double distance) {
 cv::Mat displayedLight(const cv::Mat& picture, const HdrVdpDisplay& display) {
     if (!(display.black > 0 && display.peak > display.black && display.peak < 1e5))
         throw std::invalid_argument(
-            "a display's white must be brighter than its black, and its black brighter than 0");
+            "a display's black must be brighter than 0, and its white brighter than its black "
+            "and below 100000 cd/m2");
     if (!(display.gamma > 0 && display.gamma < 10))
         throw std::invalid_argument("a display's gamma must be in (0, 10)");
     if (picture.depth() != CV_64F || !cv::checkRange(picture, true, nullptr, 0, 255 + 1e-9))

@@ -38,7 +38,7 @@ struct HdrVdpBand {
 
 struct HdrVdpResult {
     double q = 0;     ///< score of releases 2.2.1 and 2.2.2; 100: equal pictures; no lower bound
-    double q220 = 0;  ///< mean over the bands from which release 2.2.0 computes Q_MOS
+    double q220 = 0;  ///< mean of weight * log(error) over the bands; gives Q_MOS of release 2.2.0
     double qMos = 0;  ///< Q_MOS of release 2.2.0, [0, 100]
     std::vector<HdrVdpBand> bands;
 };

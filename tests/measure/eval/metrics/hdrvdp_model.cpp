@@ -40,8 +40,8 @@ double luminanceAt(int i) {
     return std::pow(10, kLeastLog + (kMostLog - kLeastLog) * i / (kLuminances - 1));
 }
 
-/// Sensitivity of the L cones at every luminance L of the table; that of the M cones is equal. Both
-/// are (jointSensitivity(2 L) - rodSensitivity(2 L)) / 2.
+/// Sensitivity of the L cones at every luminance Y of the table; that of the M cones is equal. Both
+/// are (jointSensitivity(2 Y) - rodSensitivity(2 Y)) / 2.
 std::vector<double> coneSensitivities() {
     std::vector<double> both(kLuminances), out(kLuminances);
     for (int i = 0; i < kLuminances; ++i)
