@@ -261,7 +261,7 @@ TEST(CameraV4l2, WithoutANameOnlyDevicesThatCanBeCamerasAreChosen) {
     fake.hasInput = false;
     EXPECT_NE(errorOf([&] { CameraV4l2(any, fake); }).find("no camera was found"),
               std::string::npos);
-    EXPECT_NO_THROW(CameraV4l2(wanted(), fake)) << "a device with a name is used";
+    EXPECT_NO_THROW(CameraV4l2(wanted(), fake)) << "a configured device must be accepted";
     fake.hasInput = true;
     fake.formats = {{V4L2_PIX_FMT_SBGGR8, {kSize}}};
     EXPECT_NE(errorOf([&] { CameraV4l2(any, fake); }).find("no camera was found"),

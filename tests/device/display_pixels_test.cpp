@@ -46,8 +46,8 @@ TEST(PixelLayout, PacksTheUppermostBitsIntoSixteenBits) {
     EXPECT_EQ(packed(kArgb1555, 4), (Bytes{0xc2, 0xa8, 0x1f, 0xc0, 0xe0, 0x83, 0x00, 0xfc}));
 }
 
-// Pictures on the host and on the GPU must be packed equally, even if the width is not a multiple
-// of the vector length. Alpha is ignored.
+// Pictures on the host (RGBA) and on the GPU (BGRA) must be packed equally, even if the width is
+// not a multiple of the vector length. Alpha is ignored.
 TEST(PixelLayout, HostRowsPackLikeGpuPictures) {
     constexpr Size kSize{37, 3};
     Bytes bgra(4UL * kSize.width * kSize.height, 255), rgba(bgra.size());

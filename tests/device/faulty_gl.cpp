@@ -5,7 +5,7 @@
 //   hang       drawing does not return
 //   lost WORD  each new WORD loses the current context once: its calls do nothing and return zero;
 //              the next context works
-//   broken     every context is lost as soon as it is created
+//   broken     every context is lost at its first use
 // A test in the same process may also make it lose contexts, see faulty_moments.h.
 
 #include "hal/device/gl_libraries.h"

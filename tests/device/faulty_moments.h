@@ -6,7 +6,7 @@ extern "C" {
 
 /// Forgets the recorded moments. From now on, the context is lost at the first moment of this name;
 /// null: at none. A moment is a GL call that selects a program, creates textures, moves data,
-/// computes or waits.
+/// draws, computes, or creates or awaits a fence.
 __attribute__((visibility("default"))) void mfarFaultyGlLoseAt(const char* name);
 /// Name of moment i, such as "glUseProgram flow_search.comp": the call and the shader used last.
 /// Null if fewer moments were recorded.

@@ -72,7 +72,8 @@ TEST_F(LibcameraControls, AFixedValueEndsItsAutomaticMode) {
     EXPECT_EQ(withManualModes(camera_, focus), focus) << "this camera has no AfMode";
 }
 
-// camera_ has the control AeEnable, which is the mode of both values in older versions.
+// camera_ has the control AeEnable. In older versions of libcamera, it is the only switch for
+// automatic exposure and automatic gain.
 TEST_F(LibcameraControls, AFixedExposureAndGainEndTheAutomaticModeOfBoth) {
     const NamedValues both{{"ExposureTime", "8000"}, {"AnalogueGain", "2"}};
     NamedValues manual = both;

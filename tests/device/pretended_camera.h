@@ -310,7 +310,7 @@ private:
     const WordFile words_;
     const std::string name_;
     const double plug_;  ///< number after the word "unplug" when the device was opened
-    const int fd_;       ///< readable while a buffer is filled; the program closes it
+    const int fd_;       ///< readable while a filled buffer waits; the program closes it
     const int memory_;
     std::atomic<double> rateHz_{30};
     std::size_t bytes_ = 0, room_ = 0;

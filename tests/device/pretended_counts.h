@@ -15,7 +15,7 @@ namespace mfar::pretended {
 struct KnownOfCamera {
     // Numbers of invalid pictures that the program took.
     std::uint64_t broken = 0;    ///< pictures marked as broken, or too short
-    std::uint64_t badTimes = 0;  ///< times in the future, too old, or not after the previous one
+    std::uint64_t badTimes = 0;  ///< times in the future, too old, or not after the last valid one
     std::int64_t gain = 0;
     std::uint64_t ungained = 0;  ///< pictures that the program took before it set the gain
 };
@@ -45,7 +45,8 @@ public:
         const std::lock_guard lock(mutex_);
         counts_[camera].gain = value;
     }
-    /// `lastGood`: time of the last valid picture since the camera was opened [us,
+    /// Counts the picture `taken` in the record of its camera. `whole`: size of a complete picture
+    /// [bytes]. `lastGood`: time of the last valid picture since the camera was opened [us,
     /// CLOCK_MONOTONIC]. It is updated if the picture `taken` is valid.
     void add(const std::string& camera, const v4l2_buffer& taken, std::size_t whole,
              std::optional<std::int64_t>& lastGood) {

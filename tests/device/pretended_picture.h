@@ -9,7 +9,7 @@
 namespace mfar::pretended {
 
 // Every picture contains a stamp: its time in milliseconds (24 bits) and 8 check bits. Bits are
-// dark and bright squares in two rows of 16 across the upper half. They can be read from the
+// dark and bright rectangles in two rows of 16 across the upper half. They can be read from the
 // displayed picture.
 constexpr int kStampColumns = 16, kStampRows = 2;
 constexpr int kStampBits = 24;

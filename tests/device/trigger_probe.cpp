@@ -1,9 +1,11 @@
 // Fires pulses on a GPIO line and prints a line of text for each still that matches a pulse:
 //   trigger-probe CAMERA WIDTHxHEIGHT CHIP LINE PULSES PERIOD-MS JITTER-MS
-// A line is "TIME pulse N still M". N is the number of pulses fired so far. M is the number in the
-// upper rows of the picture, as the cameras of the test bed show it: 32 blocks side by side, bit 0
-// first, white for 1. The last line is "fired F matched M unmatched U lost L late T repeated R
-// relearned S". Exit status: 0 done, 1 a device failed, 2 wrong usage.
+// JITTER-MS is the largest accepted difference between a still's time and the time expected from
+// its pulse, once the delay of the stills has been learned. A line is "TIME pulse N still M". TIME
+// is the still's time [s]. N is the number of pulses fired so far. M is the number in the upper
+// rows of the picture, as the emulated cameras of toolchains/testbed show it: 32 blocks side by
+// side, bit 0 first, white for 1. The last line has the totals of all pulses and stills. Exit
+// status: 0 done, 1 a device failed, 2 wrong usage.
 
 #include "hal/device/camera_libcamera.h"
 #include "hal/device/trigger_gpiod.h"
