@@ -178,8 +178,8 @@ TEST_F(ControlSocketTest, TheUserOfThisProcessIsAnOperator) {
     EXPECT_EQ(seen, ControlRole::Operator);
 }
 
-// The child process connects as a user who is neither root nor a member of a group. Mode 0666 of
-// the socket allows this.
+// The child process connects as a user who is neither root nor in the operators' group. Mode 0666
+// of the socket allows this.
 TEST_F(ControlSocketTest, AnotherUserIsAnObserver) {
     if (geteuid() != 0) GTEST_SKIP() << "only root can become another user";
     const ControlSocket socket(path, [&](std::string_view, ControlRole role) -> ControlAnswer {

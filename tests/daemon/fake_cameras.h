@@ -96,7 +96,7 @@ public:
         hangs_ = wanted;
         changed_.notify_all();
     }
-    /// Waits until a thread blocks in next(). Returns false after 20 s.
+    /// Waits until hang(true) holds a thread in next(). Returns false if none is held after 20 s.
     [[nodiscard]] bool isHung() {
         std::unique_lock lock(mutex_);
         return changed_.wait_for(lock, std::chrono::seconds(20), [&] { return hung_; });

@@ -80,8 +80,8 @@ StereoRig discsRig() {
     return rig;
 }
 
-/// Shows a still, then a second still of the same view with a noisy video. The second still
-/// replaces the first.
+/// Reports that a still will be replaced, then shows a second still of the same view, which
+/// replaces it. The video is noisy.
 void replace(FilterLearning& learning, unsigned seed) {
     const twin::Grey sharp = sharpDiscs(seed);
     const SensorPair noisy{.videoNoise = 4, .seed = seed};

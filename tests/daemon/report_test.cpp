@@ -116,8 +116,8 @@ TEST(Report, ChartsShowTheValuesOfTheRun) {
         EXPECT_THAT(html, Not(HasSubstr(std::string(">") + title)));
 }
 
-/// A history of 30 pictures per second. Before the 16th picture, there is a stall of `stallS`, with
-/// 150 drops.
+/// A history of 30 pictures at 30 Hz. A stall of `stallS` [s] with 150 dropped frames delays the
+/// 16th picture and all later ones.
 RunHistory historyWithStall(double stallS) {
     RunHistory history;
     for (int i = 0; i < 30; ++i) {
