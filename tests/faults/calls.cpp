@@ -94,8 +94,8 @@ Ns deadlineIn(Ns time) {
     return Scheduler::get().look() + std::max<Ns>(time, 0);
 }
 
-/// Repeats `attempt` while it returns EBUSY. Returns its other result, or ETIMEDOUT at the
-/// deadline. A thread that releases a lock wakes the threads that wait with the same key.
+/// Repeats `attempt` while it returns EBUSY. Returns its first other result, or ETIMEDOUT at the
+/// deadline. The release of a lock wakes one or all of the threads that wait with the lock's key.
 template <class Attempt>
 int lockWith(const void* key, Attempt attempt, Ns deadline = kNever) {
     Scheduler& all = Scheduler::get();

@@ -218,7 +218,8 @@ void Judge::judgeBlame(const std::string& fault, Ns asked) {
              " old");
 }
 
-/// Also to be called when mfard does not notify the watchdog, because mfard may never do so.
+/// Called at each notification of the watchdog, and also at each status, because the notifications
+/// may stop or never begin.
 void Judge::judgeWatchdog(Ns at) {
     if (!isReady() || frames_ < kProvenFrames) return;
     const Ns unfed = at - std::max(fed_.value_or(0), *ready_);

@@ -15,8 +15,8 @@
 
 namespace mfar::faults {
 
-/// Compares mfard's reports with the facts. Adds a line to its own report for each violated rule.
-/// Only one thread at a time calls it, see Scheduler.
+/// Compares mfard's reports with the facts. Adds a line to its own report for each of the first 20
+/// violations of a rule. Only one thread at a time calls it, see Scheduler.
 class Judge {
 public:
     /// The only judge of the process. It writes to the file MFAR_FAULTS_REPORT.

@@ -39,7 +39,7 @@ struct Kind {
     std::string_view name;
     Where where;
     Effect effect;
-    std::string_view words;  ///< text for the fault's file; a number replaces *
+    std::string_view words;  ///< text for the file of the device; Fault::number replaces *
     int least = 0, most = 0;
 };
 
@@ -56,8 +56,8 @@ using Episode = std::vector<Fault>;
 struct Plan {
     bool beginsBroken = false;  ///< the first episode begins before mfard starts
     std::string_view mode;
-    /// True if mfard is configured to record from its start, because its disk is faulty from then
-    /// on.
+    /// True if a fault of the disk begins before mfard starts. mfard is then configured to record
+    /// from its start.
     [[nodiscard]] bool recordsAtStart() const;
     std::vector<Episode> episodes;
     Ns endAfter = 0;

@@ -40,7 +40,7 @@ public:
     /// Like poll(). Returns -1 with errno if poll() does.
     int waitForFiles(pollfd* fds, nfds_t count, Ns deadline);
     void yield();
-    /// Gives other tasks a turn at random, in a fixed share of the calls.
+    /// Gives other tasks a turn in one of 16 calls on average, chosen at random.
     void maybeYield();
 
     /// Makes a timer's descriptor readable at `first` (0: never), and then every `period` (0:
@@ -50,7 +50,7 @@ public:
 
     int create(pthread_t* thread, const pthread_attr_t* attributes, void* (*start)(void*),
                void* argument);
-    /// Returns when the thread no longer runs code of this process.
+    /// Returns when the thread has given up its last turn.
     void waitForEnd(pthread_t thread);
 
     [[nodiscard]] std::uint64_t random() { return random_(); }
