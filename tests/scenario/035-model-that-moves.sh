@@ -11,8 +11,8 @@ is_drawn_anew() {
     timeout 10 "$ctl" --socket control stats | grep -Eq '"frames_warped": *([6-9][0-9]|[0-9]{3,})'
 }
 
-# model NAME CHANNEL...: writes NAME.gltf: a triangle whose animation has these channels. The
-# animation's sampler 0 rises by 10 cm in 2 s.
+# model NAME CHANNEL...: writes NAME.gltf, a triangle whose animation has these channels, and
+# mfard.toml, which places this model. Sampler 0 of the animation rises by 10 cm in 2 s.
 model() {
     local name=$1 channels IFS=,
     shift

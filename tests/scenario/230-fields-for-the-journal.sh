@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# As a service, mfard must send messages with fields to the journal: kind, camera, count. They must
-# go to standard error if there is no journal or if it refuses them. Usage:
+# As a service, mfard must send messages with fields to the journal: kind, camera, count. If there
+# is no journal, the messages must go to standard error. Usage:
 # 230-fields-for-the-journal.sh MFARD MFAR-SIM JOURNAL.so NOTIFY-LISTENER
 ids=$(realpath "$(dirname "$0")/../../daemon/message_ids.h")
 . "$(dirname "$0")/lib.sh"

@@ -49,8 +49,7 @@ has_grown() { [ "$(named)" -gt "$rows" ]; }
 rows=0
 for _ in 1 2 3 4; do
     until_true has_grown
-    # The previous rows are safe, because mfard synchronises the file names before it writes further
-    # pictures.
+    # The previous rows are safe, because mfard synchronises them before it adds further rows.
     echo "$(stat --format %s log) $rows" >>marks
     rows=$(named)
 done

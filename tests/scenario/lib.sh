@@ -68,7 +68,8 @@ until_true() {
 # missing.
 started() { grep -q 'display ' err; }
 
-# Checks the output of Vulkan's validation layer, which goes to standard output.
+# If Mesa's zink draws, Vulkan's validation layer writes its messages to standard output. Fails if
+# there are any.
 no_complaint() {
     if [ -f out ] && grep -aE 'Validation (Error|Warning|Performance)' out >&2; then
         fail "Vulkan's validation layer reports errors"
@@ -79,8 +80,8 @@ no_complaint() {
 ends_with() {
     local begin code=0 took hangs=$((30 * patience))
     begin=$(milliseconds)
-    # Polls the process table instead of waiting for the process. So this check fails if mfard
-    # hangs.
+    # Polls the process table instead of waiting for the process. So a process that hangs makes this
+    # check fail instead of blocking it.
     while kill -0 "$pid" 2>/dev/null && [ $(($(milliseconds) - begin)) -lt $((1000 * hangs)) ]; do
         sleep 0.02
     done
