@@ -136,7 +136,7 @@ TEST(ReopeningCamera, ASilentCameraIsReportedAndThenReopened) {
     EXPECT_EQ(camera.fault(), std::nullopt);
 }
 
-TEST(ReopeningCamera, WhileTheLibraryIsBusyASilentCameraIsNotYetReopened) {
+TEST(ReopeningCamera, WhileAnotherDeviceDelaysFramesASilentCameraIsNotYetReopened) {
     Socket socket;
     std::atomic<bool> busy{true};
     ReopeningOptions options = quick();

@@ -57,8 +57,8 @@ inline void writeCamera(const std::filesystem::path& folder, const std::string& 
 }
 
 /// Writes a valid recording. Picture i of a camera has the grey level 10 i. The still sensor is
-/// 0.014 m to the right of the video sensor. The body is at (1, 2, 3) at 1 s. At 2 s it is at (2,
-/// 2, 3), rotated by 90 degrees about z.
+/// 0.014 m to the right of the video sensor. The body, to which both sensors are fixed, is at (1,
+/// 2, 3) [m] at the time 1 s. At 2 s it is at (2, 2, 3), rotated by 90 degrees about z.
 inline void writeSmallRecording(const std::filesystem::path& root,
                                 const std::vector<std::int64_t>& video = {1'000'000'000,
                                                                           1'500'000'000,
