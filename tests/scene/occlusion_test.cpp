@@ -19,8 +19,8 @@ using synthetic::Path;
 
 constexpr int kUnscored = 8;
 
-/// Limits for each scene. The shelf has a lower limit of the overlap, because its objects are thin:
-/// the windows of the depth search widen them, and edge snapping corrects only a part of this.
+/// Limits for each scene. The shelf needs less overlap than the office, because its objects are
+/// thin: the windows of the depth search widen them, and EdgeSnap corrects only a part of this.
 struct Case {
     synthetic::Scene scene;
     double leastOverlap, mostBoundary;  // intersection over union; boundary distance [px]

@@ -16,7 +16,7 @@ StoppedCamera::StoppedCamera(SyntheticBoard& board, const Frame& last)
 }
 
 ImageView StoppedCamera::next() {
-    constexpr std::size_t kReach = 17;  // a prime, so that steps of 5 and 7 reach every shift [px]
+    constexpr std::size_t kReach = 17;  // prime, so steps of 5 and 7 reach all shifts of 0 to 16 px
     ++moves_;
     const std::size_t dx = 5 * moves_ % kReach, dy = 7 * (moves_ / kReach) % kReach;
     const std::size_t shift = (dy * clean_.size.width + dx) * bytesPerPixel(clean_.format);
