@@ -73,7 +73,8 @@ struct Scene {
 };
 
 /// Photographs a paper with `texels` texels per metre. The target's origin is at texel `origin`.
-/// The target's y axis points upwards if `upwards` is true.
+/// The target's y axis points upwards if `upwards` is true. `turn`: rotation of the paper in the
+/// picture [rad].
 Scene photograph(const cv::Mat1b& paper, double texels, cv::Point2d origin, bool upwards,
                  double turn) {
     const cv::Matx33d texelOfTarget{texels,   0, origin.x, 0, upwards ? -texels : texels,
@@ -118,8 +119,8 @@ void expectCorners(const Target& target, const Scene& scene, const std::vector<C
     EXPECT_LT(bias.norm(), 0.03);
 }
 
-/// A grid as Kalibr prints it. Each tag is rotated by `turn` quarter turns and has a border of
-/// `border` cells (1 or 2).
+/// A grid as Kalibr prints it, with cells of `cell` x `cell` texels. Each tag is rotated by `turn`
+/// quarter turns and has a border of `border` cells (1 or 2).
 cv::Mat1b printedGrid(const Target& grid, int cell, int turn, int border) {
     const int tagCells = 6 + 2 * border;
     const int gap = static_cast<int>(std::lround(tagCells * grid.spacing));
