@@ -93,7 +93,7 @@ TEST(RigFiles, IfAFileCannotBeWrittenTheOldCalibrationStaysWhole) {
     fs::remove(folder / part);
     expectSameRig(loadRig(folder.path()), sampleRig(), 0.0025);
     EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 3)
-        << "no temporary file is left";
+        << "no temporary file may be left";
 }
 
 TEST(RigFiles, EurocFilesAreReadAsAPairOrFromTheirRecording) {

@@ -73,7 +73,7 @@ TEST(Calibrate, ClockOffsetsOfManyFrameIntervalsAreFound) {
     expectRig(found);
 }
 
-TEST(Calibrate, AClockOffsetBeyondTheSearchIsRefused) {
+TEST(Calibrate, AClockOffsetBeyondTheSearchRangeIsRefused) {
     // The largest accepted offset is 0.25 s. With -0.4 s, the stills nearly fit the video; -0.6 s
     // distorts the poses; 0.7 s looks like a smaller offset.
     for (const double offset : {-0.4, -0.6, 0.7}) {
@@ -95,7 +95,7 @@ TEST(Calibrate, ARecordingThatHasLostVideoFramesIsUsed) {
     }
 }
 
-TEST(Calibrate, IfOnlyAFewStillsHaveVideoTheyAreNotOutliers) {
+TEST(Calibrate, IfOnlyAFewStillsOverlapTheVideoTheyAreNotRejectedAsOutliers) {
     BothViews views = makeViews(kGrid, {});
     // The video sees the target only in the first third of the recording.
     const auto end = views.video.views[views.video.views.size() / 3].time;

@@ -150,7 +150,7 @@ TEST_F(ControlSocketTest, ClientsThatDoNotReadDelayNobody) {
     close(greedy);
 }
 
-TEST_F(ControlSocketTest, AnAnswerThatIsReadyWhenTheSocketClosesIsSent) {
+TEST_F(ControlSocketTest, AnAnswerThatBecomesReadyWhileTheSocketClosesIsSent) {
     std::promise<void> asked;
     std::promise<void> closes;
     auto socket = std::make_unique<ControlSocket>(

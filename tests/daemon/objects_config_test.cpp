@@ -109,7 +109,7 @@ model = "thing.glb"
     EXPECT_TRUE(placedShapes(config.objects, {}).empty());
 }
 
-TEST(ObjectsConfig, ObjectsThatWereReadAgainAreEqualUnlessTheirFilesChanged) {
+TEST(ObjectsConfig, ObjectsReadAgainAreEqualUnlessTheirConfigurationOrModelChanged) {
     const test::TempFolder folder;
     const auto read = [&](const std::string& place) {
         return parseConfig("[[objects]]\nmodel = \"a.glb\"\nposition = [" + place + "]\n",

@@ -73,7 +73,7 @@ TEST_F(RigInputs, AnUnusableLevelIsReportedWithItsKey) {
         << invalid.message;
 }
 
-TEST_F(RigInputs, ARecordingIsReportedWithItsKeyUnlessTheCommandLineNamesIt) {
+TEST_F(RigInputs, AnUnusableRecordingIsReportedWithItsKeyUnlessTheCommandLineNamesIt) {
     const std::filesystem::path run = folder_ / "run";
     const std::string toml = "recording = \"" + run.string() + "\"\n";
     EXPECT_EQ(refusal(toml), (Refusal{66, "FOLDER/mfard.toml:1:13: recording: FOLDER/run: there "

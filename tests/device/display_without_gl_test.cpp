@@ -89,7 +89,7 @@ private:
     int& shown_;
 };
 
-TEST_F(WithoutGl, ScreensThatTheCpuWritesMakeNoGlCall) {
+TEST_F(WithoutGl, ScreensToWhichTheCpuWritesMakeNoGlCall) {
     int shown = 0;
     EXPECT_EQ(callsOf([&] {
                   std::vector<std::unique_ptr<Screen>> screens;

@@ -31,7 +31,7 @@ struct FakeControl {
     std::int64_t minimum, maximum, step, value;
     std::vector<std::string> menu{};
     std::uint32_t flags = 0;
-    int refusals = 0;  ///< number of attempts to set the control that fail at first
+    int refusals = 0;  ///< number of attempts to set the control that fail before one succeeds
     int error = EBUSY;
     bool isUnreadable = false;
 };
@@ -77,7 +77,7 @@ public:
     [[nodiscard]] std::int64_t control(const std::string& name);
 
     // Properties of the device; to be set before the device is opened.
-    std::string card = "Fake Camera", secondPath;  ///< secondPath: another capture node
+    std::string card = "Fake Camera", secondPath;  ///< secondPath: path of another capture node
     bool multiPlanar = false;
     bool busy = false;
     bool hasInput = true;  ///< false: the node gives converted pictures instead of captured ones
@@ -90,7 +90,7 @@ public:
     /// If true, requests for more than mostBuffers buffers fail with ENOMEM. Otherwise mostBuffers
     /// buffers are granted.
     bool refusesMore = false;
-    int sizeFault = 0;  ///< error of the picture size that S_FMT reports [bytes]
+    int sizeFault = 0;  ///< S_FMT adds this to the picture size that it reports [bytes]
     std::uint32_t colorspace = V4L2_COLORSPACE_SRGB, quantization = V4L2_QUANTIZATION_DEFAULT;
     std::vector<FakeFormat> formats{{V4L2_PIX_FMT_YUYV, {{32, 24}, {64, 48}}}};
     std::vector<FakeControl> controls{};

@@ -97,7 +97,7 @@ TEST(JpegDecoder, GreyPicturesStayGrey) {
     EXPECT_NEAR(frame->view().data[0], 0.299 * 60 + 0.587 * 200 + 0.114 * 90, 4);
 }
 
-TEST(JpegDecoder, FillBytesBeforeTheEndAreHarmless) {
+TEST(JpegDecoder, ExtraBytesBeforeTheEndMarkerAreHarmless) {
     Bytes jpeg = encoded(TJSAMP_420);
     jpeg.insert(jpeg.end() - 2, {0x11, 0x22, 0x33, 0x44});
     JpegDecoder decoder(kJpegSize, 1);
@@ -125,7 +125,8 @@ TEST(JpegDecoder, WithAllBuffersLentNothingIsDecoded) {
     EXPECT_FALSE(decoder.decode(jpeg, {}).has_value());
     EXPECT_TRUE(decoder.isFull());
     EXPECT_FALSE(decoder.decode({jpeg.data(), 2}, {}).has_value());
-    EXPECT_FALSE(decoder.isFull()) << "the picture is damaged";
+    EXPECT_FALSE(decoder.isFull())
+        << "decode() failed because of the damage, not for lack of buffers";
     held.reset();
     EXPECT_TRUE(decoder.decode(jpeg, {}).has_value());
 }

@@ -32,7 +32,7 @@ FrameBuffer::Plane plane(const libcamera::SharedFD& fd, unsigned offset, unsigne
     return plane;
 }
 
-TEST(MappedPicture, PlanesMayShareAFileWithOffsets) {
+TEST(MappedPicture, PlanesMayLieAtDifferentOffsetsOfOneFile) {
     const auto fd = memory(0);
     const FrameBuffer buffer(Planes{plane(fd, 16, 32 * 16), plane(fd, 1000, 32 * 8)});
     const MappedPicture picture(buffer, {{32, 16}, PixelFormat::Nv12, 32});

@@ -18,7 +18,7 @@ PictureTimes::Reported reported(std::uint32_t sequence, std::chrono::nanoseconds
     return out;
 }
 
-TEST(PictureTimes, ATimeIsTheMiddleOfTheExposure) {
+TEST(PictureTimes, TheTimeOfAPictureIsTheMiddleOfItsExposure) {
     PictureTimes times(kWhole, 30);
     PictureTimes::Reported picture = reported(0, 40ms);
     picture.exposure = 10ms;
@@ -43,8 +43,9 @@ TEST(PictureTimes, UnusablePicturesAreCountedByTheirCause) {
     truncated.bytes = kWhole - 1;
     for (const PictureTimes::Reported& picture : {startup, failed, truncated})
         EXPECT_FALSE(times.add(picture, kArrived));
-    EXPECT_FALSE(times.add(reported(2, 40ms), kArrived)) << "not later than the picture before";
-    EXPECT_FALSE(times.add(reported(3, -1s), kArrived)) << "in the future";
+    EXPECT_FALSE(times.add(reported(2, 40ms), kArrived))
+        << "the time is not later than that of the previous picture";
+    EXPECT_FALSE(times.add(reported(3, -1s), kArrived)) << "the time is in the future";
     EXPECT_TRUE(times.add(reported(4, 20ms), kArrived));
     EXPECT_EQ(times.counters().startup, 1U);
     EXPECT_EQ(times.counters().broken, 2U);
@@ -52,7 +53,7 @@ TEST(PictureTimes, UnusablePicturesAreCountedByTheirCause) {
     EXPECT_EQ(times.counters().untimed, 0U);
 }
 
-TEST(PictureTimes, MissingSequenceNumbersAreDropsAlsoBesideUnusablePictures) {
+TEST(PictureTimes, MissingSequenceNumbersCountAsDropsEvenNextToUnusablePictures) {
     PictureTimes times(kWhole, 30);
     EXPECT_TRUE(times.add(reported(0, 400ms), kArrived));
     PictureTimes::Reported broken = reported(2, 300ms);

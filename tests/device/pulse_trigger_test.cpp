@@ -122,7 +122,7 @@ TEST(PulseTrigger, PulseIsNeverShorterThanRequestedAndItsStartIsTimed) {
     }
 }
 
-TEST(PulseTrigger, LongPulsesDoNotBlockTheCallerAndEndWithTheObject) {
+TEST(PulseTrigger, LongPulsesDoNotBlockTheCallerAndEndWithTheTrigger) {
     const auto wire = std::make_shared<Wire>();
     auto trigger = triggerOn(wire, 10s);
     const Timestamp edge = trigger->fire();

@@ -13,7 +13,7 @@ using testing::HasSubstr;
 using testing::ThrowsMessage;
 
 // This test passes on every machine, with or without GPIO chips.
-TEST(GpioTrigger, UnknownChipIsRefusedByName) {
+TEST(GpioTrigger, AnUnknownChipIsRefusedAndNamed) {
     TriggerOptions options;
     options.chip = "no-such-chip";
     options.line = "2";

@@ -30,7 +30,7 @@ public:
 
     static constexpr const char* kPipe = "screen.y4m";
     static constexpr const char* kSocket = "control";
-    static constexpr const char* kGpu = "gpu";  ///< file for faulty_gl.cpp
+    static constexpr const char* kGpu = "gpu";  ///< file with the faults of faulty_gl.cpp
     static constexpr int kGain = 100;
     static constexpr const char* kRecording = "disk-";
 

@@ -35,7 +35,7 @@ constexpr Ns kSameLine = 10 * kSecond;
 constexpr std::uint64_t kProvenFrames = 10;
 /// Tolerance, because pictures come periodically and answers take time.
 constexpr Ns kSlack = 100 * kMs;
-constexpr Ns kOnScreen = 500 * kMs;  ///< greatest age of a picture if there is no fault
+constexpr Ns kOnScreen = 500 * kMs;  ///< greatest age of the screen's picture without a fault
 constexpr Ns kAnswer = kSecond;
 
 std::string seconds(Ns time) {

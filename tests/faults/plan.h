@@ -45,7 +45,7 @@ struct Kind {
 
 struct Fault {
     const Kind* kind = nullptr;
-    Ns begin = 0, length = 0;  ///< times relative to the start of the episode
+    Ns begin = 0, length = 0;  ///< time since the episode's start; duration
     int number = 0;
     [[nodiscard]] std::string text() const;
 };

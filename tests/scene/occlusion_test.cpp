@@ -23,7 +23,7 @@ constexpr int kUnscored = 8;
 /// thin: the windows of the depth search widen them, and EdgeSnap corrects only a part of this.
 struct Case {
     synthetic::Scene scene;
-    double leastOverlap, mostBoundary;  // intersection over union; boundary distance [px]
+    double leastOverlap, mostBoundary;  // limits of IoU and of mean boundary distance [px]
 };
 
 class Occlusion : public testing::TestWithParam<Case> {
@@ -96,7 +96,7 @@ TEST_P(Rest, OneStillIsEnoughForOcclusion) {
 }
 
 // The camera is carried by hand and then put down at the position of the scene's resting camera.
-TEST_P(Rest, OcclusionNeitherFlickersNorLeaksAtRest) {
+TEST_P(Rest, OcclusionNeitherFlickersNorDegradesAtRest) {
     constexpr int kFrames = 30;
     constexpr double kMostFlicker = 0.001;
     SceneRun carried = sceneOn(Path::Handheld), resting = sceneOn(Path::Rest);

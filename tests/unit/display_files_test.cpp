@@ -290,7 +290,7 @@ TEST_F(PipeDisplays, WriterWhoseReaderReadsNothingIsOverItsTimeBudget) {
         << "the writer waits for a picture, which is no fault";
 }
 
-TEST_F(PipeDisplays, LivePicturesAreDiscardedAtTheEnd) {
+TEST_F(PipeDisplays, UnreadLivePicturesAreDiscardedAtTheEnd) {
     const FileDisplayPolicy live{.isLive = true, .finish = std::chrono::milliseconds(100)};
     const auto display = openFileDisplay("y4m:" + pipe.string(), 30, {}, live);
     show(*display, plain(kSize, 1), {1});
