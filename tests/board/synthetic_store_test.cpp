@@ -26,7 +26,8 @@ protected:
     SyntheticStore() { fs::remove_all(folder_); }
     ~SyntheticStore() override { fs::remove_all(folder_); }
 
-    /// Returns the stored texels of `key`. If there are none, stores texels of the value `colour`.
+    /// Returns the stored texels of `key`. If there are none, stores and returns texels of the
+    /// value `colour`.
     cv::Mat4b get(std::uint64_t key, unsigned char colour) {
         return TexelStore(folder_).get(key, kSide, [&] {
             ++made_;

@@ -14,7 +14,7 @@ struct Motion {
     double seconds = 12;
     double stillsHz = 2;
     bool rests = false;  ///< true: the target rests while a still is taken
-    double noise = 0.1;  ///< standard deviation of corner coordinates [px]
+    double noise = 0.1;  ///< standard deviation of the noise of corner coordinates [px]
     std::uint64_t seed = 1;
 };
 

@@ -104,8 +104,8 @@ std::string another(const Key& key) {
     return most != option.byDefault ? most : numberText(key, option.range.least);
 }
 
-/// All keys that can be read. One test covers all, because a test for each would take longer to
-/// start than to run.
+/// All keys of configuration files and of tables of levels. One test covers all, because a test for
+/// each would take longer to start than to run.
 std::vector<Key> allKeys() {
     std::vector<Key> out = keysOf(configOptions()), levels = keysOf(levelOptions());
     out.insert(out.end(), levels.begin(), levels.end());

@@ -1,4 +1,4 @@
-// Shows a test picture on a real screen and prints when the picture is shown and where. This
+// Shows a test picture on a real screen and prints which screen shows it from what time on. This
 // program runs on boards, and in a virtual machine whose host takes a screenshot. Usage:
 //   mfar-display-probe SCREEN PICTURES PPM SECONDS
 // SCREEN is as in openScreen(). The program waits for a screen, shows PICTURES pictures with a

@@ -69,7 +69,7 @@ public:
     void unplug();
     /// From now on, poll() reports POLLHUP. Calls to the driver still succeed.
     void hangUp();
-    /// While `wanted` is true, driver calls that queue or dequeue buffers block.
+    /// While `wanted` is true, driver calls that queue or dequeue buffers or stop the stream block.
     void hang(bool wanted);
     [[nodiscard]] bool hangs();
     [[nodiscard]] int queued();

@@ -258,7 +258,8 @@ private:
         }
     }
 
-    /// Wakes a program that waits for pictures. From now on, its calls fail with `error`.
+    /// Wakes a program that waits for pictures. From now on, all calls of the driver except
+    /// VIDIOC_STREAMOFF fail with `error`.
     void lose(int error) {
         lostError_ = error;
         isLost_ = true;

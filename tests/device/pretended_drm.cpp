@@ -64,8 +64,8 @@ std::uint32_t* twoFrom(std::uint32_t first) {
     return out;
 }
 
-/// True if the request shows the whole framebuffer on the whole screen. Sources are in 16.16 fixed
-/// point.
+/// True if the request shows the whole framebuffer on the whole screen. SRC_W and SRC_H are 16.16
+/// fixed-point numbers.
 bool isModeSet() {
     const std::uint64_t width = driver.seen.width, height = driver.seen.height;
     const auto is = [](std::uint32_t object, std::string_view property, std::uint64_t value) {

@@ -9,7 +9,7 @@
 //   slow MS       opening takes MS milliseconds
 //   gone          unplugged: open descriptors fail, nothing can be opened
 //   unplug N      a new N means unplugged and plugged in again: devices opened before are lost
-//   refuse N      the first N settings of its control "gain" after opening are refused
+//   refuse N      after opening, the first N attempts to set the control "Gain" are refused
 //   eio           taking a picture fails until the camera is opened again
 //   silent        no further pictures
 //   repeat        always the same picture

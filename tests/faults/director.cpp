@@ -158,8 +158,8 @@ void checkInQuiet() {
     }
 }
 
-/// True once begin() has restored the first thread's signal mask. Before that, begin() blocks all
-/// signals, so that a blocked SIGTERM does not yet show that mfard handles it.
+/// True once begin() has restored the first thread's signal mask. Before that, all signals are
+/// blocked, and a blocked SIGTERM does not show that mfard handles it.
 std::atomic<bool> hasItsMask = false;
 
 /// True if the first thread blocks SIGTERM. If not, SIGTERM ends the process at once.

@@ -17,7 +17,7 @@ first=$(ls live | sort -n | head -n 1)
 cmp "live/$first" "again/$first" ||
     fail "the first picture of the replay differs from that of the live run"
 
-# The live run may have dropped frames. The recording must have all frames with their poses.
+# The recording must have a pose for each of its 8 frames.
 echo "the scene's tags and the poses from them are recorded, too"
 [ "$(grep -c '^id = ' run/tags.toml)" -ge 3 ] ||
     fail "tags.toml of the recording has fewer than 3 tags"

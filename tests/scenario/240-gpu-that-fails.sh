@@ -72,7 +72,7 @@ ends_with 0 1000
 summary_has gpu_failures 3
 summary_has engine '"simd"'
 
-echo "if every context is lost as soon as it is made, the CPU draws"
+echo "if every context is lost at its first use, the CPU draws"
 begin --engine gles
 gpu_says broken
 until_true status_says '^engine +simd'

@@ -45,8 +45,8 @@ struct Watched {
     Pipeline pipeline;
 };
 
-/// `poseError`: error of the camera's position, as a share of the distance. It causes an equal
-/// error of depth.
+/// `poseError`: error of the camera's position, as a share of the distance to the object. It causes
+/// an equal error of depth.
 void expectGood(const DepthState& state, int frame, double poseError = 0) {
     SCOPED_TRACE(frame);
     EXPECT_LE(state.absrel, kMostError + poseError);

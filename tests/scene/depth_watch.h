@@ -17,8 +17,9 @@ struct DepthState {
     /// Standard deviation of the inverse depth that the pipeline reports, as a share of the inverse
     /// depth.
     double sigma = 0;
-    /// Change of inverse depth / true inverse depth since the previous frame, at the same points of
-    /// the scene. Only points with known depth in both frames count; 0 if there are none.
+    /// Change since the previous frame of the ratio (inverse depth / true inverse depth), at the
+    /// same points of the scene. Only points with known depth in both frames count; 0 if there are
+    /// none.
     double change = 0;
 };
 
@@ -39,7 +40,7 @@ private:
 
     const SyntheticBoard& board_;
     VirtualObject object_;
-    cv::Mat ratio_;  // inverse depth / true inverse depth of the previous frame; 0: unknown
+    cv::Mat ratio_;  // (inverse depth / true inverse depth) of the previous frame; 0: unknown
     std::optional<RigidTransform> pose_;
 };
 

@@ -23,8 +23,8 @@ struct Sensor {
     std::deque<Frame> ready;
     std::vector<Timestamp> pulses;
     int loans = 0;
-    int busy = 0;   ///< number of next calls of fire() that throw TriggerBusy
-    int blind = 0;  ///< number of next pulses that expose no still
+    int busy = 0;   ///< number of further calls of fire() that throw TriggerBusy
+    int blind = 0;  ///< number of further pulses that expose no still
     bool stopped = false;
     int rests = 0;
     bool high = false;  ///< true from a pulse until endPulse()
