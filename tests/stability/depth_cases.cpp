@@ -29,7 +29,8 @@ InverseDepthField fieldOf(Context& c, Size size, double unit, double spoilt) {
     return out;
 }
 
-/// Known values must be finite and not negative, with valid variances.
+/// All inverse depths must be finite, and no value may be negative or NaN. The variance of unknown
+/// depth is infinite.
 void checkField(Context& c, const InverseDepthField& field) {
     for (std::size_t i = 0; i < field.inverseDepth.size(); ++i) {
         c.checks.within(field.inverseDepth[i], 0, 3.4e38, "filtered inverse depth");

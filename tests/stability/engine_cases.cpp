@@ -110,7 +110,8 @@ void compareStills(Context& c, const StillPictures& gles, const StillPictures& s
     for (int y = 0; y < raised.size.height; ++y)
         for (int x = 0; x < raised.size.width; ++x)
             most = std::max(most, std::abs(raised[y][x] - (pairs[y][x] & 255)));
-    // Where the variance is near that of the noise, the removed share depends on rounding.
+    // Where the still's variance is near that of its noise, rounding decides how much of the noise
+    // is removed.
     c.checks.within(most, 0, areQuiet ? 5 : 2, "difference of a still's raised luma");
 }
 

@@ -119,8 +119,8 @@ void Run::runCase(const Case& one, std::uint64_t seed, Scale scale) {
                                            : "");
 }
 
-// Runs cases that balance_ chooses, until `until` [minutes]. Each run has its own seed, because a
-// case may be chosen again.
+// Runs the cases that balance_ chooses, until the time `until` [minutes] or until balance_ chooses
+// none. Each run has its own seed, because a case may be chosen again.
 void Run::fillUp(std::uint64_t seed, double until) {
     constexpr std::uint64_t kFarOff = 1000000007;
     while (!stops() && minutes() < until) {
@@ -151,7 +151,7 @@ Tally Run::drawSeeds(std::uint64_t first) {
             runCase(one, seed, scale);
             if (stops()) break;
         }
-        // Runs cases at Scale::Product, for three times as long as the loop above took.
+        // Runs cases at Scale::Product, for up to three times as long as the loop above took.
         if (scale == Scale::Mixed && !repeats)
             fillUp(seed, std::min(4 * minutes() - 3 * start, options_.run.minutes));
         ++seeds_;

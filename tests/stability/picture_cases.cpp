@@ -175,8 +175,8 @@ void evenPicture(Context& c) {
     }
 }
 
-/// Random statistics of cells, see twin::weigh(). Variances are from 0 to the largest that an 8x8
-/// patch of bytes can have.
+/// Random statistics of cells, see twin::weigh(). The variances are sums over an 8x8 patch, from 0
+/// to the largest sum that bytes can have.
 twin::Cells statisticsOf(Context& c, Size size) {
     twin::Cells out{size, {}};
     constexpr double kMost = 64 * 255.0 * 255.0 / 4;

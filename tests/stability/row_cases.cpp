@@ -120,7 +120,8 @@ void turnedRow(Context& c) {
 struct WholeLabels {
     simd::LabelLines lines{};
     Row raysX, raysY;
-    /// For each pixel of the row, the pixel of the canvas nearest to the point of label 0.
+    /// For each pixel of the row, the pixel of the still (whose size is `canvas`) nearest to the
+    /// point of label 0.
     std::vector<std::array<int, 2>> pixels;
     std::vector<double> feet;  ///< position of each pixel's foot [labels]
     std::array<int, 2> way{};  ///< step per label [px]

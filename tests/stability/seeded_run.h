@@ -14,7 +14,7 @@ struct SeededRun {
     double minutes = 1;
     std::optional<std::uint64_t> seed;
     std::uint64_t first = 0;  ///< first seed; 0: depends on the clock
-    int rounds = 0;           ///< number of seeds; 0: no limit but the time
+    int rounds = 0;           ///< number of seeds of each process; 0: no limit but the time
     int jobs = 1;
     bool keepGoing = false;
 

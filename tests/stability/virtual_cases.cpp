@@ -111,8 +111,8 @@ VirtualObject objectOf(Context& c) {
     return o;
 }
 
-/// True if the object has a valid size and is entirely in front of the camera. Only then are its
-/// pixels compared with rays.
+/// True if the object has a valid pose and size and is entirely in front of the camera. Only then
+/// are its pixels compared with rays.
 bool isCast(const VirtualObject& o) {
     const bool sound = isFinite(o.T_world_object) && o.size.allFinite() &&
                        std::abs(o.T_world_object.rotation.norm() - 1) < 1e-9;
