@@ -228,7 +228,7 @@ double alikeIn(const PixelRect& area, const EpipolarSearch& part, const Epipolar
     return static_cast<double>(alike) / all;
 }
 
-TEST(EpipolarSearch, SearchingAPartGivesTheSameResultAsTheWhole) {
+TEST(EpipolarSearch, ASearchOfAPartFindsTheSurfacesThatASearchOfTheWholeFinds) {
     const View view{barrel(), stepScene(), motion({1, -2, 3}, {-0.15, 0.1, 0.03})};
     const EpipolarSearch whole = searched(view);
     EpipolarSearch search = test::searchWith(view.camera, 2);

@@ -135,7 +135,7 @@ TEST(SemiGlobal, MatchesTheOracleInOneWindow) {
             expectTwin(randomProblem(size, 1, 0, seed));
 }
 
-TEST(SemiGlobal, MatchesTheOracleWithWindowsOfEveryShift) {
+TEST(SemiGlobal, MatchesTheOracleIfWindowsBeginWithDifferentLabels) {
     for (const int reach : {1, 5, 8, 16, 40, 300})
         for (unsigned seed = 1; seed <= 3; ++seed)
             expectTwin(randomProblem({41, 23}, 1, reach, seed));
