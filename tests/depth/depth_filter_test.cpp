@@ -71,7 +71,7 @@ TEST(DepthFilter, OneOutlierIsIgnoredAndALastingChangeIsFollowed) {
     EXPECT_NEAR(filter.field().inverseDepth[middle()], 3, 1e-5);
 }
 
-TEST(DepthFilter, OnlyMostlyContradictedBlocksDropContradictedDepthImmediately) {
+TEST(DepthFilter, ContradictedDepthIsForgottenAtOnceOnlyWhereMostOfABlockIsContradicted) {
     DepthFilter filter = filterOf();
     filter.predict({}, 0);
     filter.fuse(evenField(1, 0.02F), kWhole);

@@ -72,9 +72,9 @@ public:
     static RigidTransform at(double x) { return motion({0, 0, 0}, {x, 0.3 * x, 0}); }
 
     struct Errors {
-        double median = 0;  ///< median of |z - truth| / truth over pixels with known depth
-        double bad = 0;     ///< share of pixels with known depth whose error is above a tenth
-        double complete = 0;
+        double median = 0;    ///< median of |z - truth| / truth over pixels with known depth
+        double bad = 0;       ///< share of pixels with known depth whose error is above a tenth
+        double complete = 0;  ///< share of pixels with known depth
     };
     [[nodiscard]] Errors errors() const {
         std::vector<double> all;
@@ -240,7 +240,7 @@ TEST(DepthStage, AtRestForgottenDepthBesideTheMeasuredRectangleCausesNoMeasureme
     EXPECT_EQ(walk.stage().source(), DepthSource::Carried);
 }
 
-TEST(DepthStage, AtRestAMovingRectangleDoesNotReduceTheVarianceOfKnownDepth) {
+TEST(DepthStage, AtRestMovingTheMeasuredRectangleKeepsTheVarianceOfKnownDepth) {
     Walk walk;
     walk.measureIn({40, 20, 200, 160});
     walk.stage().renew();
