@@ -118,7 +118,7 @@ TEST(SceneBoxes, TheShadowCatcherHasItsOwnBoxes) {
     EXPECT_EQ(boxes.world()[0].max(), Eigen::Vector3d(1, 1, 0));
 }
 
-TEST(SceneBoxes, ObjectsOutOfViewOrWithoutAPoseCoverNothing) {
+TEST(SceneBoxes, ObjectsOutOfViewOrSeenFromAnInvalidPoseCoverNothing) {
     Silhouette silhouette(kWide, 4);
     for (const Eigen::Vector3d& p :
          {Eigen::Vector3d(0, 0, -1), Eigen::Vector3d(3, 0, 1), Eigen::Vector3d(0, -4, 2)}) {

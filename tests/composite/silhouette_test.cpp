@@ -99,7 +99,7 @@ TEST(Silhouette, TheConfiguredMarginWidensTheSilhouette) {
     EXPECT_EQ(before, 80);
 }
 
-TEST(Silhouette, ObjectsOutOfViewOrWithoutAPoseCoverNothing) {
+TEST(Silhouette, ObjectsOutOfViewOrWithAnInvalidPoseCoverNothing) {
     constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
     Silhouette silhouette(kCamera, 4);
     ASSERT_GT(covered(silhouette.run(std::vector{at({0, 0, 1})}, kPose)), 0);
@@ -111,7 +111,7 @@ TEST(Silhouette, ObjectsOutOfViewOrWithoutAPoseCoverNothing) {
     EXPECT_EQ(covered(silhouette.run({}, kPose)), 0);
 }
 
-TEST(Silhouette, SurfacesAroundTheCameraCoverTheWholePictureFromTheNearPlane) {
+TEST(Silhouette, SurfacesAroundTheCameraCoverTheWholePictureAndAreCutAtTheNearPlane) {
     Silhouette silhouette(kCamera, 0);
     EXPECT_EQ(covered(silhouette.run(std::vector{at({0, 0, 0.1}, VirtualShape::Box, 3)}, kPose)),
               80);
