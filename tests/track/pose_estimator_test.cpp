@@ -46,8 +46,8 @@ private:
 };
 
 /// Results of a run. `turns`: number of frames at which the pose's error in rotation changes by
-/// more than 3 degrees. `lost`: number of frames without a pose. `worst`: largest error in
-/// rotation [rad].
+/// more than 3 degrees. `flips`: result of PoseEstimator::flips(). `lost`: number of frames without
+/// a pose. `worst`: largest error in rotation [rad].
 struct Followed {
     int turns = 0, flips = 0, lost = 0;
     double worst = 0;

@@ -37,7 +37,7 @@ struct SensorLook {
     double gamma = 2.2;  ///< grey = 255 light^(1 / gamma)
     double noise = 0;    ///< standard deviation [grey levels]
     unsigned seed = 1;
-    double dark = 0.03;
+    double dark = 0.03;  ///< light of the tags' dark cells, from 0 to 1
     double bright = 0.8;
 };
 
