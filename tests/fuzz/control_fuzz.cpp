@@ -12,7 +12,8 @@ namespace {
 using namespace mfar;
 using nlohmann::ordered_json;
 
-/// Set by the action because answerControl() catches exceptions of actions.
+/// Set by the action `record`, which cannot report a fault by an exception: answerControl() catches
+/// exceptions of actions.
 bool recordsElsewhere = false;
 
 /// True if a recording of this name would not be a visible folder in the folder of recordings. Does
