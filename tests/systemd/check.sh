@@ -90,7 +90,7 @@ grep -Eq '^ExecStopPost=-?[^+!:@]' "$unit" ||
 grep -q "^ExecStopPost=-/.*/lib/mfar/release-trigger$" "$unit" ||
     fault "ExecStopPost= does not release the trigger line"
 
-# is-trigger-chip must accept only the GPIO chip of the configured line, by any of its names.
+# is-trigger-chip must accept only the GPIO chips of the configured lines, by any of their names.
 isChip() {
     printf '%s\n' "$2" >"$work/trigger.toml"
     "$sources/is-trigger-chip" "$1" "$work/sys/chip/$1" "$work/trigger.toml"
