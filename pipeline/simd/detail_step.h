@@ -21,6 +21,7 @@
 
 namespace mfar::simd {
 
+/// `cubic`: see Quality. `enlargedTiles`, `plainTiles`: see SkipOptions.
 struct DetailOptions {
     SuperResMode mode;
     bool cubic;

@@ -177,7 +177,7 @@ HWY_INLINE void sumWindow(const StillPicture& p, const TapLanes& x, const TapLan
     if constexpr (kOfLight) hn::StoreU(squares, d, to.squares[pixel]);
 }
 
-/// Returns the sums of the four parts of each pixel's sum, for as many pixels as Floats has lanes.
+/// Adds up the four parts of each pixel's sum, for as many pixels as Floats has lanes.
 template <class D>
 HWY_INLINE hn::Vec<D> sumsOfParts(D d, const hn::TFromD<D> (*parts)[kTaps]) {
     hn::Vec<D> a, b, c, e;

@@ -6,9 +6,9 @@
 
 namespace mfar::simd {
 
-// Functions for rows of a still. All rows but the cameras' rows that lumaOfPlane() and
-// lumaOfPairs() read need 64 more bytes after their end, because the last vector may reach beyond
-// it.
+// Functions for rows of a still. Rows need 64 more bytes after their end, because the last vector
+// may reach beyond the end. Exception: the rows of Y, or of Y and chroma, that lumaOfPlane() and
+// lumaOfPairs() read from the camera's picture.
 
 /// Parameters of lumaOfPlane() and lumaOfPairs(), which compute luma from Y and chroma.
 /// lumaOfPlane() reads a plane of Y; lumaOfPairs() reads byte pairs with Y first. The result is Y *

@@ -29,6 +29,7 @@ class TileClasses {
 public:
     explicit TileClasses(Size video);
 
+    /// See SkipOptions.
     struct Skips {
         bool enlargedTiles, plainTiles;
     };

@@ -35,6 +35,8 @@ struct Hole {
     bool isEdge, isOpen;
 };
 
+/// The pixels of the re-rendered pictures, in host memory. A picture is addressed by its slot (see
+/// RerenderedPictures::Picture::slot).
 class RerenderedStore {
 public:
     using Rgba = std::array<std::uint8_t, 4>;
