@@ -1,11 +1,11 @@
-// Computes where the still shows a video pixel that is infinitely far away. This depends on both
-// lenses and on the rotation between the cameras, but not on parallax.
+// Computes where the still shows an infinitely distant point that a video pixel shows. This depends
+// on both lenses and on the rotation between the cameras, but not on parallax.
 #include "camera.glsl"
 #include "pipeline/engine/params/luma.h"
 
 // Returns the position in the still [px] of an infinitely distant point that the video shows at
 // `videoPixel`. It does not depend on the distance between the cameras. The result is far outside
-// the still if the pixel's ray points away from the still's picture.
+// the still if the point is not in front of the still camera.
 vec2 stillPixel(Rig r, vec2 videoPixel) {
     vec3 p = vec3(unprojectPixel(r.video, videoPixel), 1.0);
     vec3 s;
