@@ -33,7 +33,7 @@ T weighed(const std::array<T, 4>& w, const std::array<double, 4>& v) {
     return w[0] * T(v[0]) + w[1] * T(v[1]) + w[2] * T(v[2]) + w[3] * T(v[3]);
 }
 
-/// Position of output column x between two video pixels, from 0 to 1: the fraction of
+/// Position of output column x between two video pixels, from 0 to 1: the fractional part of
 /// x * scale - 0.5.
 template <class T>
 T fractionAt(double x, double scale) {

@@ -46,9 +46,10 @@ public:
     [[nodiscard]] Eigen::Vector3d direction();
     [[nodiscard]] Eigen::Quaterniond turn();
     /// A motion with small or large rotation. The translation leads sideways, forwards or
-    /// backwards; its length is 0 to 1000 times `unit`. The epipole may be in the picture, at its
+    /// backwards; its length is 0 to 1160 times `unit`. The epipole may be in the picture, at its
     /// border or near it.
     [[nodiscard]] RigidTransform motion(double unit = 1);
+    /// A motion with a rotation of at most 0.08 rad and a translation of 0.01 to 0.3 times `unit`.
     [[nodiscard]] RigidTransform gentle(double unit = 1);
     /// Returns `T` with an invalid or extreme number, rotation or translation.
     [[nodiscard]] RigidTransform spoilt(RigidTransform T);

@@ -61,8 +61,7 @@ void checkPipeline(Context& c, const Pipeline& p, const StereoRig& rig) {
         c.checks.within(v, 0, 1, "visible share of an object's pixel");
     const FrameStats s = p.readStats();
     for (const double v : {s.meanConfidence, s.explained, s.changed, s.redrawn})
-        c.checks.within(v, 0, 1,
-                        "mean confidence of a frame, or its share of matched or changed tiles");
+        c.checks.within(v, 0, 1, "mean confidence of a frame, or a share of its tiles");
     c.checks.within(s.epipolarError, 0, 1e7, "median distance from epipolar lines [px]");
     c.gl.frame(c.checks, pixelsOf(rig.video.size));
 }

@@ -51,8 +51,8 @@ void turnedPoints(Context& c) {
         const auto p = test::turned(lens.turn, {raysX[i], raysY[i], 1});
         const double radius = std::hypot(p.x, p.y) / p.z;
         const bool isShown = p.z > 0.05 && p.z < 1e30 && radius < rim;
-        // `rim` is the radius beyond which the lens model is not valid. Near it, and near the least
-        // depth 0.05, rounding decides whether a ray counts as shown.
+        // `rim` is the radius of the outermost visible ray. Near it, and near the least depth
+        // 0.05, rounding decides whether a ray counts as shown.
         if (std::abs(radius / rim - 1) < 1e-3 || std::abs(p.z - 0.05) < 1e-3) continue;
         if (std::abs(p.z / 1e30 - 1) < 1e-3) continue;
         if (!isShown) {
