@@ -102,8 +102,8 @@ RgbPlanes noisy(const LumaImage& light, double sigma, std::mt19937& random) {
 }
 
 /// Plans frames of a camera that moves sideways by `step` [m] per frame. Returns the first frame
-/// after which the camera does not count as resting since the start, or `frames`. `drawsAll`: every
-/// frame is drawn as a whole.
+/// after which the camera does not count as resting since frame 1, or `frames`. `sigma`: standard
+/// deviation of the noise [grey levels]. `drawsAll`: every frame is drawn as a whole.
 int framesAtRest(double step, double sigma, int frames, bool drawsAll = false) {
     std::mt19937 random(7);
     WorkPlan plan(videoCamera().size);
