@@ -35,8 +35,8 @@ struct LastLookUps final : MatchListener {
 };
 
 /// A scene with discs and, at its right side, a surface without structure. The camera has moved
-/// between still and video. `rise`: rise of the flat surface's level towards its right side. The
-/// level rises slowly, so that no tile gets structure.
+/// between still and video. `rise`: rise of the flat surface's level towards its right side [grey
+/// levels]. The level rises slowly, so that no tile gets structure.
 Grey scene(double rise, int shift) {
     static const Grey discs = sharpDiscs(1);
     return twin::greyOf(kDiscsStill, [&](int x, int y) {
@@ -52,7 +52,7 @@ protected:
         pose_.T_world_video.translation.x() = kShift / discsRig().still.fx;  // the scene is at 1 m
     }
 
-    /// Draws frames until one uses the pose, if there is one.
+    /// Draws frames until one uses `pose`, or uses no pose if `pose` is not given.
     void draw(Pipeline& pipeline, const std::optional<Pose>& pose) const {
         const Bytes video = bytesOf(videoOf(scene(0, kShift), {}));
         const ImageView view{video.data(), kDiscsVideo, std::size_t(kDiscsVideo.width),

@@ -17,8 +17,8 @@ using Bytes = std::vector<std::uint8_t>;
 
 class NoisyStill : public GlTest, public testing::WithParamInterface<EngineKind> {
 protected:
-    /// Mean squared error of the picture that is drawn with a still with this noise [grey
-    /// levels^2].
+    /// Mean squared error of the drawn picture [grey levels^2]. `sigma`: standard deviation of the
+    /// still's noise [grey levels].
     static double error(double sigma) {
         const Grey scene = sharpDiscs(1);
         std::mt19937 random(2);
