@@ -9,8 +9,8 @@
 // whose colour is unknown. z: 1 if an object fills the pixel and no picture shows it. w: number of
 // the surface that fills the pixel, if the whole colour is known. A number is 0 if there is no such
 // surface.
-// holes[] = pixels without a known colour: pixel index, colour so far (RGBA8). Bit 31 of the index:
-// z of the state is 1. Bit 30: the pixel is at an edge.
+// holes[] = pixels whose colour is not wholly known: pixel index, colour so far (RGBA8). Bit 31 of
+// the index: z of the state is 1. Bit 30: the pixel is at an edge.
 // holeCommands[0] = number of groups of 64 entries of holes[] (x), number of entries (w).
 // holeCommands[l] = dispatch command for pyramid level l, written with the first entry of holes[].
 // Range: depth 0..1e6
