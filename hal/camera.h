@@ -18,12 +18,12 @@ struct CameraInfo {
     double rateHz = 0;  ///< frame rate [Hz]; 0: the camera takes pictures only when it is triggered
 };
 
-/// Counts a camera's frames since its start. A frame in `untimed` is also counted in `delivered`.
-/// All other frames are counted once.
+/// Counts a camera's frames, restarts and reopenings since its first start. A frame in `untimed` is
+/// also counted in `delivered`. All other frames are counted once.
 struct CameraCounters {
     std::uint64_t delivered = 0;
-    /// Frames that were not captured or not delivered, e.g. because the driver had no free buffer.
-    /// Not set if the camera does not count them.
+    /// Frames that the driver lost or that were skipped, e.g. because no buffer was free. Not set
+    /// if the camera does not count them.
     std::optional<std::uint64_t> missed{};
     /// Frames that were not delivered, because they are incomplete, marked as broken by the driver,
     /// or cannot be decoded.

@@ -220,8 +220,7 @@ std::optional<Timestamp> CameraV4l2::timeOf(const V4l2Filled& filled) {
     return out;
 }
 
-// Returns the exposure time, or 0 if it is automatic or unknown. V4L2's unit is 100 us. Drivers use
-// different names for the controls of the exposure.
+// Returns the exposure time, or 0 if it is automatic or unknown.
 nanoseconds CameraV4l2::manualExposure() const {
     try {
         return readExposure();
@@ -233,6 +232,7 @@ nanoseconds CameraV4l2::manualExposure() const {
     }
 }
 
+// Drivers use different names for the controls of the exposure. V4L2's unit of exposure is 100 us.
 nanoseconds CameraV4l2::readExposure() const {
     constexpr std::int64_t kMost = 100'000;
     for (const char* name : {"auto_exposure", "exposure_auto"}) {

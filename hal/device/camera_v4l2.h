@@ -22,7 +22,7 @@ struct CameraV4l2Options {
     CameraWish device;  ///< path ("/dev/video0"), card name or bus
     V4l2Wish wish;
     /// Number of driver buffers; values outside 2 to 32 are clamped. It must be larger than the
-    /// number of pictures in use.
+    /// number of pictures that callers hold at a time.
     int buffers = 6;
     /// Added to the driver's timestamps. If the driver takes the timestamp at the end of a frame,
     /// set this to the sensor's readout time with a minus sign.

@@ -208,8 +208,8 @@ void KmsScreen::releaseGl() {
     left_ = std::move(buffers_);
 }
 
-// The console's picture is restored before the buffers are freed, because freeing a visible buffer
-// turns the screen off. Errors are ignored, because a lost device refuses all requests.
+// The screen's previous picture is restored before the buffers are freed, because freeing a visible
+// buffer turns the screen off. Errors are ignored, because a lost device refuses all requests.
 void KmsScreen::leaveOutput() {
     if ((buffers_ || left_) && output_) {
         waitForLostFlip();

@@ -19,8 +19,8 @@ void halveRows(std::uint8_t* plane, std::size_t rowBytes, int rows) {
     }
 }
 
-// Returns true if the decoder's last message is about bytes before the end marker of a picture.
-// Many cameras add padding there. No pixels are missing then.
+// Returns true if the decoder's last message only reports extra bytes before the end marker of a
+// picture. Many cameras add such padding, and the picture is complete.
 bool harmless(void* handle) {
     return std::string_view(tjGetErrorStr2(handle)).find("before marker 0xd9") !=
            std::string_view::npos;

@@ -15,7 +15,7 @@ namespace mfar {
 /// decoder. Any thread may use the frames.
 class JpegDecoder {
 public:
-    /// Throws std::invalid_argument if width or height is not positive and even, and
+    /// Throws std::invalid_argument unless width and height are both positive and even. Throws
     /// std::runtime_error if the JPEG library fails.
     JpegDecoder(Size size, int buffers);
 

@@ -7,10 +7,10 @@
 
 namespace mfar {
 
-/// Converts a camera's timestamps to CLOCK_MONOTONIC. libcamera documents CLOCK_BOOTTIME, but its
-/// drivers use CLOCK_MONOTONIC. The clocks differ by the time for which the machine was suspended.
-/// If one of the first eight timestamps is in the future on CLOCK_MONOTONIC but not on
-/// CLOCK_BOOTTIME, the camera uses CLOCK_BOOTTIME.
+/// Converts a camera's timestamps to CLOCK_MONOTONIC. libcamera documents CLOCK_BOOTTIME, but the
+/// known drivers use CLOCK_MONOTONIC. The clocks differ by the time for which the machine was
+/// suspended. A camera counts as using CLOCK_MONOTONIC, unless one of its first eight timestamps is
+/// in the future on CLOCK_MONOTONIC but not on CLOCK_BOOTTIME.
 class SensorClock {
 public:
     enum class Kind : std::uint8_t { Monotonic, Boottime };

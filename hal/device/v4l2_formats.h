@@ -56,7 +56,7 @@ struct V4l2Layout {
         std::size_t stride = 0;
     };
     std::array<Plane, 3> planes{};
-    /// For each V4L2 plane, the number of bytes of a complete picture. 0 for JPEG, whose size
+    /// For each V4L2 plane, the number of its bytes in a complete picture. 0 for JPEG, whose size
     /// varies.
     std::array<std::size_t, 3> bytes{};
 

@@ -50,7 +50,8 @@ bool isNamed(const V4l2Device& device, const std::string& name) {
 }
 
 // Returns false if the device has no supported format (e.g. a sensor that gives only raw Bayer
-// data), or no video input: such a device is the output of a chip that converts pictures.
+// data), or if it has no video input. A capture device without a video input is the output of a
+// chip that converts pictures.
 bool looksLikeCamera(const V4l2Device& device) {
     v4l2_input input{};
     return device.tryCall(VIDIOC_ENUMINPUT, &input) != ENOTTY && hasUsableFormat(device);

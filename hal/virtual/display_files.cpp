@@ -64,7 +64,8 @@ public:
         {
             const std::lock_guard lock(mutex_);
             waiting_.push_back(std::move(loan));
-            // The job of a skipped picture is still in the writer's queue and writes this one.
+            // If an older picture was skipped, its job is still in the writer's queue and writes
+            // this one.
             if (jobs_ == waiting_.size()) return;
             ++jobs_;
         }

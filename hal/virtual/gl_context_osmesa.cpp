@@ -32,7 +32,7 @@ public:
         description_ = std::string("OSMesa: ") +
                        reinterpret_cast<const char*>(glGetString(GL_RENDERER)) + ", OpenGL " +
                        reinterpret_cast<const char*>(glGetString(GL_VERSION)) + ", software";
-        // Makes OpenGL convert the values that are drawn into sRGB textures, as OpenGL ES always
+        // Makes OpenGL encode values as sRGB when it draws into sRGB textures, as OpenGL ES always
         // does.
         constexpr GLenum kFramebufferSrgb = 0x8DB9;
         glEnable(kFramebufferSrgb);

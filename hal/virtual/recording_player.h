@@ -21,7 +21,7 @@ enum class Pace {
 struct PlayerOptions {
     Pace pace = Pace::Realtime;
     bool loop = false;  ///< restart at the end; times still increase, see recordedTime()
-    /// Number of buffers for pictures that are in use or decoded, at least 2.
+    /// Number of buffers for pictures that are in use or decoded ahead, at least 2.
     int videoBuffers = 8;
     int stillBuffers = 4;
     /// For Pace::Consumer: the consumer requests a frame, and then the stills up to that frame.

@@ -19,9 +19,9 @@ constexpr std::array<std::uint64_t, 36> kTagCodes{
     0xe2cfda160ULL, 0x2ff497c63ULL, 0x47240671bULL, 0x5047a2e55ULL, 0x635ca87c7ULL, 0x691254166ULL};
 static_assert(kTagCodes.size() == static_cast<std::size_t>(kGridTags) * kGridTags);
 
-// The texture is a grid of square cells: a white rim, then black squares and tags alternately. A
-// cell is a whole number of texels down to the fourth mipmap level, so that edges have exact
-// positions.
+// The texture is a grid of square cells: a white rim, then black squares and tags alternately. The
+// side of a cell is a whole number of texels down to mipmap level 4, a sixteenth of the full size,
+// so that edges have exact positions.
 constexpr int kGapCells = 2, kPitch = kTagCells + kGapCells;
 constexpr int kRim = 1;
 constexpr int kLayerCells = 2 * kRim + kGridTags * kPitch + kGapCells;

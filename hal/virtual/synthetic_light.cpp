@@ -22,7 +22,7 @@ constexpr double kSlack = 1e-3;  // margin around bounding spheres for rounding 
 constexpr int kKeyRays = 12, kSkyRays = 16;
 
 struct SurfacePoint {
-    Eigen::Vector3d position, normal;  ///< in the primitive's frame [m]
+    Eigen::Vector3d position, normal;  ///< in the primitive's frame; `position` in metres
 };
 
 /// Returns the point of a primitive's face with the face coordinates (s, t) in [-1, 1]^2. chart()

@@ -11,8 +11,8 @@ namespace mfar::synthetic {
 
 inline constexpr int kLayerSize = 1024;
 
-/// Generates one texture layer. RGB is the linear reflectance, A the strength of highlights. Clouds
-/// and the layers that Builder::tiled() is used with repeat without a seam.
+/// Generates one texture layer. RGB is the linear reflectance, A the strength of highlights. The
+/// layer Clouds and all layers that are passed to Builder::tiled() repeat without a seam.
 [[nodiscard]] cv::Mat4b makeLayer(Layer layer, std::uint64_t seed);
 
 /// Calls paint(pixel, {row, column}) for every pixel. OpenCV's forEach() is not used, because race

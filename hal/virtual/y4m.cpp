@@ -48,7 +48,8 @@ void appendY4mFrame(const ImageView& rgba, std::vector<std::uint8_t>& out) {
     if (width % 2 != 0 || height % 2 != 0)
         cv::copyMakeBorder(source, even, 0, height % 2, 0, width % 2, cv::BORDER_REPLICATE);
     cv::cvtColor(even, planes, cv::COLOR_RGBA2YUV_I420);
-    // cvtColor() computes chroma from the first of four pixels, so it gets the mean of the four.
+    // cvtColor() computes chroma from the first of four pixels. So the chroma planes are computed
+    // from a second picture, in which all four pixels have their mean.
     cv::resize(even, half, {}, 0.5, 0.5, cv::INTER_AREA);
     cv::resize(half, means, even.size(), 0, 0, cv::INTER_NEAREST);
     cv::cvtColor(means, planesOfMeans, cv::COLOR_RGBA2YUV_I420);
