@@ -98,8 +98,9 @@ struct Pose {
     Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
     int tags = 0;                  ///< number of tags used; 0: predicted, interpolated or recorded
     double reprojectionError = 0;  ///< RMS error of the tags' corners [px]
-    /// Number of the world frame. Without a tag map, another tag can become the world. The motion
-    /// between poses in different world frames is unknown.
+    /// Number of the world frame. Without a tag map, one tag defines the world frame. If another
+    /// tag takes its place, the number changes. The motion between poses in different world frames
+    /// is unknown.
     int world = 0;
 };
 

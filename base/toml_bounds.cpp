@@ -44,8 +44,8 @@ private:
         ++at_;
     }
 
-    /// Skips a string. A single-line string without a closing quote ends at its line's end, unless
-    /// a backslash in a string in double quotes escapes the line break.
+    /// Skips a string. A single-line string without a closing quote ends at the end of its line. In
+    /// double quotes, it continues on the next line if a backslash escapes the line break.
     void skipString() {
         const char quote = text_[at_];
         const bool isLong = text_.substr(at_, 3) == std::string(3, quote);

@@ -13,11 +13,11 @@ enum class Durability {
     WithSync,  ///< safe after the next syncFileSystem(); until then, a power cut can truncate files
 };
 
-/// Writes a file completely or not at all: the bytes go to a temporary file in the same folder,
-/// which is renamed at the end. An existing file is replaced. If `file` is a symbolic link to an
-/// existing file, that file is replaced; a link to a missing file is replaced itself. A device or
-/// pipe is not replaced; the bytes are written into it, and after an error a part of them may be
-/// written. Thread-safe. Throws std::runtime_error "file: reason", also if the disk is full.
+/// Writes a file completely or not at all: the bytes go to a temporary file in the same folder, and
+/// this temporary file is renamed at the end. An existing file is replaced. If `file` is a symbolic
+/// link to an existing file, that file is replaced; a link to a missing file is replaced itself. A
+/// device or pipe is not replaced; the bytes are written into it, and after an error a part of them
+/// may be written. Thread-safe. Throws std::runtime_error "file: reason", also if the disk is full.
 void writeWholeFile(const std::filesystem::path& file, std::span<const std::uint8_t> bytes,
                     Durability durability = Durability::OnReturn);
 

@@ -13,8 +13,8 @@
 namespace mfar::plausible {
 namespace {
 
-// R counts as a rotation if its determinant is positive and no element of R R^T differs from that
-// of the identity matrix by this or more. Some files round R to four digits.
+// R counts as a rotation if its determinant is positive and the absolute value of every element of
+// R R^T - I is below this. Some files round R to four digits.
 constexpr double kRotationTolerance = 1e-3;
 // Largest error of project(unproject(pixel)) [px]. A larger error shows that the lens model folds
 // over inside the picture.

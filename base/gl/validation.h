@@ -36,8 +36,8 @@ struct ValidationFault {
 /// object exists is followed by guard bytes. They must not change; read as floats, they are NaN. A
 /// Texture of half floats that is created while a Validation object exists is filled with NaN, so
 /// that reading texels that no pass wrote becomes visible. Validation makes a pass ten times as
-/// slow. Without Validation, a pass only tests one pointer. The passes' GL context must be current.
-/// The state of that context is restored. A thread has at most one Validation.
+/// slow. Without Validation, a pass only tests a pointer twice. The passes' GL context must be
+/// current. The state of that context is restored. A thread has at most one Validation.
 ///
 ///     gpu::Validation validation;     // before the Pipeline is made
 ///     ... frames ...
