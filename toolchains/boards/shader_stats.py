@@ -146,7 +146,7 @@ def parse(lines):
     out, wanted, shader, nir, stage = {}, (), None, None, ''
     for line in lines:
         line = line.replace('MESA: info: ', '').rstrip('\n')
-        # The driver for Adreno prints from another thread, so the name can follow a part of its line.
+        # Adreno's driver prints from another thread, so a part of its line can precede the shader's name.
         named = re.search(r'shader: (\S+\.(comp|frag|vert))(?: (.*))?$', line)
         if named:
             name = named.group(1).rsplit('/', 1)[-1]

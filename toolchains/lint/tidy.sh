@@ -1,8 +1,8 @@
-# Functions that run clang-tidy on all files that have changed since clang-tidy last passed. `run`
-# reads this file in the project's folder.
+# Functions that run clang-tidy on all files that have changed since clang-tidy last passed. Part of
+# `./run`; paths are relative to the project's folder.
 
-# Prints all files to check: the build's unity files, which check a header of several sources only
-# once, and the sources that are in no unity file. Generated sources are left out.
+# Prints all files to check: the build's unity files, and the sources that are in no unity file. A
+# header of several sources is checked only once in a unity file. Generated sources are left out.
 everything() {
     sed -n 's|^ *"file": "\(.*\)",\?$|\1|p' .build/host/compile_commands.json |
         sort -u |
@@ -44,9 +44,9 @@ sharedOptions() {
     printf '%s\n' -O2 -fPIE -fmath-errno -DFMT_SHARED -DGTEST_HAS_PTHREAD=1 -DHWY_COMPILE_ONLY_STATIC
 }
 
-# precompileHeaders HEADERS: precompiles the headers of other projects. With them, clang-tidy takes
-# half the time. dpkg's status file changes with every installed package, which may contain a changed
-# header.
+# precompileHeaders HEADERS: precompiles the headers of other projects, unless they are up to date.
+# With them, clang-tidy takes half the time. They count as out of date after the installation of any
+# package, which changes dpkg's status file, because the package may contain a changed header.
 precompileHeaders() {
     local headers=$1 source=toolchains/lint/system_headers.h input options
     for input in "$source" toolchains/lint/tidy.sh /var/lib/dpkg/status; do

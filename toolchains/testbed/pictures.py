@@ -37,8 +37,8 @@ class Film:
     """Pictures from a file of mfar-film, which contains them one after the other, with their times [s]
     in a second file. The film runs forwards up to the time `span`, then backwards, and so on, so that
     the view never jumps. Films with the same span stay synchronous. `numbered`: the picture's number is
-    drawn into it. `held`: only the first picture is shown. In pictures with odd numbers, the lowest bits
-    of its first column are inverted, because mfard reports a camera that repeats exactly the same
+    drawn into it. `held`: only the first picture is shown. If the number is odd, the lowest bits of this
+    picture's first column are inverted, because mfard reports a camera that repeats exactly the same
     picture."""
 
     held = False

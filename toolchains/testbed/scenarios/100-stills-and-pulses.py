@@ -20,8 +20,8 @@ def run(bed):
 
 
 def fire(bed, pulses):
-    """Fires pulses. Returns the matched stills as (number of pulses so far, number in the picture), and the
-    counters."""
+    """Fires pulses. Returns the matched stills as (number of pulses so far, number of the still's own pulse),
+    both counted from 1 at the first of these pulses, and the counters."""
     first = bed.still.pulses
     said = bed.run(f'{PROBE} {pulses} {PERIOD} {JITTER} 2>/tmp/probe.err || cat /tmp/probe.err',
                    pulses * PERIOD / 1000 + 60)
