@@ -94,8 +94,8 @@ void App::leave(const std::string& why) {
     log_.warning(why, {}, {message::kEnded});
     if (ended_ && ended_->error) leaveFailed(ended_->error);
     const std::string reason = stopReason_.value_or(ended_ ? ended_->reason : "");
-    // If neither a signal nor the end of the run came first, pictures may be missing in the output.
-    // After a signal, missing pictures are not a failure.
+    // Without a signal, and before the picture thread has written all output, pictures may be
+    // missing in the output. After a signal, missing pictures are not a failure.
     const bool isComplete = stopSignal_ || ended_ || !writes();
     const ExitCode end = isComplete ? ExitCode::Ok : ExitCode::OutputFailed;
     const bool written = writeResults(reason, end);

@@ -22,8 +22,8 @@ struct CameraState {
     CameraCounters counters{};
     std::uint64_t repeated = 0;  ///< number of pictures equal to the previous one
     std::optional<Timestamp> lastFrame{};
-    /// Time of the last picture that differed from the one before it. Not set if repeated pictures
-    /// are not detected.
+    /// Time of the last picture that differed from the one before it. Set only for
+    /// CameraKind::Sensor.
     std::optional<Timestamp> lastDistinct{};
     std::optional<double> distinctAgeS{};  ///< age of that picture [s], set by Stats::count()
     bool repeats = false;  ///< true: the camera has repeated a picture for at least kRepeatTime

@@ -87,8 +87,9 @@ private:
     // thread_ owns both while isFull_ is true.
     MatchedPictures pictures_, older_;
     std::optional<RgbPlanes> olderVideo_;
-    bool hasOlder_ = false;    // true: `older_` is the still before the one in `pictures_`
-    bool olderTaken_ = false;  // picture thread only; true: `older_` was set since the last still
+    bool hasOlder_ = false;  // true: `older_` is the still before the one in `pictures_`
+    // True: replaced() has set `older_` since the last matched(). Only the picture thread uses it.
+    bool olderTaken_ = false;
     // The frame in `older_`, matched with the new still instead of the older one. Only thread_ uses
     // truth_ and matcher_.
     MatchedPictures truth_;

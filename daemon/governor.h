@@ -89,9 +89,10 @@ private:
     Choice next_;
     std::array<double, kWindow> ratios_{};  // measured time / table time, ring buffer
     std::size_t ratioCount_ = 0;
-    std::uint64_t frame_ = 0;            // number of counted frames
-    std::uint64_t changedAt_ = 0;        // value of frame_ at the last change of level
-    std::vector<std::uint64_t> lateAt_;  // value of frame_ at each late frame since that change
+    std::uint64_t frame_ = 0;      // number of counted frames
+    std::uint64_t changedAt_ = 0;  // value of frame_ at the last change of level
+    // Values of frame_ at the late frames since changedAt_, of the last 40 counted frames at most.
+    std::vector<std::uint64_t> lateAt_;
     struct Trial {
         // The governor does not change from a faster level to this level until frame_ reaches
         // `notBefore`. It may change to it from a slower level, and use it for the redraw at rest.

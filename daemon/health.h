@@ -26,7 +26,7 @@ enum class HealthState {
 
 struct Health {
     HealthState state = HealthState::Ok;
-    std::string cause{};  ///< empty in state Ok; names no times, so causes can be compared
+    std::string cause{};  ///< empty in state Ok; has no times, so equal causes have equal texts
     double sinceS = 0;    ///< duration of the state with this cause [s]
     std::optional<double> pictureAgeS{};  ///< age of the last picture [s]; not set: there is none
     std::string thread{};
@@ -52,7 +52,7 @@ struct Observed {
     std::optional<Timestamp> repeats{};  ///< time since which the video camera repeats one picture
     std::optional<Timestamp> lastPicture{};
     std::optional<Timestamp> lastBanner{};  ///< time when a banner with the fault was last shown
-    std::optional<Timestamp> started{};     ///< time from which pictures could be made
+    std::optional<Timestamp> started{};     ///< time when mfard was ready to make pictures
     double rateHz = 0;                      ///< expected rate of pictures; 0: unknown
     int patience = 1;
 };

@@ -35,9 +35,9 @@ void readLimits(TomlReader& file, LimitsConfig& limits);
 [[nodiscard]] std::uint64_t controlGroupMemory(const std::filesystem::path& list,
                                                const std::filesystem::path& top);
 
-/// Throws Failure(BadData) if pictures of these sizes need more memory than pictureBytes(). Must be
-/// called before the memory is allocated. `lists`: memory of a recording's lists [bytes]. `place`
-/// names the source in messages.
+/// Throws Failure(BadData) if pictures of these sizes and `lists` (the memory of a recording's
+/// lists [bytes]) together need more memory than pictureBytes(). Must be called before the memory
+/// is allocated. `place` names the source in messages.
 void requireMemory(const LimitsConfig& limits, Size video, Size still, std::string_view place,
                    std::size_t lists = 0);
 

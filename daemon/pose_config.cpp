@@ -72,7 +72,7 @@ TagMap configuredTags(const PoseConfig& pose) {
     if (isRosTagMap(pose.tags) && pose.families.size() != 1)
         throw Failure(ExitCode::BadData,
                       fmt::format("{}: the file does not name the family of its tags, so families "
-                                  "in [pose] must name only this one",
+                                  "in [pose] must name exactly one family",
                                   pose.tags.string()));
     return readTagMap(pose.tags, pose.families.front());
 }

@@ -26,10 +26,10 @@ struct PoseConfig {
     /// a usable pose defines the world frame.
     std::filesystem::path tags;
     std::vector<TagFamily> families{TagFamily::Tag36h11};
-    double tagSize = 0.1;
+    double tagSize = 0.1;   ///< edge of the tag that defines the world without a map [m]
     double decimation = 2;  ///< tags are searched in video reduced by this factor: 1, 1.5, 2 to 8
     int threads = 1;
-    int fullSearchInterval = 15;  ///< interval of tag searches in the whole picture [frames]
+    int fullSearchInterval = 15;  ///< longest time between searches of the whole picture [frames]
     int bridgeFrames = 12;        ///< longest prediction of poses without tags [frames]
 
     bool operator==(const PoseConfig&) const = default;

@@ -30,7 +30,7 @@ public:
         std::chrono::seconds wait{0};
     };
     /// Counts a failure of a process that ran from `started` to `now`. The count begins again after
-    /// a process that ran for a minute, after a long time without a process, and after a boot.
+    /// a process that ran for a minute, after a minute without a process, and after a boot.
     [[nodiscard]] Next failed(Timestamp started, Timestamp now) const;
 
 private:

@@ -108,7 +108,7 @@ private:
     RecorderOptions recording_;
     bool requiresNext_ = false;                 ///< true: the next recording is that of --record
     bool isRequired_ = false;                   ///< true: recorder_ is the recording of --record
-    std::optional<std::string> requiredBroke_;  ///< why the recording of --record has ended
+    std::optional<std::string> requiredBroke_;  ///< fault that ended the recording of --record
     mutable std::mutex mutex_;
     std::shared_ptr<Recorder> recorder_;
     std::uint64_t lostBefore_ = 0;

@@ -65,7 +65,7 @@ void RunHistory::add(const RunMoment& moment, const std::vector<StageTime>& stag
 }
 
 // Returns the bin for this time. If it does not exist yet, adds it. If no pictures were shown for a
-// while, also adds empty bins for this while; they are gaps in the charts.
+// while, also adds empty bins for that time; they are gaps in the charts.
 RunHistory::Bin& RunHistory::binAt(Timestamp shown) {
     if (!first_) first_ = shown;
     const double seconds = std::max(shown.seconds() - first_->seconds(), 0.0);

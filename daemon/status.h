@@ -16,7 +16,8 @@ struct RunDescription {
     std::string source;
     std::string display;
     std::string mode;
-    std::optional<std::uint64_t> plannedFrames;  ///< frames of a recording
+    /// Number of frames of the recording that is played.
+    std::optional<std::uint64_t> plannedFrames;
     std::optional<double> plannedSeconds;
     std::string poses;
     std::string engine{};

@@ -19,8 +19,8 @@ void noteTakenLine(const std::filesystem::path& file, const TriggerLineConfig& l
 
 /// Returns the GPIO line that the file names, or nothing if there is no file. Throws
 /// Failure(BadData) if the file is too long, is owned by another user, or is not a regular file (a
-/// symbolic link is refused, too). Also throws it if the keys in the file are not exactly "chip",
-/// "line" and "active_low".
+/// symbolic link is refused, too). Also throws Failure(BadData) if the file does not consist of
+/// exactly the three lines that noteTakenLine() writes, with valid values.
 [[nodiscard]] std::optional<TriggerLineConfig> takenLine(const std::filesystem::path& file);
 
 }  // namespace mfar

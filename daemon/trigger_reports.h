@@ -12,7 +12,7 @@ public:
     struct Seen {
         std::uint64_t lost = 0;
         std::uint64_t missedEdges = 0;
-        bool repeats = false;
+        bool repeats = false;  ///< true: the lost still is requested again
     };
     /// Returns one sentence for each type of fault (lost stills, missed edges) that has occurred
     /// since the last call. Allocates memory only if there is such a fault.

@@ -14,7 +14,8 @@ class VirtualWorld {
 public:
     VirtualWorld(const VirtualOptions& options, const StereoRig& rig, Pipeline& pipeline);
 
-    /// Shows these objects at their poses in the tag map, except those that leftOut() lists.
+    /// Shows these objects, except those that leftOut() lists. `tags` gives the poses of the tags
+    /// on which objects stand.
     void set(const std::vector<PlacedObject>& objects, const LightOptions& light,
              const TagMap& tags);
     /// Returns true if previews of virtual objects are shown. They are drawn with OpenGL ES, even
@@ -33,15 +34,17 @@ private:
     float exposure_ = 1;
 };
 
-/// TracedLayerOptions::size is not set, see layerSize().
+/// Returns the options of the layer of path-traced objects, all but TracedLayerOptions::size, which
+/// layerSize() returns.
 [[nodiscard]] TracedLayerOptions tracedLayerOptions(const VirtualOptions& options, float exposure);
 
 /// Returns the size of the path-traced pictures. `full`: Pipeline::fullSize(). `output`: size of
 /// the pictures that mfard shows.
 [[nodiscard]] Size layerSize(const VirtualOptions& options, Size full, Size output);
 
-/// Returns a scene with these objects at their poses in the tag map, in this light. If the light is
-/// to be estimated from the camera's pictures, the scene begins with the light of a studio.
+/// Returns a scene with these objects in this light. `tags` gives the poses of the tags on which
+/// objects stand; objects on other tags are left out. If the light is to be estimated from the
+/// camera's pictures, the scene begins with the light of a studio.
 [[nodiscard]] Scene sceneOf(const std::vector<PlacedObject>& objects, const LightOptions& light,
                             const TagMap& tags);
 
