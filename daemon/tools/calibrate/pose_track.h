@@ -23,8 +23,8 @@ public:
     [[nodiscard]] int size() const { return static_cast<int>(times_.size()); }
 
     /// Returns the indices of four consecutive poses, two before and two after t. Returns nothing
-    /// if there are no such poses, or if a frame between them is missing; after
-    /// allowMissingFrames(), only if two frames in a row are missing.
+    /// if there are no such poses, or if a frame between them is missing. After
+    /// allowMissingFrames(), one missing frame between two neighbouring poses is accepted.
     [[nodiscard]] std::optional<std::array<int, 4>> around(Timestamp t) const;
     [[nodiscard]] Timestamp time(int index) const { return times_[index]; }
     [[nodiscard]] const RigidTransform& pose(int index) const { return poses_[index]; }
@@ -34,7 +34,7 @@ public:
     [[nodiscard]] double interval() const;
 
     /// Lets around() and at() accept single missing frames. The error of between() grows there, but
-    /// a recording that has lost many frames has too few stills otherwise.
+    /// without this, a recording that has lost many frames has too few usable stills.
     void allowMissingFrames();
 
 private:

@@ -90,7 +90,7 @@ std::string resultText(const Calibration& calibration) {
                              "stills were taken\n",
                              recorded == 0
                                  ? "is taken as 0"
-                                 : fmt::format("stays {:.3f} ms, as the stills were recorded",
+                                 : fmt::format("stays {:.3f} ms, the value in the recording",
                                                1000 * recorded));
 }
 

@@ -34,7 +34,7 @@ struct SensorResult {
     /// Standard deviations of fx fy cx cy k1 k2 p1 p2 k3; 0: the parameter was not estimated.
     Eigen::Matrix<double, 9, 1> deviations;
     std::vector<ViewResult> views;
-    double rms = 0;
+    double rms = 0;  ///< RMS residual of the corners in the used views [px]
 };
 
 struct Calibration {
@@ -42,9 +42,9 @@ struct Calibration {
     SensorResult video, still;
     /// Standard deviations of T_still_video: rotation [rad] and translation [m].
     Eigen::Matrix<double, 6, 1> extrinsicDeviations;
-    double offsetDeviation = 0;
-    bool offsetKnown = true;  ///< false: too little motion or maxOffset is 0, so the offset is 0
-    int pairs = 0;
+    double offsetDeviation = 0;  ///< standard deviation of the clock offset [s]
+    bool offsetKnown = true;     ///< false: too little motion or maxOffset is 0, so the offset is 0
+    int pairs = 0;               ///< number of stills whose poses were interpolated from the video
 };
 
 /// Calibrates both cameras and the transform between them. Throws Unsuitable if the views do not
