@@ -163,7 +163,7 @@ constexpr Option kEngine[] = {
     word("weigh", kEngines, kAuto, "Engine of the step that computes the confidence of matches."),
     word("detail", kEngines, kAuto, "Engine of the step that adds the still's detail."),
     word("occlusion", kEngines, kAuto,
-         "Engine of the step that measures depth and finds what hides virtual objects."),
+         "Engine of the step that finds which parts of virtual objects are hidden."),
 };
 
 constexpr std::string_view kModes = "detail blend off";
