@@ -44,8 +44,8 @@ void Pipeline::setScene(Scene scene, const TracedLayerOptions& options,
     s.sceneFollower.reset();
     s.lightFollower = std::move(light);
     if (scene.objects.empty()) {
-        // Otherwise the last picture of these objects would be shown until the first picture of the
-        // next ones.
+        // Destroys the view. Otherwise, the last picture of the removed objects would be shown
+        // until the next scene has its first picture.
         s.redraw = s.redraw || s.objects.has_value();
         s.objects.reset();
         s.plan.drawnOver({}, WorkPlan::Redraw::WithThem);

@@ -31,7 +31,7 @@ struct FrameStats {
     double changed = 0;  ///< share of tiles whose video changed since they were last drawn, [0, 1]
     double redrawn = 0;  ///< share of tiles that were drawn again for any reason, [0, 1]
     bool usedStill = false;
-    /// Still and frame have poses, so changed parts were matched along epipolar lines.
+    /// True if changed parts were matched along epipolar lines, see Pipeline::setStill().
     bool usedPose = false;
     bool predicted = false;
     bool refinedPose = false;

@@ -16,8 +16,9 @@ namespace mfar {
 /// planes of other tags on which objects stand. After `settling` - 1 frames with objects in view, a
 /// measured surface replaces these planes as soon as depth is known at a share of at least
 /// `leastKnown` of the pixels in the rectangle around the objects. Outside of the view, the planes
-/// stay. With as much known depth, the surface is measured again if at least `leastInterval` [s]
-/// have passed and the camera has moved around the objects by at least the angle `turn` [rad].
+/// stay. The surface is measured again if depth is known at the same share of pixels, at least
+/// `leastInterval` [s] have passed, and the camera has moved around the objects by at least the
+/// angle `turn` [rad].
 struct CatcherRule {
     int settling = 12;
     double leastKnown = 0.7;

@@ -16,8 +16,10 @@ enum class KeyframeRule {
 
 struct KeyframeOptions {
     KeyframeRule rule = KeyframeRule::Score;
-    int frames = 12;   ///< number of stored frames, [2, 64]
-    int distance = 6;  ///< smallest age for KeyframeRule::Fixed [frames], [1, frames)
+    int frames = 12;  ///< number of stored frames, [2, 64]
+    /// Smallest age of the keyframe for KeyframeRule::Fixed, as a number of frames. It is at least
+    /// 1 and less than the option `frames`.
+    int distance = 6;
     /// Smallest parallax between keyframe and frame for KeyframeRule::Angle [rad], (0, 1].
     double angle = 0.035;
     double leastAngle = 0.005;  ///< smallest parallax for measuring depth [rad], (0, 1]

@@ -9,8 +9,7 @@
 
 namespace mfar {
 
-/// Total numbers of bytes that were copied from CPU memory to the GPU (uploaded) and back
-/// (downloaded).
+/// Numbers of bytes that were copied from CPU memory to the GPU (uploaded) and back (downloaded).
 struct Transfers {
     std::uint64_t uploadedBytes = 0, downloadedBytes = 0;
 };

@@ -17,7 +17,8 @@ namespace {
 constexpr double kForgetting = 0.95;
 // The prior of the least-squares fit is zero guidance. It counts as much as this number of pixels.
 constexpr double kPriorPixels = 2000;
-constexpr double kLeastPixels = 0.02;  // share of the frame's pixels
+// Guidance is learned only from at least this number of pixels, as a share of the frame's pixels.
+constexpr double kLeastPixels = 0.02;
 // Guidance is used only if it reduces the squared error by more than this share.
 constexpr double kWorthwhile = 0.005;
 // If all new factors differ from the factors in use by at most this, they are ignored, because they

@@ -18,7 +18,7 @@ constexpr double kWrongTone = 2;
 constexpr double kWrongShare = 0.25;
 constexpr double kMostOfRange = 1e12;
 
-/// Returns the grey level of a still that its tone curve has changed to `level`.
+/// Inverts a tone curve: returns the grey level that the curve changes to `level`.
 double levelBefore(double level, const StillTone& tone) {
     if (tone.isIdentity()) return level;
     const auto& levels = tone.levels;

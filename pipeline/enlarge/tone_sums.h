@@ -26,9 +26,9 @@ public:
     /// brighter of two pixels the darker one.
     [[nodiscard]] StillTone tone() const;
     /// Returns the mean absolute error of `tone` [grey levels]. The error of a range is the
-    /// difference between the mean level of the video and tone(mean level of the still). Ranges
-    /// count as many times as they have pairs; ranges with few pixels do not count. Returns 0 if no
-    /// range counts.
+    /// difference between the mean level of the video and tone(mean level of the still). The
+    /// mean is weighted with the ranges' numbers of pairs; ranges with few pairs do not count.
+    /// Returns 0 if no range counts.
     [[nodiscard]] double distanceFrom(const StillTone& tone) const;
 
     /// stored() returns the sums, to be kept for a later run of mfard. restore() sets them. It

@@ -33,8 +33,8 @@ double noiseOf(std::vector<double>& differences) {
     return std::max(kLeastNoise, 1.5 * *fifth);
 }
 
-// Weights of fitBlur(). The last one is the light. The first one belongs to the pixel itself and is
-// not used.
+// Weights of fitBlur(). The last one is Guidance::light. The first one belongs to the pixel itself
+// and is not used.
 constexpr int kWeights = 7, kLight = 6;
 using Weights = Eigen::Matrix<double, kWeights, 1>;
 using WeightSquares = Eigen::Matrix<double, kWeights, kWeights>;
@@ -46,8 +46,8 @@ int weightOf(int dx, int dy) {
     return a * (a + 1) / 2 + b;
 }
 
-/// Solves the normal equations. If the light is out of range, returns the best weights with the
-/// nearest light in range.
+/// Solves the normal equations. If Guidance::light is out of range, returns the best weights with
+/// the nearest value in range.
 Weights bestWeights(const WeightSquares& squares, const Weights& products) {
     Weights out = squares.llt().solve(products);
     const double light = std::clamp(out[kLight], 0.0, double(Guidance::kMost));

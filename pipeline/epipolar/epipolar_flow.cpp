@@ -25,8 +25,8 @@ constexpr float kSlope = 1.0F;
 // census windows, for the cost aggregation, and for the motion until the next frame.
 constexpr int kRoom = 16;
 
-/// Returns the rectangle that is searched if depth is needed in `where`. It includes a margin. It
-/// consists of whole cells, except at the picture's border.
+/// Returns the rectangle that is searched if depth is needed in `where`. It includes a margin. Its
+/// edges are at multiples of kRoom or at the picture's border.
 PixelRect searchedFor(const PixelRect& where, Size video) {
     const PixelRect around = widened(where, kRoom, video);
     const auto down = [](int x) { return x / kRoom * kRoom; };

@@ -34,9 +34,9 @@ inline constexpr int kAlongSlack = 6;
 /// Matches the textured patches of a frame with the still. Each patch is first searched in `half`,
 /// around the place that its s and the prior pose predict. Along the epipolar line, the search goes
 /// as far as the error of s requires; across the line, it covers three standard deviations of the
-/// prior pose, but at least 1 px and at most 8 px of `half`. Near the epipole, it covers this
-/// distance along the line, too. Then the match is refined in `full`. `half` is usually half as
-/// large as `full`; both may be the same pyramid level.
+/// prior pose, but at least 1 px and at most 8 px of `half`. Near the epipole, it covers three
+/// standard deviations along the line, too, within the same limits. Then the match is refined in
+/// `full`. `half` is usually half as large as `full`; both may be the same pyramid level.
 [[nodiscard]] std::vector<RayMatch> matchPatches(const TurnedPair& full, const TurnedPair& half,
                                                  const PatchPrior& prior, Workers& workers);
 

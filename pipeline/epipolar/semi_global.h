@@ -31,7 +31,7 @@ using simd::Valley;
 float vertexOf(const Valley& valley);
 
 /// Semi-global matching with costs aggregated from left, right, top and bottom. Each pixel has its
-/// own window of labels with its own first label. Costs aggregated along one path stay below 85
+/// own window of labels with its own first label. Costs aggregated along one path are at most 84
 /// (kCensusBits + Smoothness::jump), so the sum over three directions fits into a byte. (The fourth
 /// is added when the best label is found.) Source: Hirschmueller, PAMI 2008; windows per pixel:
 /// Rothermel et al., LC3D 2012 (tSGM).

@@ -10,7 +10,7 @@
 
 namespace mfar {
 
-/// A grey picture in main memory with 8 bits per pixel and no gaps between rows.
+/// A grey picture in CPU memory with 8 bits per pixel and no gaps between rows.
 struct LumaImage {
     Size size;
     std::vector<std::uint8_t> pixels;

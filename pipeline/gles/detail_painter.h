@@ -29,8 +29,7 @@ public:
         const gpu::Texture& weighed;
         const gpu::Texture& lookUps;
         const gpu::Texture& trust;
-        /// A second still that is shown where its weight is larger than that of `still`, or null.
-        /// Used only in mode Detail with learned filters.
+        /// A second still, or null; see DetailStep::Matched::second.
         const Matched* second = nullptr;
     };
     /// Finds the classes of the tiles that `tiles` requests, and draws these tiles. If `matched` is

@@ -51,7 +51,7 @@ public:
     [[nodiscard]] const gpu::Buffer& cells() const { return cells_; }
     [[nodiscard]] const Field& forward() const { return forward_; }
     /// True after refine(): backward() then has the ErrorCells of forward() instead of flow
-    /// vectors. False after run(). Without matched tiles, neither changes it.
+    /// vectors. False after run(). Without matched tiles, neither call changes it.
     [[nodiscard]] bool errorsGiven() const { return errorsGiven_; }
     [[nodiscard]] const Field& backward() const { return backward_; }
     /// refine() gets one vector per cell. The buffer cells() contains these vectors from this index

@@ -37,8 +37,8 @@ public:
     }
 
 private:
-    // Uploads the depths in the rows of `where`. Also uploads the rows of the last upload again,
-    // because their depths outside `where` are now unknown.
+    // Uploads the depths in the rows of `where`, and in the rows of the last upload, whose depths
+    // outside `where` are now unknown.
     void upload(const InverseDepthField& real, const PixelRect& where) {
         const PixelRect rows = around(uploaded_, where);
         uploaded_ = where;

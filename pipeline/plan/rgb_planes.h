@@ -9,7 +9,7 @@
 
 namespace mfar {
 
-/// A picture in main memory, owned by this object, with one plane of bytes for each of red, green
+/// A picture in CPU memory, owned by this object, with one plane of bytes for each of red, green
 /// and blue. The planes are padded to whole tiles by repeating the border pixels.
 class RgbPlanes {
 public:

@@ -53,7 +53,7 @@ private:
 
     std::vector<bool> chosen_;
     std::vector<float> around_;
-    std::vector<int> alike_;  // tiles in the highest bin of which not all tiles are chosen
+    std::vector<int> alike_;  // tiles of the structure bin from which only some are chosen
     int candidates_ = 0;
 };
 

@@ -30,7 +30,8 @@ struct DistantLight {
     FarLight far;
 };
 
-/// Computes the light that returns along a path from the first surface that the path hits.
+/// Computes the light that the first surface on a camera ray sends to the camera. Follows paths
+/// from there to other surfaces and to the lights.
 class PathIntegrator {
 public:
     /// `scene` and `options` must outlive the integrator. `light` must belong to the scene.

@@ -70,7 +70,9 @@ struct VirtualOptions {
     double budgetMs = 8;
     Slicing slicing = Slicing::Time;
     int samples = 64;
-    double resolution = 0.28;  ///< width and height of a traced picture as a share of the still's
+    /// Width and height of a traced picture as a share of Pipeline::fullSize(). The picture is
+    /// never larger than the output.
+    double resolution = 0.28;
     HoleFilling holes = HoleFilling::Both;
     int threads = 1;
     bool filter = true;

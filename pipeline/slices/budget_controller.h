@@ -14,8 +14,9 @@ struct BudgetGrant {
 };
 
 /// Accuracy with which the last frames kept the time budget. `deviation` leaves out two kinds of
-/// frames: frames without enough work, and frames that did not use up the budget. In the latter,
-/// the threads got too little processor time, because their priority is low.
+/// frames: frames without enough work, and frames that did not use up the budget although work was
+/// left. In frames of the second kind, the threads got too little processor time, because their
+/// priority is low.
 struct BudgetKept {
     int frames = 0;  ///< number of frames that `deviation` counts
     /// Mean of used time / budget. It also counts frames whose threads got too little processor

@@ -30,8 +30,8 @@ struct PictureScene {
     std::uint64_t objects = 0, light = 0;
 
     [[nodiscard]] bool moves() const { return !moving.empty(); }
-    /// viewChange() of the objects. If `to` shows none of them, viewChange() of the shadow catcher,
-    /// because shadows and glow can be visible without the objects.
+    /// Returns viewChange() of the objects. If `to` shows no object, returns viewChange() of the
+    /// shadow catcher instead, because shadows and glow can be visible without the objects.
     [[nodiscard]] double changeOf(const RenderView& from, const RenderView& to,
                                   const ViewLimits& limits) const;
 };

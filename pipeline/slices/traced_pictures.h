@@ -22,18 +22,19 @@ enum class TracedStep : unsigned char {
     Drop,      ///< discard the next picture: the view is near the shown picture's again
 };
 
-/// `sinceShown` is the change since the shown picture: PictureScene::changeOf() from the view of
-/// this picture to the present view or, if larger, the motion of objects relative to its limit.
-/// `sinceNext` is PictureScene::changeOf() for the next picture. A value is empty if its picture
-/// does not exist or shows other objects; `sinceShown` is also empty if the light has changed. If
-/// there is no next picture, one begins when `sinceShown` is empty or at least `renewed`.
+/// `sinceShown` is the change since the shown picture. It is the larger of two numbers: changeOf()
+/// of PictureScene, from this picture's view to the present view, and the motion of objects divided
+/// by its limit. `sinceNext` is PictureScene::changeOf() for the next picture. A value is empty if
+/// its picture does not exist or shows other objects; `sinceShown` is also empty if the light has
+/// changed. If there is no next picture, one begins when `sinceShown` is empty or at least
+/// `renewed`.
 [[nodiscard]] TracedStep nextStep(std::optional<double> sinceShown, std::optional<double> sinceNext,
                                   double renewed);
 
 struct TracedPolicy {
     ViewLimits limits;
     /// Samples per pixel that the next picture needs to replace the shown picture. Fewer suffice if
-    /// the shown picture has other objects or a very different view, and often with `soon`. If the
+    /// the shown picture has other objects or a very different view, and as `soon` allows. If the
     /// camera rests, the next picture also needs as many as the shown picture. Four filtered
     /// samples were compared with 16 unfiltered samples. Their root mean square errors [grey levels
     /// of 255] were 3.2 and 3.3 on one scene, 4.4 and 3.1 on another scene.

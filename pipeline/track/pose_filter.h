@@ -41,7 +41,7 @@ public:
         /// the last one.
         Started,
         Accepted,
-        Rejected,  ///< the pose is an outlier, or it or its covariance is invalid
+        Rejected,  ///< the pose is an outlier, or it, its covariance or its distance is invalid
         Jumped     ///< the filter restarted, because several outliers agreed with each other
     };
     /// Adds a measured pose. `distance` is the distance of the camera from the measured tags, in

@@ -19,7 +19,7 @@ struct WarpOptions {
     int holeSamples = 4;  ///< samples per pixel, [1, 256]
     /// The warp blurs edges. While the camera rests, edge pixels are rendered individually and
     /// replace the warped ones. This is the upper limit of their number, as a share of the objects'
-    /// pixels, [0, 1]. With 0, edge pixels are not rendered.
+    /// pixels, [0, 1]. With 0, or unless rerenders(filling), edge pixels are not rendered.
     double sharpenShare = 0.4;
     int sharpenSamples = 40;  ///< samples per edge pixel, [1, 256]
     /// Number of frames over which rendered pixels fade in, [0, 100]. Used only with
