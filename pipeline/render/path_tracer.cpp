@@ -101,8 +101,7 @@ struct PathTracer::Parts {
 
     [[nodiscard]] std::shared_ptr<const LensRays> lensOf(const CameraModel& camera) const {
         const std::scoped_lock lock(lensMutex);
-        if (!lens || !(lens->camera() == camera))
-            lens = std::make_shared<const LensRays>(camera);
+        if (!lens || !(lens->camera() == camera)) lens = std::make_shared<const LensRays>(camera);
         return lens;
     }
 

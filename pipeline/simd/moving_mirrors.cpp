@@ -25,8 +25,8 @@ MovingMirrors::MovingMirrors(const CameraModel& layer, Rows<const float> rayX,
 
 void MovingMirrors::setTracedPicture(const TracedPicture& traced) {
     traced_ = &traced;
-    moves_ = !traced.light.empty() && !traced.gloss.empty() && traced.mirrors &&
-             traced.camera == layer_;
+    moves_ =
+        !traced.light.empty() && !traced.gloss.empty() && traced.mirrors && traced.camera == layer_;
     if (!moves_) return;
     if (mirrors_ != traced.mirrors) {
         mirrors_ = traced.mirrors;

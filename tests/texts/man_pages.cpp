@@ -23,11 +23,10 @@ std::string valuesOf(const ArgumentText& argument) {
 
 std::string manSection(const OptionSection& section) {
     const bool isList = section.kind == OptionSection::Kind::List;
-    std::string out =
-        section.name.empty()
-            ? std::string(".SH \"BEFORE ALL SECTIONS\"\n")
-            : fmt::format(".SH \"{}{}{}{}\"\n", isList ? "[[" : "[", section.name,
-                          isList ? "]]" : "]", section.isReloadable ? " (reload)" : "");
+    std::string out = section.name.empty() ? std::string(".SH \"BEFORE ALL SECTIONS\"\n")
+                                           : fmt::format(".SH \"{}{}{}{}\"\n", isList ? "[[" : "[",
+                                                         section.name, isList ? "]]" : "]",
+                                                         section.isReloadable ? " (reload)" : "");
     if (!section.meaning.empty()) out += troff(section.meaning) + "\n";
     for (const Option& option : section.options) {
         const std::string about = describe(option);
@@ -69,10 +68,11 @@ std::string configManPage() {
            "\n";
     for (const OptionSection& section : configOptions())
         out += manSection(section);
-    out += ".SH \"LEVELS OF THE GOVERNOR\"\n" +
-           troff("The file that \"table\" in [governor] names has one section [[level]] for each step "
-                 "between fast and accurate. \"mfar-bench pareto --table FILE\" writes it.") +
-           "\n";
+    out +=
+        ".SH \"LEVELS OF THE GOVERNOR\"\n" +
+        troff("The file that \"table\" in [governor] names has one section [[level]] for each step "
+              "between fast and accurate. \"mfar-bench pareto --table FILE\" writes it.") +
+        "\n";
     for (const OptionSection& section : levelOptions())
         out += manSection(section);
     return out + ".SH \"SEE ALSO\"\n.BR mfard (1)\n";
