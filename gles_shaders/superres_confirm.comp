@@ -40,7 +40,11 @@ float keptShare(ivec2 cell) {
     float wrong = max(unexplained - kFineNoise * params.noise, 0.0);
     float explained = 1.0 - wrong / (sum.x + kFineLeast);
     explained *= explained;
-    float kinked = bentAt(cell) * smoothstep(kFlatStep, kKinkedStep, tearAt(cell));
+    float detail = (sum.z + kFineLeast) / (sum.x + kFineLeast);
+    float alias = rough * (1.0 - smoothstep(kAliasedStill, kDetailedStill, detail));
+    float kink = bentAt(cell) * tearAt(cell);
+    float kinked = mix(smoothstep(kFlatKink, kSharpKink, kink),
+                       smoothstep(kFlatRoughKink, kSharpRoughKink, kink), alias);
     float kept = mix(mix(limited, 1.0, rough), explained * explained, kinked);
     return kept < 1.0 ? kept : 1.0;
 }

@@ -64,7 +64,7 @@ HWY_INLINE void HalfAround(const WeighRow::Half& rows, int chunk, LowRow& out) {
 }
 
 struct Weight {
-    V weight, signal, unexplained, kinked, variance;
+    V weight, signal, unexplained, kink, variance;
 };
 
 HWY_INLINE Weight WeightOf(const WeighRow& row, int x, V low, V lowStill, V confidence,
@@ -101,8 +101,7 @@ HWY_INLINE Weight WeightOf(const WeighRow& row, int x, V low, V lowStill, V conf
         hn::Ge(video, Const(params::kTexturedContrast * (ofPatch + params::kPatchPixels)));
     const auto unlike = hn::Le(hn::Mul(ncc2, confidence), Const(params::kUnexplainedMatch));
     return {hn::IfThenElseZero(counts, weight), hn::Max(hn::Min(signal, Const(1)), zero),
-            hn::IfThenElseZero(hn::And(textured, unlike), Const(1)),
-            hn::Mul(bent, smoothStep(params::kFlatStep, params::kKinkedStep, tear)),
+            hn::IfThenElseZero(hn::And(textured, unlike), Const(1)), hn::Mul(bent, tear),
             hn::Mul(video, Const(1 / params::kPatchPixels))};
 }
 
@@ -124,7 +123,7 @@ void WeighCells(const WeighRow& row, float noise) {
                                   w.weight, confidence, d, &row.lookUps[x].x);
             hn::StoreInterleaved4(hn::Min(hn::Mul(w.weight, Const(0.5F)), Const(1)), confidence,
                                   w.signal, w.unexplained, d, &row.trust[x].halfWeight);
-            hn::StoreU(w.kinked, d, row.kinked + x);
+            hn::StoreU(w.kink, d, row.kink + x);
             hn::StoreU(w.variance, d, row.variance + x);
         }
     }

@@ -30,13 +30,13 @@ struct WeighRow {
     WeighedCell* weighed;
     LookUpCell* lookUps;
     TrustCell* trust;
-    float *kinked, *variance;  ///< see SurfaceCells
+    float *kink, *variance;  ///< see SurfaceCells
 };
 
 /// Properties of each cell on which the comparison of the finest detail depends; see
 /// params::kFineRoom.
 struct SurfaceCells {
-    Rows<const float> kinked;    ///< 0 on smooth surfaces, 1 at their edges
+    Rows<const float> kink;      ///< second difference of bent flow [px], see params::kFlatKink
     Rows<const float> variance;  ///< variance of the video's luma around the cell [grey levels^2]
 };
 

@@ -46,7 +46,7 @@ Rows<const float> FineCheck::run(const RgbPlanes& video, const StillPairs& still
     const auto shares = [&](int first, int last) {
         for (int row = first; row < last; ++row)
             fineShareRow({ofVideo_.around(row), ofBoth_.around(row), ofStill_.around(row)},
-                         surface.kinked[row], surface.variance[row], match, cells_.width,
+                         surface.kink[row], surface.variance[row], match, cells_.width,
                          shares_[row]);
     };
     workers_->forRange(cells_.height, kCellsPerTile, std::ref(shares));

@@ -99,7 +99,7 @@ void FineSumsRow(const std::array<std::int16_t*, 2>& video,
     }
 }
 
-void FineShareRow(const FineSumsAround& sums, const float* kinked, const float* variance,
+void FineShareRow(const FineSumsAround& sums, const float* kinks, const float* variance,
                   const FineMatch& match, int count, float* to) {
     const F d;
     const int lanes = static_cast<int>(hn::Lanes(d));
@@ -120,8 +120,15 @@ void FineShareRow(const FineSumsAround& sums, const float* kinked, const float* 
         const auto wrong = hn::Max(hn::Sub(unexplained, noise), zero);
         const auto explained = hn::NegMulAdd(wrong, hn::Div(one, hn::Add(video, least)), one);
         const auto explained2 = hn::Mul(explained, explained);
-        const auto kept = hn::MulAdd(hn::LoadU(d, kinked + x),
-                                     hn::Sub(hn::Mul(explained2, explained2), smooth), smooth);
+        const auto kink = hn::LoadU(d, kinks + x);
+        const auto edge = smoothStep(params::kFlatKink, params::kSharpKink, kink);
+        const auto roughEdge = smoothStep(params::kFlatRoughKink, params::kSharpRoughKink, kink);
+        const auto detail = hn::Div(still, hn::Add(video, least));
+        const auto alias = hn::NegMulAdd(
+            rough, smoothStep(params::kAliasedStill, params::kDetailedStill, detail), rough);
+        const auto kinked = hn::MulAdd(alias, hn::Sub(roughEdge, edge), edge);
+        const auto kept =
+            hn::MulAdd(kinked, hn::Sub(hn::Mul(explained2, explained2), smooth), smooth);
         // If `kept` is NaN, the comparison is false, and the cell keeps its whole weight.
         hn::StoreU(hn::IfThenElse(hn::Lt(kept, one), kept, one), d, to + x);
     }
@@ -142,9 +149,9 @@ void fineSumsRow(const std::array<std::int16_t*, 2>& video,
     HWY_DYNAMIC_DISPATCH(FineSumsRow)(video, still, begin, end, pixels, to);
 }
 
-void fineShareRow(const FineSumsAround& sums, const float* kinked, const float* variance,
+void fineShareRow(const FineSumsAround& sums, const float* kinks, const float* variance,
                   const FineMatch& match, int count, float* to) {
-    HWY_DYNAMIC_DISPATCH(FineShareRow)(sums, kinked, variance, match, count, to);
+    HWY_DYNAMIC_DISPATCH(FineShareRow)(sums, kinks, variance, match, count, to);
 }
 
 }  // namespace mfar::simd

@@ -31,8 +31,8 @@ struct FineSumsAround {
 };
 
 /// Computes for each cell the factor of its weight, [0, 1]; see params::kFineRoom. FineSums are
-/// averaged over 3x3 cells. `kinked` and `variance`: rows of SurfaceCells.
-void fineShareRow(const FineSumsAround& sums, const float* kinked, const float* variance,
+/// averaged over 3x3 cells. `kinks` and `variance`: rows of SurfaceCells.
+void fineShareRow(const FineSumsAround& sums, const float* kinks, const float* variance,
                   const FineMatch& match, int count, float* to);
 
 }  // namespace mfar::simd

@@ -26,7 +26,7 @@ WeighStep::WeighStep(const StereoRig& stillRig, std::shared_ptr<Workers> workers
       varianceStill_(cells_), confidence_(cells_), lookX_(cells_), lookY_(cells_),
       halfFlowX_(halfCells_), halfFlowY_(halfCells_), halfCovariance_(halfCells_),
       halfVarianceStill_(halfCells_), weighed_(wholeVectors(cells_)),
-      lookUps_(wholeVectors(cells_)), trust_(wholeVectors(cells_)), kinked_(wholeVectors(cells_)),
+      lookUps_(wholeVectors(cells_)), trust_(wholeVectors(cells_)), kink_(wholeVectors(cells_)),
       variance_(wholeVectors(cells_)) {}
 
 void WeighStep::run(const WeighInput& in) {
@@ -143,7 +143,7 @@ void WeighStep::weigh(int row, float noise) {
                 .weighed = weighed_[row],
                 .lookUps = lookUps_[row],
                 .trust = trust_[row],
-                .kinked = kinked_[row],
+                .kink = kink_[row],
                 .variance = variance_[row]},
                noise);
 }

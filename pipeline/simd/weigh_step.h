@@ -54,7 +54,7 @@ public:
     /// the cell's entry in `shares`. See params::kFineRoom.
     void confirm(Rows<const float> shares);
 
-    [[nodiscard]] SurfaceCells surface() const { return {shown(kinked_), shown(variance_)}; }
+    [[nodiscard]] SurfaceCells surface() const { return {shown(kink_), shown(variance_)}; }
 
     [[nodiscard]] Rows<const WeighedCell> weighed() const { return shown(weighed_); }
     [[nodiscard]] Rows<const LookUpCell> lookUps() const { return shown(lookUps_); }
@@ -82,7 +82,7 @@ private:
     AlignedRows<WeighedCell> weighed_;
     AlignedRows<LookUpCell> lookUps_;
     AlignedRows<TrustCell> trust_;
-    AlignedRows<float> kinked_, variance_;
+    AlignedRows<float> kink_, variance_;
 };
 
 }  // namespace mfar::simd

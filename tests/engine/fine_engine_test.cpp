@@ -29,7 +29,7 @@ double raised(double weight) {
 struct FineInput {
     explicit FineInput(Size video, Size stillSize)
         : frame(video, stillSize), still(frame.rig, stillSize, std::make_shared<Workers>(2)),
-          kinked(frame.cells), variance(frame.cells) {
+          kink(frame.cells), variance(frame.cells) {
         still.set(frame.stillView());
         flow.size = frame.cells;
         statistics.size = frame.cells;
@@ -43,7 +43,7 @@ struct FineInput {
             }
         for (int y = 0; y < frame.cells.height; ++y)
             for (int x = 0; x < frame.cells.width; ++x) {
-                kinked[y][x] = static_cast<float>(twin::kinkedAt(flow, x, y));
+                kink[y][x] = static_cast<float>(twin::kinkAt(flow, x, y));
                 variance[y][x] = static_cast<float>(varianceAt(x, y));
             }
         for (std::size_t i = 0; i < frame.work.flags.size(); ++i)
@@ -95,7 +95,7 @@ struct FineInput {
                                      std::clamp(py, 0.0, size.height - 1.0));
             },
             [&](int x, int y) { return frame.work.at(x / 4, y / 4).matched != 0; },
-            [&](int x, int y) { return twin::kinkedAt(flow, x, y); },
+            [&](int x, int y) { return twin::kinkAt(flow, x, y); },
             [&](int x, int y) { return varianceAt(x, y); }};
         return twin::fineShares(in, frame.cells, kMatch);
     }
@@ -103,7 +103,7 @@ struct FineInput {
     DetailCase frame;
     simd::StillPreparation still;
     twin::Cells flow, statistics;
-    AlignedRows<float> kinked, variance;
+    AlignedRows<float> kink, variance;
 };
 
 Shares onHost(const FineInput& in) {
@@ -112,7 +112,7 @@ Shares onHost(const FineInput& in) {
     for (int run = 0; run < 2; ++run) {
         const Rows<const float> rows =
             check.run(in.frame.video, in.still.pairs(), in.lookUps(),
-                      {in.kinked.rows(), in.variance.rows()}, in.frame.work, kMatch);
+                      {in.kink.rows(), in.variance.rows()}, in.frame.work, kMatch);
         out.clear();
         for (int y = 0; y < rows.size.height; ++y)
             out.insert(out.end(), rows[y], rows[y] + rows.size.width);

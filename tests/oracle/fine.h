@@ -20,8 +20,8 @@ struct FineCase {
     /// Value of the still at the position to which the flow leads from video pixel (x, y).
     std::function<double(double x, double y)> still;
     std::function<bool(int x, int y)> isMatched;  ///< true if cell (x, y) is matched
-    /// 0 for cells on smooth surfaces, 1 for cells at their edges.
-    std::function<double(int x, int y)> kinked;
+    /// Second difference of bent flow at a cell [px].
+    std::function<double(int x, int y)> kink;
     /// Variance of the video around a cell [grey levels^2].
     std::function<double(int x, int y)> variance;
 };
@@ -77,8 +77,14 @@ inline std::vector<double> fineShares(const FineCase& in, Size cells, const Fine
             const double smooth =
                 std::lerp(std::min(allowed / std::max(unexplained, least), 1.0), 1.0, rough);
             const double wrong = std::max(unexplained - params::kFineNoise * noise, 0.0);
-            out.push_back(
-                std::lerp(smooth, std::pow(1 - wrong / (mean[0] + least), 4), in.kinked(x, y)));
+            const double alias =
+                rough * (1 - smoothstep(params::kAliasedStill, params::kDetailedStill,
+                                        (mean[2] + least) / (mean[0] + least)));
+            const double kink = in.kink(x, y);
+            const double kinked =
+                std::lerp(smoothstep(params::kFlatKink, params::kSharpKink, kink),
+                          smoothstep(params::kFlatRoughKink, params::kSharpRoughKink, kink), alias);
+            out.push_back(std::lerp(smooth, std::pow(1 - wrong / (mean[0] + least), 4), kinked));
         }
     return out;
 }

@@ -58,10 +58,10 @@ inline double smoothstep(double low, double high, double v) {
     return t * t * (3 - 2 * t);
 }
 
-/// Returns 0 on smooth surfaces, 1 at their edges.
-inline double kinkedAt(const Cells& flow, int x, int y) {
+/// Second difference of the flow [px] where it is bent, 0 elsewhere.
+inline double kinkAt(const Cells& flow, int x, int y) {
     return smoothstep(params::kEvenFlow, params::kBentFlow, bendAt(flow, x, y)) *
-           smoothstep(params::kFlatStep, params::kKinkedStep, tearAt(flow, x, y));
+           tearAt(flow, x, y);
 }
 
 /// Weight of a cell. Channels of `statistics`: covariance of video and still, variance of the

@@ -253,15 +253,15 @@ TEST(WeighStep, EdgesOfSurfacesAreMarked) {
         for (int x = 0; x < c.cells.width; ++x)
             for (const float value : {c.forward[y][x].x, c.forward[y][x].y, 0.0F, 0.0F})
                 flow.values.push_back(value);
-    int kinked = 0;
+    int kinks = 0;
     for (int y = 0; y < c.cells.height; ++y)
         for (int x = 0; x < c.cells.width; ++x) {
-            const double wanted = twin::kinkedAt(flow, x, y);
-            ASSERT_NEAR(c.step.surface().kinked[y][x], wanted, 1e-4) << x << ", " << y;
-            kinked += wanted > 0.5 ? 1 : 0;
+            const double wanted = twin::kinkAt(flow, x, y);
+            ASSERT_NEAR(c.step.surface().kink[y][x], wanted, 1e-4 * (1 + wanted)) << x << ", " << y;
+            kinks += wanted > params::kSharpKink ? 1 : 0;
         }
-    EXPECT_GT(kinked, 20);
-    EXPECT_LT(kinked, c.cells.width * c.cells.height - 20);
+    EXPECT_GT(kinks, 20);
+    EXPECT_LT(kinks, c.cells.width * c.cells.height - 20);
 }
 
 TEST(WeighStep, ConfirmedWeightsBelowOneAreRaised) {
