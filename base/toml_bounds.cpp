@@ -26,7 +26,8 @@ public:
                 return here(
                     fmt::format("brackets are nested more than {} levels deep", kDeepestToml));
             if (values_ > kMostTomlValues)
-                return here(fmt::format("the file has more than {} values", kMostTomlValues));
+                return here(fmt::format("the file has more than {} values, keys and brackets",
+                                        kMostTomlValues));
         }
         return std::nullopt;
     }

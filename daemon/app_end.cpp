@@ -44,8 +44,9 @@ void App::onSignal(int signal) {
     if (signal == SIGHUP) return onHangUp();
     if (stopSignal_) {
         log_.endStatus();
-        log_.warning(fmt::format("second {} received; ended at once", signalName(signal)), {},
-                     {message::kEnded});
+        log_.warning(fmt::format("{} received after {}; ended at once", signalName(signal),
+                                 signalName(*stopSignal_)),
+                     {}, {message::kEnded});
         std::_Exit(128 + signal);
     }
     stopSignal_ = signal;

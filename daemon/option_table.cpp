@@ -107,7 +107,7 @@ constexpr Option kVideo[] = {
          "Accept a sensor mode that shows a part of the field of view; \"libcamera\" only."),
     {"controls", OptionType::Values, "{}",
      "Camera controls, as the driver names them, like { ExposureTime = 8000, AnalogueGain = 2.0 }. "
-     "They are set in this order before the first picture."},
+     "They are set before the first picture; for \"v4l2\", in the order of this list."},
 };
 
 constexpr Option kStill[] = {
@@ -375,9 +375,9 @@ constexpr Option kLevel[] = {
     whole("epipolar.window_radius", {0, 8, "px"}, "2",
           "Candidates of a pixel are the matches of the coarser pyramid level within this radius."),
     whole("epipolar.step_penalty", {1, 30, ""}, "12",
-          "Smoothness penalty where neighbouring cells differ by one candidate."),
+          "Smoothness penalty where neighbouring pixels differ by one candidate."),
     whole("epipolar.jump_penalty", {1, 60, ""}, "60",
-          "Smoothness penalty where neighbouring cells differ by more than one candidate."),
+          "The same for more than one candidate; lower at edges in the picture."),
     whole("epipolar.finest", kSmall, "0",
           "Finest pyramid level that is searched: 0, 1 and 2 have the full, half and quarter width "
           "and height."),

@@ -23,8 +23,9 @@ struct PictureSize {
 [[nodiscard]] std::optional<PictureSize> pictureSize(std::string_view words);
 [[nodiscard]] std::optional<std::string> pictureSizeFault(std::string_view words);
 
-/// Returns the pipeline's output size: the largest size that has the video's aspect ratio and fits
-/// into the wanted size. Its width is at most the still's and at least the video's.
+/// Returns the pipeline's output size. It has the video's aspect ratio. For Fits::Still, it is as
+/// wide as the still. Otherwise, it is the largest size that fits into the screen or the given
+/// size, but never wider than the still or narrower than the video.
 [[nodiscard]] Size outputSizeFor(const PictureSize& wanted, const StereoRig& rig,
                                  const std::optional<Size>& screen);
 

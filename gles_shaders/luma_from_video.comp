@@ -1,5 +1,5 @@
-// Computes the finest pyramid level of the video frame: its luma, smoothed over 3x3 pixels. Text
-// and fabric alias at the video's resolution. Without smoothing, the search would prefer
+// Computes the finest pyramid level of a picture of the video's size: its luma, smoothed over 3x3
+// pixels. Text and fabric alias at the video's resolution. Without smoothing, the search would prefer
 // displacements by whole pixels there.
 // In: picture, RGBA8 or grey. Out: words of luma. One invocation per word, including margins.
 #include "luma.glsl"

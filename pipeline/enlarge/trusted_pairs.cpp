@@ -21,7 +21,9 @@ constexpr double kLeastNoise = 1;  // lower limit of the noise variance [grey le
 constexpr int kTrustReach = 3;     // trust() averages over 7x7 pixels
 constexpr int kMeanReach = 8;
 constexpr double kMostShift = 0.5;  // largest correction of a look-up along each axis [video px]
-constexpr double kStructure = 36;   // least variance of a pixel with structure [grey levels^2]
+// A video pixel has structure if the cubic enlargement has at least this variance within the pixel
+// [grey levels^2].
+constexpr double kStructure = 36;
 
 /// Returns the largest mean squared difference between video and still that noise alone causes: 1.5
 /// times the 20 % quantile of `differences`, which are means over 7x7 pixels. The differences at

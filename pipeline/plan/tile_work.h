@@ -19,8 +19,8 @@ struct TileWork {
         WholeEnlarged
     };
     struct Tile {
-        /// 1 if the tile must be drawn again, because its video or an overlay changed or because
-        /// the whole frame is drawn again on request.
+        /// 1 if the tile must be drawn again: its video changed, the overlay on it must be drawn
+        /// again (see WorkPlan::Redraw), or a redraw of the whole frame was requested.
         std::uint8_t changed = 0;
         std::uint8_t matched = 0;  ///< 1 if the tile has structure and is matched with the still
     };

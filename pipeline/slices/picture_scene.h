@@ -25,8 +25,8 @@ struct PictureScene {
     std::optional<ObjectBall> shaded;     ///< ball around the shadow catcher, world frame
     std::vector<MovingBall> moving;
     std::vector<RigidTransform> poses;  ///< T_world_object at this instant; empty if nothing moves
-    /// Version numbers. `objects` increases with each new scene that has other objects or another
-    /// shadow catcher, `light` with each new scene.
+    /// Version numbers. Both increase when the caller sets other objects or another shadow catcher.
+    /// If the caller changes only the light, `light` alone increases.
     std::uint64_t objects = 0, light = 0;
 
     [[nodiscard]] bool moves() const { return !moving.empty(); }

@@ -161,7 +161,8 @@ void Warp::remember(const HoleRequest& request) {
 }
 
 /// True if each point of the traced picture moves by less than leastMotion or kSamePose [px],
-/// whichever is larger. The motion is estimated from the nearest point, at the picture's centre.
+/// whichever is larger. The motion is estimated for a point at the picture's centre, with the
+/// least depth of all points.
 bool Warp::isUnmoved(const RigidTransform& from, const RigidTransform& to) const {
     const RigidTransform T = from.inverse() * to;
     float nearest = kFarthestSurface;

@@ -87,7 +87,7 @@ kill -TERM "$pid"
 sleep 0.05
 kill -INT "$pid"
 ends_with 130 $limit
-says err 'second SIGINT'
+says err 'SIGINT received after SIGTERM'
 exec 3>&-
 
 echo "SIGTERM during the first milliseconds"

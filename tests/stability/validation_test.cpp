@@ -109,7 +109,8 @@ TEST_F(ValidationTest, WritesBehindABufferAreFaults) {
     EXPECT_EQ(faults[0].output, "guard");
 }
 
-// Passes of the flow share a buffer in which other passes keep values of other ranges.
+// The passes of the flow share one buffer, and the values of each pass have their own range. So a
+// pass must not be judged by values that another pass wrote.
 TEST_F(ValidationTest, OnlyValuesThatAPassWroteIntoABufferAreChecked) {
     const auto gl = context();
     gpu::Validation validation;

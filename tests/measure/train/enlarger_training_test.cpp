@@ -41,7 +41,7 @@ TEST(EnlargerTraining, TheSamePicturesGiveTheSameFilters) {
     EXPECT_NE(learnedFrom(2, 1).filters, learnedFrom(2, 0).filters);
 }
 
-TEST(EnlargerTraining, SlopesThatTheCubicEnlargesExactlyGiveFiltersNearZero) {
+TEST(EnlargerTraining, FiltersAreNearZeroIfCubicEnlargingIsExact) {
     EnlargerTraining training;
     const twin::Grey slope =
         twin::greyOf({256, 256}, [](int x, int y) { return 20 + 0.5625 * x + 0.28125 * y; });
