@@ -31,9 +31,7 @@ fs::path emptyFolder(const fs::path& root, double videoRateHz) {
     if (error)
         throw std::runtime_error(
             root.string() + ": the folder of the recording cannot be created: " + error.message());
-    if (!fs::is_empty(root))
-        throw std::runtime_error(root.string() +
-                                 ": the folder is not empty; a recording needs a new one");
+    requireNoRecording(root);
     return root;
 }
 
@@ -44,6 +42,13 @@ void beginCamera(const fs::path& folder, const SensorYaml& sensor, const char* c
 }
 
 }  // namespace
+
+void requireNoRecording(const fs::path& root) {
+    std::error_code error;
+    if (fs::is_directory(root, error) && !fs::is_empty(root, error) && !error)
+        throw std::runtime_error(root.string() +
+                                 ": the folder is not empty; a recording needs a new one");
+}
 
 Recorder::Recorder(const fs::path& root, const StereoRig& rig, double videoRateHz,
                    const RecorderOptions& options)

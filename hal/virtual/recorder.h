@@ -38,6 +38,9 @@ struct RecorderOptions {
     std::chrono::milliseconds syncEvery{1000};
 };
 
+/// Throws std::runtime_error if the folder `root` exists and is not empty.
+void requireNoRecording(const std::filesystem::path& root);
+
 /// Writes a recording. video(), still() and pose() copy their argument. If all buffers are in use
 /// and none becomes free within RecorderOptions::patience, the picture is dropped and counted. The
 /// recording's body coordinates are the coordinates of the video camera.

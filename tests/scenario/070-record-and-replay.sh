@@ -33,5 +33,8 @@ cmp $poses copy/${poses#run/} || fail "a recording of the replay has other poses
 grep '^time_offset: 0.0125 ' copy/cam1/sensor.yaml ||
     fail "a recording of the replay lacks the clock offset that its stills' times contain"
 
-run 74 --recording run --record run
+echo "a display replaces no file if the recording cannot begin"
+echo kept >video.y4m
+run 74 --recording run --record run --display y4m:video.y4m
 says err 'not empty'
+[[ $(<video.y4m) == kept ]] || fail "the file of the display was replaced"
