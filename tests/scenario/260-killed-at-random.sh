@@ -37,18 +37,21 @@ active_level=1
 is_active() { [ "$(cat cameras/line 2>/dev/null)" = $active_level ]; }
 
 active=0
+first_low=0
 for round in $(seq "$times"); do
     if [ $((2 * round)) -gt "$times" ] && [ $active_level = 1 ]; then
         active_level=0
+        first_low=$round
         echo 1 >cameras/line
         sed -i 's/^line = "TRIGGER"/&\nactive_low = true/' mfard.toml
     fi
     before=$(recorded)
     begin
     sleep 0.$((RANDOM % 3))$((RANDOM % 10))
-    # Every second process shows its first picture before it is killed. Every fourth process is
+    # Every second process shows its first picture before it is killed, and so does the first process
+    # with another active level: from it, release-trigger learns the level. Every fourth process is
     # killed while it records and a trigger pulse is active.
-    if [ $((round % 2)) = 0 ]; then
+    if [ $((round % 2)) = 0 ] || [ $round = $first_low ]; then
         until_true shows_pictures
         took=$(($(milliseconds) - begun))
         [ $took -le $((5000 * patience)) ] ||
