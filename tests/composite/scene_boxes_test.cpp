@@ -87,7 +87,7 @@ TEST(SceneBoxes, BoxesOfAMovingObjectMoveWithIt) {
     path.joints.resize(1);
     path.joints[0].T_parent_joint = scene.objects[0].T_world_object;
     path.joints[0].translation = {
-        MotionTrack::Between::Linear, {0, 2}, {{0, 0, 0, 0}, {0, 0, -1, 0}}};
+        MotionTrack::Between::Linear, {0, 2}, {{0, 0, 0, 0}, {1, 1, -1, 0}}};
     scene.objects[0].path = std::make_shared<const RigidPath>(path);
     SceneBoxes moving(scene);
     EXPECT_TRUE(moving.world().empty());
@@ -96,14 +96,21 @@ TEST(SceneBoxes, BoxesOfAMovingObjectMoveWithIt) {
     scene.objects[0].T_world_object = path.at(1);
     scene.objects[0].path.reset();
     SceneBoxes still(scene);
-    Silhouette a(kWide, 0), b(kWide, 0);
+    const Scene begin = sceneAt({0, 0, 3});
+    SceneBoxes unmoved(begin);
+    Silhouette a(kWide, 0), b(kWide, 0), c(kWide, 0);
     const std::vector<SurfaceRange>& moved = a.run(moving, kEye);
     const std::vector<SurfaceRange>& there = b.run(still, kEye);
-    int common = 0;
-    for (std::size_t i = 0; i < there.size(); ++i)
-        common += moved[i].farthest > 0 && there[i].farthest > 0 ? 1 : 0;
-    EXPECT_GT(coveredTiles(there), 16) << "at half the distance, the ball covers more tiles";
-    EXPECT_GE(common, coveredTiles(there) - 2);
+    const std::vector<SurfaceRange>& before = c.run(unmoved, kEye);
+    const auto inBoth = [&](const std::vector<SurfaceRange>& other) {
+        int tiles = 0;
+        for (std::size_t i = 0; i < there.size(); ++i)
+            tiles += other[i].farthest > 0 && there[i].farthest > 0 ? 1 : 0;
+        return tiles;
+    };
+    EXPECT_GT(coveredTiles(there), 8);
+    EXPECT_LT(inBoth(before), coveredTiles(there) / 2) << "the object left most of its tiles";
+    EXPECT_GE(inBoth(moved), coveredTiles(there) - 2);
     EXPECT_LE(coveredTiles(moved), coveredTiles(there) + 2);
 }
 

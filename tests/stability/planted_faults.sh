@@ -102,7 +102,7 @@ hostFaults() {
         'd = s.e.squaredNorm() + s.b.z() * along;' 'wrong sign' triangulation-usual
     inHost $triangulation 'along > kNoAngle ? crossOf(s.e, s.u) / along : s.u.norm()' \
         'crossOf(s.e, s.u) / along' 'missing check for pixels without an epipolar line' triangulation
-    inHost $triangulation 'rho > 0 && rho < kLargestRho && distance <= mostDistance_;' \
+    inHost $triangulation 'inverseDepth > 0 && inverseDepth < kLargestInverseDepth && distance <= mostDistance_;' \
         'distance <= mostDistance_;' 'missing range check' triangulation
 }
 
