@@ -300,7 +300,7 @@ std::filesystem::path newRecordingIn(const std::filesystem::path& directory) {
 std::unique_ptr<Display> openDisplay(const Config& config, double rateHz, std::stop_token cancel,
                                      const FileDisplayPolicy& policy) {
     return orFail(ExitCode::OutputFailed, [&]() -> std::unique_ptr<Display> {
-        // A display can replace a file. If mfard cannot record, it must end before that.
+        // A display can replace a file. So the recording's folder is checked first.
         if (!config.recordTo.empty()) requireNoRecording(config.recordTo);
         if (isScreen(config.display)) return openScreen(config.display);
         return openFileDisplay(config.display, rateHz, std::move(cancel), policy);

@@ -44,8 +44,9 @@ void beginCamera(const fs::path& folder, const SensorYaml& sensor, const char* c
 }  // namespace
 
 void requireNoRecording(const fs::path& root) {
-    std::error_code error;
-    if (fs::is_directory(root, error) && !fs::is_empty(root, error) && !error)
+    if (fs::exists(root) && !fs::is_directory(root))
+        throw std::runtime_error(root.string() + " is not a folder; a recording needs a new one");
+    if (fs::exists(root) && !fs::is_empty(root))
         throw std::runtime_error(root.string() +
                                  ": the folder is not empty; a recording needs a new one");
 }

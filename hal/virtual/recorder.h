@@ -38,7 +38,7 @@ struct RecorderOptions {
     std::chrono::milliseconds syncEvery{1000};
 };
 
-/// Throws std::runtime_error if the folder `root` exists and is not empty.
+/// Throws std::runtime_error if `root` exists and is not an empty folder that can be read.
 void requireNoRecording(const std::filesystem::path& root);
 
 /// Writes a recording. video(), still() and pose() copy their argument. If all buffers are in use

@@ -12,11 +12,6 @@ constexpr int kRoom = 4;
 
 }  // namespace
 
-bool isSame(const CameraModel& a, const CameraModel& b) {
-    return a.size == b.size && a.fx == b.fx && a.fy == b.fy && a.cx == b.cx && a.cy == b.cy &&
-           a.distortion == b.distortion;
-}
-
 RayLattice::Part RayLattice::part(const CameraModel& camera, const PixelRect& points) {
     const int stepsX = static_cast<int>(std::floor(camera.cx / kStep));
     const int stepsY = static_cast<int>(std::floor(camera.cy / kStep));
@@ -24,7 +19,7 @@ RayLattice::Part RayLattice::part(const CameraModel& camera, const PixelRect& po
     first.size = {};
     first.cx -= stepsX * kStep;
     first.cy -= stepsY * kStep;
-    if (!isSame(first, camera_)) {
+    if (!(first == camera_)) {
         camera_ = first;
         known_ = {};
     }

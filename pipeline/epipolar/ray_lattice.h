@@ -10,8 +10,6 @@ struct PixelOffset {
     int x = 0, y = 0;
 };
 
-[[nodiscard]] bool isSame(const CameraModel& a, const CameraModel& b);
-
 /// Rays of every kStep-th pixel of a camera, also outside its picture. They are computed when first
 /// requested, and stored. They are used again for a camera that differs only in size, or whose
 /// principal point differs by whole steps.

@@ -40,11 +40,11 @@ simd::Lens lensOf(const CameraModel& camera) {
 void TurnedPicture::know(const CameraModel& camera, const CameraModel& whole,
                          const CameraModel& source) {
     known_.camera = camera;
-    if (!isSame(whole, known_.whole)) {
+    if (!(whole == known_.whole)) {
         known_.whole = whole;
         known_.rim = rimOf(whole);
     }
-    if (isSame(source, known_.source)) return;
+    if (source == known_.source) return;
     known_.source = source;
     known_.sourceRim = rimOf(source);
     known_.outline.clear();

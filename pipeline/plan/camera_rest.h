@@ -18,7 +18,7 @@ public:
     /// if its TileMeasure::structure exceeds `leastStructure`. `renewedShare`: share of the tiles
     /// that were drawn although they had not changed. The next frame is compared with the newly
     /// drawn tiles, so a slow motion does not add up to a change. Therefore, if this share exceeds
-    /// a quarter in many frames, the camera counts as moving.
+    /// a quarter in more than about three frames per second, the camera counts as moving.
     void add(const std::vector<TileMeasure>& tiles, double leastStructure, double renewedShare,
              Timestamp time);
     /// True if the camera rested at time `t` and has rested since then: frames before and after `t`

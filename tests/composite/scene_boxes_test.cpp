@@ -108,7 +108,7 @@ TEST(SceneBoxes, BoxesOfAMovingObjectMoveWithIt) {
             tiles += other[i].farthest > 0 && there[i].farthest > 0 ? 1 : 0;
         return tiles;
     };
-    EXPECT_GT(coveredTiles(there), 8);
+    EXPECT_GE(coveredTiles(there), 6);
     EXPECT_LT(inBoth(before), coveredTiles(there) / 2) << "the object left most of its tiles";
     EXPECT_GE(inBoth(moved), coveredTiles(there) - 2);
     EXPECT_LE(coveredTiles(moved), coveredTiles(there) + 2);

@@ -71,17 +71,17 @@ inline constexpr float kFineShareRoom = 3.0F;
 /// kFineTexture. From kRoughTexture on, there is no limit.
 inline constexpr float kFineTexture = 0.2F;
 inline constexpr float kRoughTexture = 0.4F;
-/// Where a surface has an edge, look-ups are probably wrong or show another surface. There, the flow
-/// has a kink: it is bent (see kBentFlow) and has a large second difference between neighbouring
-/// cells [video px]. Up to a second difference of kFlatKink, the surface is smooth; from kSharpKink
-/// on, it certainly has an edge. The second difference is needed because a flat surface that is
-/// seen at a grazing angle has bent flow, too.
+/// Where a surface has an edge, look-ups are probably wrong or show another surface. There, the
+/// flow has a kink: it is bent (see kBentFlow) and has a large second difference between
+/// neighbouring cells [video px]. Up to a second difference of kFlatKink, the surface is smooth;
+/// from kSharpKink on, it certainly has an edge. The second difference is needed because a flat
+/// surface that is seen at a grazing angle has bent flow, too.
 ///
 /// The flow of rough textures that alias varies from cell to cell. There, kFlatRoughKink and
 /// kSharpRoughKink take the place of both limits. A rough texture aliases if the finest detail of
 /// the still, averaged over the video's pixels, has less variance than that of the video. Up to a
-/// ratio of kAliasedStill, it certainly aliases. From kDetailedStill on, the still probably shows an
-/// edge that the video does not show.
+/// ratio of kAliasedStill, it certainly aliases. From kDetailedStill on, the still probably shows
+/// an edge that the video does not show.
 ///
 /// At an edge, the weight is multiplied by the fourth power of the explained share of the variance
 /// of the video's finest detail. Reason: look-up errors with a normal distribution multiply the
