@@ -38,9 +38,10 @@ float keptShare(ivec2 cell) {
     float limited = min(allowed / max(unexplained, kFineLeast), 1.0);
     float rough = smoothstep(kFineTexture, kRoughTexture, sum.x / (sum.w + kFineLeast));
     float wrong = max(unexplained - kFineNoise * params.noise, 0.0);
-    float explained = 1.0 - wrong / (sum.x + kFineLeast);
+    float perVideo = 1.0 / (sum.x + kFineLeast);
+    float explained = 1.0 - wrong * perVideo;
     explained *= explained;
-    float detail = (sum.z + kFineLeast) / (sum.x + kFineLeast);
+    float detail = (sum.z + kFineLeast) * perVideo;
     float alias = rough * (1.0 - smoothstep(kAliasedStill, kDetailedStill, detail));
     float kink = bentAt(cell) * tearAt(cell);
     float kinked = mix(smoothstep(kFlatKink, kSharpKink, kink),

@@ -44,9 +44,10 @@ void beginCamera(const fs::path& folder, const SensorYaml& sensor, const char* c
 }  // namespace
 
 void requireNoRecording(const fs::path& root) {
-    if (fs::exists(root) && !fs::is_directory(root))
+    if (!fs::exists(root)) return;
+    if (!fs::is_directory(root))
         throw std::runtime_error(root.string() + " is not a folder; a recording needs a new one");
-    if (fs::exists(root) && !fs::is_empty(root))
+    if (!fs::is_empty(root))
         throw std::runtime_error(root.string() +
                                  ": the folder is not empty; a recording needs a new one");
 }

@@ -118,12 +118,13 @@ void FineShareRow(const FineSumsAround& sums, const float* kinks, const float* v
         const auto rough = smoothStep(params::kFineTexture, params::kRoughTexture, roughness);
         const auto smooth = hn::MulAdd(rough, hn::Sub(one, limited), limited);
         const auto wrong = hn::Max(hn::Sub(unexplained, noise), zero);
-        const auto explained = hn::NegMulAdd(wrong, hn::Div(one, hn::Add(video, least)), one);
+        const auto perVideo = hn::Div(one, hn::Add(video, least));
+        const auto explained = hn::NegMulAdd(wrong, perVideo, one);
         const auto explained2 = hn::Mul(explained, explained);
         const auto kink = hn::LoadU(d, kinks + x);
         const auto edge = smoothStep(params::kFlatKink, params::kSharpKink, kink);
         const auto roughEdge = smoothStep(params::kFlatRoughKink, params::kSharpRoughKink, kink);
-        const auto detail = hn::Div(still, hn::Add(video, least));
+        const auto detail = hn::Mul(still, perVideo);
         const auto alias = hn::NegMulAdd(
             rough, smoothStep(params::kAliasedStill, params::kDetailedStill, detail), rough);
         const auto kinked = hn::MulAdd(alias, hn::Sub(roughEdge, edge), edge);

@@ -145,7 +145,7 @@ TEST(CameraV4l2, WithoutANameTheExcludedCameraIsNotChosen) {
     options.device.largest = true;
     EXPECT_EQ(errorOf([&] { CameraV4l2(options, fake); }),
               "no second camera was found; available:\n  /dev/video0: 'Fake Camera' at fake:1");
-    // Of two cameras with equal picture sizes, the one whose path comes last counts as larger.
+    // If two cameras have equal picture sizes, the one whose path comes last counts as larger.
     fake.secondPath = "/dev/video2";
     EXPECT_EQ(CameraV4l2(options, fake).info().name, "Fake Camera (/dev/video2)");
     options.device.except = "/dev/video2";
