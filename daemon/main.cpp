@@ -4,6 +4,7 @@
 #include "daemon/log.h"
 #include "daemon/options.h"
 #include "daemon/restart_pause.h"
+#include "daemon/rig_messages.h"
 #include "daemon/rig_trigger.h"
 
 #include <fmt/format.h>
@@ -11,14 +12,12 @@
 #include <unistd.h>
 
 #include <cstdio>
-#include <cstdlib>
 
 int main(int argc, char** argv) {
     using namespace mfar;
     const Timestamp started = Timestamp::now();
     Log log(STDERR_FILENO, Log::styleOf(STDERR_FILENO), &Timestamp::now, Journal());
-    // libcamera logs to standard error by itself. Only its errors are wanted.
-    setenv("LIBCAMERA_LOG_LEVELS", "*:ERROR", 0);
+    const LibcameraLog libcameraLog = libcameraLogIn(log);
     try {
         const CommandLine line = parseCommandLine(argc, argv);
         if (line.print) {
@@ -35,8 +34,10 @@ int main(int argc, char** argv) {
             releaseTrigger(effectiveConfig(line.options).cameras.trigger);
             return static_cast<int>(ExitCode::Ok);
         }
-        App app(line.options, log);
-        return static_cast<int>(app.run());
+        const ExitCode code = App(line.options, log).run();
+        // Logs the messages that libcamera repeated while the cameras were closed.
+        log.endStatus();
+        return static_cast<int>(code);
     } catch (const std::exception& error) {
         log.endStatus();
         log.error(error.what(), {message::kFailed});

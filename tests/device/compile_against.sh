@@ -57,7 +57,7 @@ link trigger-tests libgpiod $trigger trigger_gpiod_v$v $(printf "%s_test " $trig
 
 echo "libcamera $(version libcamera)"
 tested="camera_selection field_of_view frame_drops picture_layout request_cycle sensor_clock
-    libcamera_buffers libcamera_controls"
+    libcamera_buffers libcamera_controls libcamera_log"
 parts="$tested camera_libcamera libcamera_manager libcamera_setup libcamera_stream"
 objects libcamera hal/frame.cpp base/image_layout.cpp $(printf "hal/device/%s.cpp " $parts) tests/device/libcamera_test.cpp \
     $(printf "tests/device/%s_test.cpp " $tested) tests/device/libcamera_probe.cpp
