@@ -41,12 +41,13 @@ namespace mfar {
 ///     middle of a picture.
 ///   - Otherwise, writing to slow readers of the display's pipe is cancelled 0.4 s after the
 ///     signal, and the process ends at most 0.5 s later.
-/// A second signal ends the process at once. If the main thread itself hangs during the shutdown,
-/// LastResort ends the process 2.5 s after the first signal.
+/// A second signal ends the process at once, except the same signal within 0.1 s. If the main
+/// thread itself hangs during the shutdown, LastResort ends the process 2.5 s after the first
+/// signal.
 ///
 /// If a run ends without a signal, mfard waits without a limit until all output is written, and
 /// then at most 2.5 s for the devices. If the picture thread hangs at the end of --seconds, mfard
-/// ends without this wait.
+/// ends without waiting for that thread.
 class App {
 public:
     /// Throws Failure, e.g. ConfigError, and std::system_error if the kernel has no free
@@ -107,7 +108,6 @@ private:
     std::filesystem::path startRecording(const std::string& name);
     [[nodiscard]] nlohmann::ordered_json stopRecording();
     void onTick();
-    /// Logs the warnings about the configuration, see notesOf().
     void logNotes();
     void setTicks();
     [[nodiscard]] Health health(const Counted& counted);
@@ -142,6 +142,7 @@ private:
     std::jthread stopper_;  ///< stops the devices; this may take long
     std::optional<std::string> stopReason_;
     std::optional<int> stopSignal_;
+    Timestamp stopSignalAt_;
     std::optional<Ready> running_;
     std::optional<Over> ended_;
     /// True after kFirstPictures pictures. All shaders have been compiled by then. While this is

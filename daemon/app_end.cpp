@@ -1,4 +1,3 @@
-
 #include "base/whole_file.h"
 #include "daemon/app.h"
 #include "daemon/budgets.h"
@@ -31,6 +30,9 @@ using Seconds = std::chrono::duration<double>;
 // ends at most kCancelTime later.
 constexpr Seconds kLeaveTime{0.2};
 constexpr Seconds kFlushTime{0.4};
+// `timeout` of coreutils sends its signal to the process and then to the process group, so that it
+// arrives twice.
+constexpr std::chrono::milliseconds kSameSignal{100};
 constexpr Seconds kCancelTime{0.5};
 constexpr std::chrono::milliseconds kLastResort{2500};
 
@@ -42,6 +44,7 @@ const char* signalName(int signal) {
 
 void App::onSignal(int signal) {
     if (signal == SIGHUP) return onHangUp();
+    if (stopSignal_ == signal && Timestamp::now() - stopSignalAt_ < kSameSignal) return;
     if (stopSignal_) {
         log_.endStatus();
         log_.warning(fmt::format("{} received after {}; ended at once", signalName(signal),
@@ -50,6 +53,7 @@ void App::onSignal(int signal) {
         std::_Exit(128 + signal);
     }
     stopSignal_ = signal;
+    stopSignalAt_ = Timestamp::now();
     // No message is logged here: even if the log itself hangs, the signal must end the process.
     lastResort_.arm(kLastResort, [] { std::_Exit(static_cast<int>(ExitCode::Ok)); });
     stop(signalName(signal));
@@ -132,7 +136,7 @@ void App::stop(const std::string& reason) {
     if (!stopper_.joinable()) stopper_ = std::jthread([this] { input_.request_stop(); });
 }
 
-// Ends all calls of the control socket but those that wait for a disk.
+// Ends all waiting calls of the control socket, except those that wait for a disk.
 void App::refuseCalls() {
     calls_.close();
     sessionCalls_.close();
@@ -166,9 +170,9 @@ ExitCode App::finish(std::future<std::string>& end) {
         }
         return code;
     } catch (const std::exception& error) {
-        // After a signal, missing output is not a failure of mfard if the reader of the display's
-        // pipe was too slow. Either mfard cancelled the writing, or the reader had stopped reading
-        // before the signal.
+        // If the reader of the display's pipe was too slow, missing output after a signal is not a
+        // failure of mfard. Then mfard has cancelled the writing (first condition), or the reader
+        // had stopped reading before the signal (second condition).
         if (cancel_.stop_requested() || (stopSignal_ && counted.displayFault)) {
             log_.warning(fmt::format("not all output was written: {}", error.what()), {},
                          {message::kEnded});

@@ -1,6 +1,7 @@
 #!/bin/bash
 # SIGTERM and SIGINT must end mfard within one second, whatever it waits for, and within 2.5 s if
-# even its log blocks. The limits are half a second longer, because of the scheduler.
+# even its log blocks. The limits in this test are half a second longer, because the scheduler may
+# delay mfard.
 . "$(dirname "$0")/lib.sh"
 
 limit=1500
@@ -88,6 +89,14 @@ sleep 0.05
 kill -INT "$pid"
 ends_with 130 $limit
 says err 'SIGINT received after SIGTERM'
+
+echo "SIGTERM that arrives twice, as that of timeout, counts once"
+start_blocked
+kill -TERM "$pid"
+sleep 0.02
+kill -TERM "$pid"
+ends_with 0 $limit
+summary_has exit_reason '"SIGTERM"'
 exec 3>&-
 
 echo "SIGTERM during the first milliseconds"
