@@ -50,14 +50,24 @@ void readCamera(TomlReader& file, const std::string& section, CameraConfig& came
     file.values(section + "controls", camera.controls);
 }
 
+/// Returns a check of a GPIO line that is given by its name, or by its number on `chip`.
+auto checkOfLine(const std::string& chip) {
+    return [&chip](std::string_view line) -> std::optional<std::string> {
+        constexpr std::string_view kDigits = "0123456789";
+        if (!chip.empty() || line.empty() || line.find_first_not_of(kDigits) != line.npos)
+            return std::nullopt;
+        return "is a line's number, so its chip must be set, too";
+    };
+}
+
 void readLine(TomlReader& file, TriggerLineConfig& line) {
     file.text("cameras.trigger.chip", line.chip);
-    file.text("cameras.trigger.line", line.line);
+    file.text("cameras.trigger.line", line.line, checkOfLine(line.chip));
     file.boolean("cameras.trigger.active_low", line.activeLow);
     file.number("cameras.trigger.pulse_ms", line.pulseMs);
     file.boolean("cameras.trigger.pulse_is_exposure", line.pulseIsExposure);
     file.text("cameras.trigger.loopback_chip", line.loopbackChip);
-    file.text("cameras.trigger.loopback", line.loopback);
+    file.text("cameras.trigger.loopback", line.loopback, checkOfLine(line.loopbackChip));
     file.number("cameras.trigger.delay_ms", line.delayMs);
     file.number("cameras.trigger.jitter_ms", line.jitterMs);
     file.number("cameras.trigger.arrival_ms", line.arrivalMs);

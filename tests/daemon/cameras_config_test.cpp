@@ -74,7 +74,17 @@ TEST(CamerasConfig, FaultsAreReportedWithLineAndColumn) {
               HasSubstr(":8:8: cameras.trigger.line must be a text in quotes")));
 }
 
-TEST(CamerasConfig, OnlyTheStillCameraMayBeTriggered) {
+TEST(CamerasConfig, TheNumberOfALineNeedsItsChip) {
+    const std::string trigger = "[cameras.trigger]\n";
+    EXPECT_THAT(configFaults(trigger + "line = \"17\"\nloopback = \"4\"\n"),
+                AllOf(HasSubstr("test.toml:2:8: cameras.trigger.line"),
+                      HasSubstr(":3:12: cameras.trigger.loopback"),
+                      HasSubstr("is a line's number, so its chip must be set, too")));
+    EXPECT_EQ(configFaults(trigger + "line = \"17\"\nchip = \"gpiochip0\"\n"), "");
+    EXPECT_EQ(configFaults(trigger + "line = \"GPIO17\"\n"), "");
+}
+
+TEST(CamerasConfig, OnlyTheRateOfTheStillCameraMayBeZero) {
     EXPECT_THAT(configFaults("[cameras.video]\nrate_hz = 0\n"),
                 HasSubstr("test.toml:2:11: cameras.video.rate_hz must be from 0.01 to 1000"));
     EXPECT_EQ(configFaults("[cameras.still]\nrate_hz = 0\n"), "");
