@@ -149,7 +149,8 @@ FlowSet samplesOfRecording(const fs::path& folder) {
     }
     if (out.samples.empty())
         throw EvalError(fmt::format(
-            "{}: no truth: neither truth/flow nor truth/inverse_depth gives the flow of a frame",
+            "{}: no truth: neither truth/flow nor truth/inverse_depth gives the flow of a frame; "
+            "mfar-sim makes recordings with truth",
             folder.string()));
     std::sort(out.samples.begin(), out.samples.end(), [](const FlowSample& x, const FlowSample& y) {
         return std::pair(x.videoTime, x.stillTime) < std::pair(y.videoTime, y.stillTime);
@@ -187,7 +188,7 @@ FlowSet depthSamplesOf(const fs::path& folder) {
     FlowSet out{recording.rig, samplesByDepth(recording)};
     if (out.samples.empty())
         throw EvalError(fmt::format("{}: no truth: no frame has both truth/inverse_depth and a "
-                                    "still with a known pose",
+                                    "still with a known pose; mfar-sim makes recordings with truth",
                                     folder.string()));
     return out;
 }

@@ -6,7 +6,6 @@
 #include "tests/unit/temp_folder.h"
 
 #include <gtest/gtest.h>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/video/tracking.hpp>
 
 namespace mfar::eval {
@@ -15,7 +14,7 @@ namespace {
 using test::TempFolder;
 
 void writePicture(const std::filesystem::path& file, cv::Size size = {24, 16}) {
-    ASSERT_TRUE(cv::imwrite(file.string(), cv::Mat(size, CV_8UC3, cv::Scalar(10, 20, 30))));
+    savePicture(file, cv::Mat(size, CV_8UC3, cv::Scalar(10, 20, 30)));
 }
 
 void writeFlow(const std::filesystem::path& file, cv::Size size = {24, 16}) {

@@ -9,7 +9,8 @@ namespace {
 
 constexpr const char* kPoseHelp =
     "A folder holds a recording with poses and tags.toml, or pictures NAME.jpg|png, each with the "
-    "corners of its tags in NAME.txt.\n"
+    "corners of its tags in NAME.txt. If mfard made the recording with pose = \"tags\", its poses "
+    "are mfard's own and not the true ones; mfar-sim records true poses.\n"
     "Columns for recordings: rot_deg, trans_mm: error of the camera's pose against the recorded "
     "pose; trans_percent: trans_mm in percent of the mean distance to the visible tags; "
     "jitter_deg, jitter_mm: change of the error since the previous frame; tags: number of tags "

@@ -34,7 +34,8 @@ std::vector<SuperResSample> superResSamplesOf(const Recording& recording, int li
             out.back().second = recording.stills[*second];
     }
     if (!anyTruth)
-        throw EvalError(fmt::format("{}: no truth: truth/highres has no picture of a video frame",
+        throw EvalError(fmt::format("{}: no truth: truth/highres has no picture of a video frame; "
+                                    "mfar-sim makes recordings with truth",
                                     recording.root.string()));
     if (out.empty())
         throw EvalError(

@@ -1,12 +1,12 @@
 #include "tests/measure/eval/warp.h"
 
 #include "pipeline/warp/warp.h"
+#include "tests/measure/eval/picture.h"
 #include "tests/measure/eval/stopwatch.h"
 #include "tests/measure/eval/warp_scenes.h"
 #include "tests/warp/warp_engine.h"
 
 #include <fmt/format.h>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/photo.hpp>
 
@@ -175,7 +175,7 @@ private:
     TracedPicture reference_;
 };
 
-void savePicture(const WarpRequest& request, const std::string& name, const Rgba& rgba) {
+void saveOnPaper(const WarpRequest& request, const std::string& name, const Rgba& rgba) {
     if (request.save.empty()) return;
     const cv::Mat premultiplied(request.size.height, request.size.width, CV_8UC4,
                                 const_cast<std::uint8_t*>(rgba.data()));
@@ -188,10 +188,8 @@ void savePicture(const WarpRequest& request, const std::string& name, const Rgba
                 out(y, x)[2 - c] =
                     cv::saturate_cast<std::uint8_t>(p[c] + kPaper * (255 - p[3]) / 255);
         }
-    const std::filesystem::path file = request.save / (name + ".png");
     std::filesystem::create_directories(request.save);
-    if (!cv::imwrite(file.string(), out))
-        throw EvalError(fmt::format("{}: cannot be written", file.string()));
+    savePicture(request.save / (name + ".png"), out);
 }
 
 }  // namespace
@@ -220,10 +218,10 @@ Report evaluateWarp(const WarpRequest& request) {
             const auto fileOf = [&](const std::string& method) {
                 return fmt::format("{}-{:g}-{}", fileStemOf(labels[s]), degrees, method);
             };
-            savePicture(request, fileOf("truth"), bytesOf(shot.truth));
+            saveOnPaper(request, fileOf("truth"), bytesOf(shot.truth));
             for (const std::string& method : request.methods) {
                 const Warped warped = run.run(method, shot);
-                savePicture(request, fileOf(method), warped.rgba);
+                saveOnPaper(request, fileOf(method), warped.rgba);
                 report.add(label, "0", method,
                            {psnrInside(warped.rgba, shot.truth), warped.holeShare,
                             warped.rerayShare, warped.rerayOfObjects, warped.ms});
