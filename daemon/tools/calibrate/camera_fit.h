@@ -44,7 +44,7 @@ struct CameraFit {
     /// T_camera_target of each view. Not set: the view does not fit the other views.
     std::vector<std::optional<RigidTransform>> poses;
     std::vector<int> chosen;  ///< indices of the views to which the camera was fitted
-    double sigma = 0;         ///< robust standard deviation of a corner's coordinate [px]
+    double sigma = 0;  ///< robust standard deviation of the corners' residuals in x and y [px]
 };
 
 /// Fits intrinsics and distortion (k3 stays 0) to at most `most` views. The views are chosen so
