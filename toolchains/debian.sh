@@ -35,6 +35,10 @@ debianMirror() {
 # folder's name, it tells whether the folder has to be made anew.
 inputHash() { printf '%s\n' "$@" | sha256sum | cut -c 1-12; }
 
+# codeOf SCRIPT...: prints the scripts without lines that are only comments ("# ..." and "#"), also in
+# here-documents. As an input of inputHash, it makes folders anew only if other lines have changed.
+codeOf() { sed '/^ *#\( \|$\)/d' "$@"; }
+
 # sourcesWithoutSecurity FOLDER: copies the lists of package sources to the folder, without the
 # entries for security updates. Prints the copies' paths.
 sourcesWithoutSecurity() {
@@ -110,8 +114,8 @@ recordPackages() {
     rm -rf "$control"
 }
 
-# linkAlternatives ROOT: links the default versions of BLAS and LAPACK. In Debian, the packages'
-# scripts do that, which were not run.
+# linkAlternatives ROOT: links the default versions of BLAS and LAPACK. Usually, the packages'
+# scripts make these links, but extractPackages runs no scripts.
 linkAlternatives() {
     local library folder
     for library in blas/libblas.so.3 lapack/liblapack.so.3; do

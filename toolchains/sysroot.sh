@@ -13,7 +13,7 @@ cache=$1
 architecture=$2
 shift 2
 mapfile -t packages < <(printf '%s\n' libc6-dev "$@" | sort -u)
-hash=$(inputHash "$(debianSuite)" "${packages[@]}" "$(cat "$here/sysroot.sh" "$here/debian.sh")")
+hash=$(inputHash "$(debianSuite)" "${packages[@]}" "$(codeOf "$here/sysroot.sh" "$here/debian.sh")")
 sysroot=$cache/sysroot-$architecture-$hash
 
 if [[ ! -d $sysroot ]]; then

@@ -73,7 +73,7 @@ buildAll() {
     buildOne "$folder"/yaml-cpp-*/ "$prefix" -DYAML_CPP_BUILD_TESTS=OFF -DYAML_CPP_BUILD_TOOLS=OFF
 }
 
-built=$cache/instrumented-$(inputHash "$versions" "$(cat "$here/libraries.sh")")
+built=$cache/instrumented-$(inputHash "$versions" "$(codeOf "$here/libraries.sh")")
 if [[ ! -d $built ]]; then
     printf 'Making %s, about three minutes\n' "$built" >&2
     rm -rf "$built.part"

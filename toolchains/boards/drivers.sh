@@ -37,9 +37,10 @@ makeRoot() {
         mkdir /mesa && tar xf mesa_*.orig.tar.*z -C /mesa --strip-components=1'
 }
 
-# amend ROOT: changes drm-shim's replacement of the V3D kernel driver in two ways. In Mesa 22.3, it
-# does not report support of compute shaders, without which there is no OpenGL ES 3.1. And it knows
-# only V3D 4.2; now it becomes V3D 7.1 with three slices if V3D_GPU_ID is set (to 71).
+# amend ROOT: changes drm-shim's replacement of the V3D kernel driver in two ways. It makes the
+# version of Mesa 22.3 report support of compute shaders, without which there is no OpenGL ES 3.1.
+# And if V3D_GPU_ID is set (to 71), the replacement stands for V3D 7.1 with three slices instead of
+# V3D 4.2.
 amend() {
     local file=$1/mesa/src/broadcom/drm-shim/v3d_noop.c
     if ! grep -q PARAM_SUPPORTS_CSD "$file"; then
@@ -85,7 +86,7 @@ fi
 [[ $# -eq 2 ]] || die "usage: drivers.sh [--if-built] CACHE SUITE"
 cache=$1
 suite=$2
-drivers=$cache/boards-$suite-$(inputHash "$suite" "$(cat "$here/drivers.sh")")
+drivers=$cache/boards-$suite-$(inputHash "$suite" "$(codeOf "$here/drivers.sh")")
 # With --if-built, nothing is removed below, because a normal user cannot remove root's files.
 if [[ -n $ifBuilt ]]; then
     [[ -d $drivers ]] || exit 77

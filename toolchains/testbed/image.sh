@@ -127,7 +127,7 @@ makeImage() {
 cache=$1
 shift
 mapfile -t packages < <(printf '%s\n' "$@" | sort -u)
-hash=$(inputHash "$(debianSuite)" "${packages[@]}" "$(cat "$here/image.sh" "$here/../debian.sh")")
+hash=$(inputHash "$(debianSuite)" "${packages[@]}" "$(codeOf "$here/image.sh" "$here/../debian.sh")")
 image=$cache/testbed-$hash
 if [[ ! -d $image ]]; then
     printf 'Making the disk of the emulated board in %s; takes about 80 s\n' "$image" >&2
