@@ -129,7 +129,10 @@ GpioChip describe(const std::string& path) {
     found.label = text(gpiod_chip_info_get_label(info.get()));
     for (unsigned i = 0; i < gpiod_chip_info_get_num_lines(info.get()); ++i) {
         const LineInfo line(gpiod_chip_get_line_info(chip.get(), i));
-        if (!line) continue;
+        if (!line) {
+            found.error = errno;
+            continue;
+        }
         found.lines.push_back({i, text(gpiod_line_info_get_name(line.get())),
                                text(gpiod_line_info_get_consumer(line.get())),
                                gpiod_line_info_is_used(line.get())});

@@ -23,12 +23,12 @@ TEST(GpioTrigger, AnUnknownChipIsRefusedAndNamed) {
                 ThrowsMessage<std::runtime_error>(HasSubstr("'no-such-chip'")));
 }
 
-TEST(GpioTrigger, EveryListedChipHasAPathAndEitherLinesOrAnError) {
+TEST(GpioTrigger, EveryListedChipHasAPathAndLinesOrAnError) {
     const std::vector<GpioChip> chips = listGpioChips();
     if (chips.empty()) GTEST_SKIP() << "no GPIO chip";
     for (const GpioChip& chip : chips) {
         EXPECT_EQ(chip.path, "/dev/" + chip.name);
-        EXPECT_NE(chip.lines.empty(), chip.error == 0) << chip.path;
+        EXPECT_TRUE(!chip.lines.empty() || chip.error != 0) << chip.path;
     }
 }
 
