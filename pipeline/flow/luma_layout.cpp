@@ -6,7 +6,7 @@
 namespace mfar {
 namespace {
 
-// Smallest height and width of a pyramid level [px]. Patches must fit into each level.
+// Smallest height and width of the third and coarser pyramid levels [px].
 constexpr int kShortestSide = 26;
 constexpr std::size_t kMaxLevels = 6;
 // The second level always exists, because the gain between the sensors is measured there.

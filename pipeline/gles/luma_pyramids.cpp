@@ -27,8 +27,8 @@ LumaPyramids::LumaPyramids(Size video)
     std::int32_t words = 0;
     video_ = lumaLayout(video, words);
     still_ = lumaLayout(video, words);
-    // Two more words at the end, because a patch's row is always read as three words.
-    words_ = gpu::Buffer((static_cast<std::size_t>(words) + 2) * sizeof(std::uint32_t));
+    words_ =
+        gpu::Buffer((static_cast<std::size_t>(words) + kLumaSpareWords) * sizeof(std::uint32_t));
 }
 
 void LumaPyramids::buildVideo(const gpu::Texture& video) {
