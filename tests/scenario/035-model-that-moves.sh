@@ -8,7 +8,7 @@ ctl="$(dirname "$sim")/mfarctl"
 # True after the model was drawn 60 times. A model at rest is drawn only about 20 times, while its
 # picture gets more samples.
 is_drawn_anew() {
-    timeout 10 "$ctl" --socket control stats | grep -Eq '"frames_warped": *([6-9][0-9]|[0-9]{3,})'
+    timeout $((10 * patience)) "$ctl" --socket control stats | grep -Eq '"frames_warped": *([6-9][0-9]|[0-9]{3,})'
 }
 
 # model NAME CHANNEL...: writes NAME.gltf, a triangle whose animation has these channels, and

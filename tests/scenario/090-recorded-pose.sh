@@ -1,6 +1,6 @@
 #!/bin/bash
-# mfard must use recorded poses instead of tags. It must refuse a recording without poses if poses
-# are required.
+# With --pose recorded, mfard must use recorded poses instead of tags, and must refuse a recording
+# without poses.
 . "$(dirname "$0")/lib.sh"
 
 "$sim" --scene office --path pan --seconds 0.2 --stills 5 --no-truth \
@@ -16,7 +16,7 @@ summary_has stills_tracked 1
 summary_has stills_measured 0
 says summary.json '"epipolar_frames": [1-9]'
 
-echo "a replay also uses the tags of the recording"
+echo "without --pose recorded, a replay uses the tags of the recording"
 run 0 --recording run --summary summary.json
 says err 'poses from a map of [0-9]+ tags; '
 summary_has measured "$frames"

@@ -32,8 +32,8 @@ shape = "box"
 size = [0.1, 0.1, 0.1]
 position = [0.0, 0.0, 0.06]
 END
-# CTest sets MFAR_PATIENCE above 1, for slow machines and sanitizers. Then the path tracer gets few
-# pixels and samples.
+# CTest sets MFAR_PATIENCE above 1 for slow machines and sanitizers. To save time, the path tracer
+# then gets few pixels and samples.
 few=
 [ "$patience" = 1 ] || few='\nresolution = 0.1\nsamples = 1\nbudget_ms = 60'
 sed "s/\"preview\"/\"path-traced\"$few/" preview.toml >traced.toml

@@ -26,8 +26,8 @@ stop_now() {
     kill -TERM "$pid"
     ends_with 0 "$1"
 }
-status() { timeout -s KILL 30 "$ctl" --socket control status >answer 2>err.ctl; }
-stats() { timeout -s KILL 30 "$ctl" --socket control stats >stats.json 2>err.ctl; }
+status() { timeout -s KILL $((30 * patience)) "$ctl" --socket control status >answer 2>err.ctl; }
+stats() { timeout -s KILL $((30 * patience)) "$ctl" --socket control stats >stats.json 2>err.ctl; }
 shows_pictures() { status && [ "$(awk '$1 == "frames" {print $2}' answer)" -ge "$1" ] 2>/dev/null; }
 goes_on() {
     status || fail "mfard does not answer mfarctl status"

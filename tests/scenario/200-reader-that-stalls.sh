@@ -5,7 +5,7 @@
 . "$(dirname "$0")/lib.sh"
 
 ctl="$(dirname "$sim")/mfarctl"
-status() { timeout 10 "$ctl" --socket control status; }
+status() { timeout $((10 * patience)) "$ctl" --socket control status; }
 status_says() { status | grep -Eq -- "$1"; }
 frames() { status | sed -n 's/^frames  *//p'; }
 mkfifo pipe

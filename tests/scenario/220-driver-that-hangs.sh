@@ -17,7 +17,7 @@ export NOTIFY_SOCKET=$PWD/notify WATCHDOG_USEC=10000000 MFAR_PRETENDED_V4L2=$wor
 heard() { grep -Eq -- "$1" heard; }
 notifications() { grep -c '^WATCHDOG=1$' heard || true; }
 notified() { [ "$(notifications)" -gt $((before + $1)) ]; }
-status() { timeout 10 "$ctl" --socket control status; }
+status() { timeout $((10 * patience)) "$ctl" --socket control status; }
 status_says() { status | grep -Eq -- "$1"; }
 is_notified() {
     before=$(notifications)

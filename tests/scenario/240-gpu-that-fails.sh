@@ -9,7 +9,7 @@ pretended=$3
 faulty=$4
 even=$5
 ctl="$(dirname "$sim")/mfarctl"
-control() { timeout 10 "$ctl" --socket control "$@"; }
+control() { timeout $((10 * patience)) "$ctl" --socket control "$@"; }
 status_says() { control status | grep -Eq -- "$1"; }
 frames() { [ "$(control status | sed -n 's/^frames  *//p')" -gt "$1" ] 2>/dev/null; }
 gpu_says() {
@@ -19,8 +19,8 @@ gpu_says() {
 failed_times() { control stats | grep -Eq "\"gpu_failures\": ?$1,"; }
 goes_on() { until_true frames $(($(control status | sed -n 's/^frames  *//p') + 10)); }
 
-# Writes a snapshot. True if it shows a text at its lower edge, whose background has one colour. The
-# camera's pictures are noise.
+# Writes a snapshot. True if it shows a text at its lower edge. The background of a text has one
+# colour, whereas the camera's pictures are noise.
 has_text() {
     local status=0
     control snapshot "$1"

@@ -7,7 +7,7 @@
 
 libraries=$3:$4
 ctl="$(dirname "$sim")/mfarctl"
-status() { timeout 10 "$ctl" --socket control status; }
+status() { timeout $((10 * patience)) "$ctl" --socket control status; }
 frames() { status | sed -n 's/^frames  *//p'; }
 more() { [ "$(frames)" -gt $((shown + 15)) ] 2>/dev/null; }
 step() {

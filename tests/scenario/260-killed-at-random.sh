@@ -25,7 +25,7 @@ sed -i 's/^rate_hz = 5.0/rate_hz = 0.0/' mfard.toml
 echo triggered >cameras/video91
 touch cameras/gpiochip0
 shows_pictures() {
-    [ "$(timeout 10 "$ctl" --socket control status 2>/dev/null | sed -n 's/^frames  *//p')" -gt 0 ] 2>/dev/null
+    [ "$(timeout $((10 * patience)) "$ctl" --socket control status 2>/dev/null | sed -n 's/^frames  *//p')" -gt 0 ] 2>/dev/null
 }
 begin() {
     begun=$(milliseconds)
@@ -48,9 +48,9 @@ for round in $(seq "$times"); do
     before=$(recorded)
     begin
     sleep 0.$((RANDOM % 3))$((RANDOM % 10))
-    # Every second process shows its first picture before it is killed, and so does the first process
-    # with another active level: from it, release-trigger learns the level. Every fourth process is
-    # killed while it records and a trigger pulse is active.
+    # Every second process shows its first picture before it is killed. So does the first process
+    # with active_level 0, because mfard must write the file from which release-trigger learns the
+    # level. Every fourth process is killed while it records and a trigger pulse is active.
     if [ $((round % 2)) = 0 ] || [ $round = $first_low ]; then
         until_true shows_pictures
         took=$(($(milliseconds) - begun))

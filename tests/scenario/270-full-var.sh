@@ -16,7 +16,7 @@ fi
 
 pretended=$3
 ctl="$(dirname "$sim")/mfarctl"
-status() { timeout 10 "$ctl" --socket control status; }
+status() { timeout $((10 * patience)) "$ctl" --socket control status; }
 frames() { status | sed -n 's/^frames  *//p'; }
 goes_on() {
     shown=$(frames)
