@@ -105,7 +105,8 @@ std::string_view deedOf(std::string_view command) {
 void requireRole(const std::string& command, ControlRole role) {
     if (role == ControlRole::Operator || command == "status" || command == "stats") return;
     throw BadRequest(
-        fmt::format("only root and members of group {} may {}", kOperatorsGroup, deedOf(command)));
+        fmt::format("only root, the user that runs mfard, and members of group {} may {}",
+                    kOperatorsGroup, deedOf(command)));
 }
 
 ControlAnswer done(const ControlActions& actions, const json& request, ControlRole role) {

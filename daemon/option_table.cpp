@@ -70,12 +70,12 @@ constexpr Option kTop[] = {
              "ratio; \"screen\", the largest such size that fits on the screen found at the start "
              "(without a screen, as \"still\"); or a size into which they must fit, like "
              "\"1280x720\". Never smaller than the video or wider than the still.")),
-    argument(
-        "--pace",
-        word("pace", "auto realtime consumer", R"("auto")",
-             "Speed of the source: \"realtime\", that of its time stamps; mfard drops frames if it "
-             "is too slow; \"consumer\", as fast as mfard processes frames, and no frame is "
-             "dropped; \"auto\": \"consumer\" for recordings, otherwise \"realtime\".")),
+    argument("--pace",
+             word("pace", "auto realtime consumer", R"("auto")",
+                  "Speed of the source. \"realtime\": the speed of its time stamps; frames are "
+                  "dropped if mfard is too slow. \"consumer\": as fast as mfard processes frames; "
+                  "no frame is dropped. \"auto\": \"consumer\" for recordings, otherwise "
+                  "\"realtime\".")),
     argument("--seed", whole("seed", {}, "1",
                              "Seed of the synthetic source's random numbers, at least 0: the same "
                              "seed gives the same pictures.")),
@@ -141,8 +141,8 @@ constexpr Option kLine[] = {
            "First estimate of the time from a trigger pulse to the start of the exposure, as the "
            "camera's time stamps report it. mfard learns the exact value."),
     number("jitter_ms", {0.001, 1000, "ms"}, "1.0",
-           "Largest error of the camera's time stamps: 1 if the sensor sets them; more if they are "
-           "times of arrival, as with USB cameras, or an automatic exposure shifts them."),
+           "Largest error of the camera's time stamps: 1 ms if the sensor sets them; more if they "
+           "are times of arrival, as with USB cameras, or an automatic exposure shifts them."),
     number("arrival_ms", {1, 60000, "ms"}, "500.0",
            "A still that has not arrived this long after its exposure counts as lost."),
 };
@@ -209,13 +209,13 @@ constexpr Option kPose[] = {
          "of the recording or the tags of the simulated board; if there is no map, the largest tag "
          "with a usable pose defines the world."),
     {"families", OptionType::Texts, R"(["tag36h11"])",
-     "Tag families to search without a map; with a tags.yaml, the family of its tags.", kFamilies},
+     "Families of tags to find if there is no map; with a tags.yaml, its tags' family.", kFamilies},
     number("tag_size", kTagSize, "0.1",
            "Edge length of the tag that defines the world when there is no map."),
     number("decimation", {1, 8, ""}, "2.0",
            "Factor by which the video is reduced before it is searched for tags: 1.5 or a whole "
            "number. A larger factor is faster but misses small tags."),
-    whole("threads", kThreads, "1", "Number of threads that search tags, for each sensor."),
+    whole("threads", kThreads, "1", "Number of threads that search for tags, for each sensor."),
     whole("full_search_interval", {1, 1'000'000, "frames"}, "15",
           "Longest time between searches of the whole picture for tags. Other frames are searched "
           "at the expected positions first."),
@@ -236,7 +236,7 @@ constexpr Option kGovernor[] = {
 constexpr Option kRecord[] = {
     text("directory", R"("")",
          "Folder in which each start of mfard creates a recording, a folder named by the time "
-         "(UTC), relative to mfard's working directory. Empty: nothing is recorded."),
+         "(UTC). It may be relative to mfard's working directory. Empty: nothing is recorded."),
     number("least_free_mb", kMegabytes, "512",
            "When less disk space than this would be free, the recording ends, and mfard goes on "
            "without it. 0: no limit."),
@@ -273,9 +273,9 @@ constexpr Option kVirtual[] = {
            "Width and height of the path-traced picture as a share of the largest output, which is "
            "as wide as a still. It is never larger than the output or the GPU's textures."),
     word("holes", "push-pull re-render both none", R"("both")",
-         "Method that fills holes (pixels that come into view between two path-traced pictures): "
-         "\"push-pull\": colours around the hole; \"re-render\": a few samples of the path tracer "
-         "for objects; \"both\": \"push-pull\" until the samples are ready; or \"none\"."),
+         "How holes (pixels that come into view between two path-traced pictures) are filled: "
+         "\"push-pull\": from colours around them; \"re-render\": by a few path-traced samples, "
+         "shadows by \"push-pull\"; \"both\": \"push-pull\" until samples are ready; or \"none\"."),
     whole("threads", kThreads, "1", "Number of threads of the path tracer."),
     flag("filter", "true", "Smooth the noise of pictures with few samples, but not their edges."),
     number("turn_deg", {0.1, 90, "degrees"}, "4.0",
@@ -318,7 +318,7 @@ constexpr Option kObjects[] = {
     absent(numbers("colour", 3, kShare, "[0.9, 0.9, 0.9]",
                    "Colour of a shape: red, green, blue. Absent: a checkerboard of two colours.")),
     absent(numbers("second_colour", 3, kShare, "[0.8, 0.2, 0.1]",
-                   "Colour of every second square of the checkerboard. Absent: as `colour`.")),
+                   "Colour of every second square. Absent: as `colour` if that is present.")),
     whole("squares", {1, 256, ""}, "4", "Number of squares of the checkerboard along each side."),
 };
 
@@ -355,7 +355,7 @@ constexpr Option kLevel[] = {
     flag("learned", "true", "Enlarge by learned filters; for mode \"detail\" only."),
     flag("along_lines", "true", "If poses are known, search for matches along epipolar lines."),
     number("detail_share", {0.001, 1, ""}, "1.0",
-           "Not for mode \"blend\": largest share of the tiles that are matched with the still."),
+           "Largest share of tiles that may be matched with the still; not for mode \"blend\"."),
     number("second_share", kShare, "0.25",
            "With `learned`: largest share of tiles that are matched with a second still. 0: none."),
     whole("depth_every", {1, 60, "frames"}, "1",
@@ -377,7 +377,7 @@ constexpr Option kLevel[] = {
     whole("epipolar.step_penalty", {1, 30, ""}, "12",
           "Smoothness penalty where neighbouring pixels differ by one candidate."),
     whole("epipolar.jump_penalty", {1, 60, ""}, "60",
-          "The same for more than one candidate; lower at edges in the picture."),
+          "Penalty for neighbours two or more candidates apart; lower at edges in the picture."),
     whole("epipolar.finest", kSmall, "0",
           "Finest pyramid level that is searched: 0, 1 and 2 have the full, half and quarter width "
           "and height."),

@@ -30,7 +30,8 @@ std::optional<PictureSize> pictureSize(std::string_view words) {
 
 std::optional<std::string> pictureSizeFault(std::string_view words) {
     if (pictureSize(words)) return std::nullopt;
-    return "must be \"screen\", \"still\" or a size of 1 to 16384 pixels like \"1280x720\"";
+    return "must be \"screen\", \"still\" or a width and height like \"1280x720\", each from 1 to "
+           "16384 pixels";
 }
 
 }  // namespace mfar

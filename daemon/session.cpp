@@ -22,9 +22,10 @@ std::string sensorsOf(const Config& config, Rig& rig) {
                        still.height);
 }
 
+// Longest wait for a frame. After each wait, faults, reloads and commands are handled.
 constexpr std::chrono::milliseconds kFaultInterval{30};
-// A recording is played faster than real time. Without this wait, the path tracer, whose priority
-// is low, would get hardly any processor time.
+// A lossless source delivers frames as fast as they are processed. Without this wait, the path
+// tracer, whose priority is low, would get hardly any processor time.
 constexpr std::chrono::milliseconds kTracerWait{100};
 
 }  // namespace
@@ -309,7 +310,7 @@ ScreenPicture Session::snapshot(bool ofScreen) const {
     if (!drawing_->shown) throw std::runtime_error("there is no picture yet");
     if (!ofScreen) return copyOf(*drawing_->shown);
     std::optional<ScreenPicture> screen = display_->lastShown();
-    if (!screen) throw std::runtime_error("there is no screen: " + display_->name());
+    if (!screen) throw std::runtime_error("there is no screen; display: " + display_->name());
     return *std::move(screen);
 }
 

@@ -13,7 +13,7 @@ void Session::tell(Timestamp time, const FrameStats& frame) {
     if (auto error = drawing_->pipeline.takeSceneError())
         stats_.warn("objects: " + *error, {message::kObjects});
     if (auto error = drawing_->pipeline.takeImportFault())
-        stats_.warn(*error + "; video frames are copied instead");
+        stats_.warn(*error + "; pictures of this camera are copied instead");
     stats_.recorderDropped(rig_.notRecorded());
     if (auto matching = rig_.matching()) {
         // StillPolicy repeats the pulses of lost stills, and StillMatcher does not. So the number

@@ -63,7 +63,8 @@ double readOffset(const YamlReader& in, const YAML::Node& video, const YAML::Nod
     if (!ofVideo.IsDefined() || !ofStill.IsDefined()) return 0;
     const double offset =
         plausible::timeOffset(in, ofStill, key) - plausible::timeOffset(in, ofVideo, key);
-    plausible::requireTimeOffset(in, ofStill, offset, "the difference of both timeshift_cam_imu");
+    plausible::requireTimeOffset(in, ofStill, offset,
+                                 "a timeshift_cam_imu difference between the cameras");
     return offset;
 }
 

@@ -10,13 +10,13 @@ struct Range {
     const char *what, *unit;
     double least, most;
 
-    /// Returns false for NaN, too.
+    /// NaN is outside of every range.
     [[nodiscard]] constexpr bool holds(double value) const {
         return value >= least && value <= most;
     }
 };
 
-/// 16384 px is the size limit of textures.
+/// The upper limit is kMaxPictureSide.
 inline constexpr Range kSide{"width and height", "px", 1, 16384};
 /// The limits correspond to horizontal fields of view of 169 degrees and of 0.6 degrees.
 inline constexpr Range kFocal{"focal length", "picture widths", 0.05, 100};
@@ -29,7 +29,7 @@ inline constexpr Range kCorner{
     0.25, 1.5};
 inline constexpr Range kBaseline{"distance of the sensors", "m", 0, 2};
 inline constexpr Range kTimeOffset{"time offset of the stills", "s", -10, 10};
-/// Rate 0 is accepted, too. It means that the sensor takes pictures on trigger only.
+/// rate() also accepts 0. It means that the sensor takes pictures on trigger only.
 inline constexpr Range kRate{"rate", "Hz", 0.01, 10000};
 
 inline constexpr Range kTagSize{"edge of a tag", "m", 0.001, 100};

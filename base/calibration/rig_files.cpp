@@ -57,7 +57,7 @@ RigCalibration readEuroc(const fs::path& video, const fs::path& still, const Wan
         plausible::checkBaseline(in, in.at("T_BS"), out.rig.T_still_video);
         if (in.has("time_offset"))
             plausible::requireTimeOffset(in, in.at("time_offset"), out.stillTimeOffset,
-                                         "the difference of both time_offset");
+                                         "a time_offset difference between the cameras");
     });
     return out;
 }

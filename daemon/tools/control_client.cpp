@@ -55,9 +55,9 @@ public:
     }
 
     void send(const std::string& text) const {
-        if (::send(fd_.get(), text.data(), text.size(), MSG_NOSIGNAL) !=
-            static_cast<ssize_t>(text.size()))
-            fail(std::strerror(errno));
+        const ssize_t sent = ::send(fd_.get(), text.data(), text.size(), MSG_NOSIGNAL);
+        if (sent < 0) fail(std::strerror(errno));
+        if (static_cast<std::size_t>(sent) != text.size()) fail("mfard does not read the request");
     }
     std::string line() {
         for (;;) {

@@ -46,7 +46,8 @@ void beginCamera(const fs::path& folder, const SensorYaml& sensor, const char* c
 void requireNoRecording(const fs::path& root) {
     if (!fs::exists(root)) return;
     if (!fs::is_directory(root))
-        throw std::runtime_error(root.string() + " is not a folder; a recording needs a new one");
+        throw std::runtime_error(root.string() +
+                                 " is not a folder; a recording needs a new or empty folder");
     if (!fs::is_empty(root))
         throw std::runtime_error(root.string() +
                                  ": the folder is not empty; a recording needs a new one");

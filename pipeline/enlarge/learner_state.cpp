@@ -15,11 +15,11 @@ constexpr char kMagic[] = "mfarlern";
 constexpr std::size_t kMagicSize = 8;
 constexpr std::array<std::uint64_t, 4> kHeader{8, kUnique, kTaps, kPhases};
 // Older versions of the format, which can still be read. Version 1 has no guidance. Version 2 has
-// one factor of guidance (ten numbers). Version 3 has both factors, but no FineMatch. Version 4 has
-// no tone curve. In versions 4 and 5, FineMatch was measured within blocks of 2x2 pixels; it is
-// skipped and learned again. Versions 5 and 6 do not store whether the tone curve is used; it then
-// counts as used. Versions 3 to 7 have no numbers of Guidance::light, which are at the end of the
-// file.
+// one factor of guidance (ten numbers); it is skipped and learned again. Version 3 has the factors
+// `still` and `video`, but no FineMatch. Version 4 has no tone curve. In versions 4 and 5,
+// FineMatch was measured within blocks of 2x2 pixels; it is skipped and learned again. Versions 5
+// and 6 do not store whether the tone curve is used; it then counts as used. Only version 8 has
+// numbers of Guidance::light, at the end of the file.
 constexpr std::uint64_t kWithoutGuidance = 1, kOneFactor = 2, kTwoFactors = 3, kWithoutTone = 4,
                         kFineInBlocks = 5, kToneInUse = 6, kWithoutLight = 7;
 constexpr int kOneFactorNumbers = 10;
@@ -95,7 +95,7 @@ public:
     std::string text() {
         const std::uint64_t size = number();
         if (size > kMostKeySize)
-            refuse("has a name of more than 4096 characters for its pair of sensors");
+            refuse("stores a name of more than 4096 bytes for the pair of sensors");
         const std::uint8_t* from = take(size);
         return {from, from + size};
     }

@@ -70,7 +70,7 @@ double readHeader(HdrBytes& in) {
         if (!line.starts_with("EXPOSURE=")) continue;
         exposure *= numberIn(line.substr(9)).value_or(0);
         if (!(exposure >= 1e-9 && exposure <= 1e9))
-            throw std::runtime_error("EXPOSURE must be from 1e-9 to 1e9");
+            throw std::runtime_error("the product of all EXPOSURE values must be from 1e-9 to 1e9");
     }
     return exposure;
 }
@@ -107,7 +107,8 @@ void readSplitRow(HdrBytes& in, std::span<Rgbe> row) {
 }
 
 /// Reads a row that is stored pixel by pixel. The code (1, 1, 1, n) repeats the last pixel n times.
-/// If several codes follow each other, they repeat it n, then 256 n, then 65536 n times, and so on.
+/// If several codes follow each other, the second repeats it 256 n times with its own n, the third
+/// 65536 n times, and so on.
 void readOldRow(HdrBytes& in, std::span<Rgbe> row) {
     unsigned shift = 0;
     for (std::size_t x = 0; x < row.size();) {

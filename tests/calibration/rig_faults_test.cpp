@@ -96,7 +96,7 @@ constexpr Fault kFaults[] = {
     {kChain, kChain, "0.8, -0.6", "0.8, 0.6", "camchain.yaml:11: ", "not a rotation"},
     {kChain, kChain, "[0.8, -0.6, 0.0,", "[0.8, -0.6,", "camchain.yaml:11: ", "row of 3 numbers"},
     {kChain, kChain, "timeshift_cam_imu: 0.001\n", "timeshift_cam_imu: -10\n",
-     "camchain.yaml:21: ", "the difference of both timeshift_cam_imu of 10.0035 s"},
+     "camchain.yaml:21: ", "a timeshift_cam_imu difference between the cameras of 10.0035 s"},
     {kChain, kChain, "1962.0", "nan", "camchain.yaml:18: ", "is not a number"},
     {kChain, kChain, "[2304, 1728]", "[2304]", "camchain.yaml:19: ", "must be [width, height]"},
     {kChain, kChain, "cam0:", "cam0: 5\ncam5:", "camchain.yaml:1: ", "has no key camera_model"},
@@ -151,7 +151,8 @@ TEST(RigFiles, DeeplyNestedOrVeryLongFilesAreRefusedBeforeParsing) {
     }
 }
 
-// The name is too long. The test uses no file without read permission, because root may read it.
+// The file name is too long for the file system. A file without read permission would not do,
+// because root may read it.
 TEST(RigFiles, APathThatCannotBeLookedUpIsRefused) {
     const std::string name(300, 'a');
     EXPECT_NE(faultOf(name).find(name), std::string::npos);
@@ -192,7 +193,8 @@ TEST(RigFiles, AnImplausibleDifferenceOfTheTimeOffsetsOfTwoSensorFilesIsRefused)
     writeFile(still, sensorYamlText({rig.still, rig.T_still_video.inverse(), 0, -6}, "still"));
     const std::string message = faultOf(folder.path());
     EXPECT_TRUE(message.starts_with(still.string() + ":")) << message;
-    EXPECT_NE(message.find("the difference of both time_offset of -12 s"), std::string::npos)
+    EXPECT_NE(message.find("a time_offset difference between the cameras of -12 s"),
+              std::string::npos)
         << message;
 }
 

@@ -124,7 +124,8 @@ TEST_F(Control, AnObserverMayOnlyQueryStatusAndStats) {
         EXPECT_THAT(out.value("error", ""), HasSubstr("members of group mfar-operators may"));
     }
     EXPECT_EQ(asObserver(R"({"command": "learn", "reset": true})")["error"],
-              "only root and members of group mfar-operators may reset what was learned");
+              "only root, the user that runs mfard, and members of group mfar-operators may reset "
+              "what was learned");
     EXPECT_EQ(recorded, "");
     EXPECT_EQ(triggered + resets, 0);
 }

@@ -302,8 +302,9 @@ TEST(Recording, TheTimeOffsetOfTheStillsIsRelativeToThatOfTheVideo) {
     replaceInFile(folder / kStillYaml, "camera_model:", "time_offset: 1.5\ncamera_model:");
     EXPECT_EQ(loadRecording(folder.path()).stillTimeOffset, 1.25);
     replaceInFile(folder / kStillYaml, "1.5", "-9.875");
-    EXPECT_NE(faultOf(folder.path()).find("the difference of both time_offset of -10.125 s"),
-              std::string::npos);
+    EXPECT_NE(
+        faultOf(folder.path()).find("a time_offset difference between the cameras of -10.125 s"),
+        std::string::npos);
 }
 
 TEST(Recording, TruthFilesAreFound) {

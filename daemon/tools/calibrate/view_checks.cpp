@@ -11,14 +11,14 @@ namespace mfar::calibration {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
-// The views must have at least this tilt and depth. With less, many pairs of focal length and
-// target distance would fit equally well.
+// The views must have at least this tilt and this range of depths. With less, many pairs of focal
+// length and target distance would fit equally well.
 constexpr double kLeastTilt = 12 * kDegree;
 constexpr double kLeastDepth = 1.2;  // distance of the farthest / distance of the nearest corner
 constexpr double kLeastCoverage = 0.6;
 // Quantiles are used instead of the largest and smallest values, so that no single view decides.
-// The quantile kMostlyAt replaces the largest tilt and the largest depth, the quantile 1 -
-// kMostlyAt the smallest depth.
+// The largest tilt and the largest depth are replaced by the quantile kMostlyAt. The smallest depth
+// is replaced by the quantile 1 - kMostlyAt.
 constexpr double kMostlyAt = 0.9;
 
 double quantile(std::vector<double> values, double q) {
@@ -68,10 +68,11 @@ void checkViews(const Target& target, const std::vector<TargetView>& views,
             count, sensor, leastViews));
     const Spread spread = spreadOf(target, views, guess);
     if (!(spread.tilt >= kLeastTilt))
-        throw Unsuitable(fmt::format(
-            "the {} sensor saw the target from nearly one direction (it was tilted by {:.0f} "
-            "degrees; at least {:.0f} are needed): tilt it to all sides",
-            sensor, spread.tilt / kDegree, kLeastTilt / kDegree));
+        throw Unsuitable(
+            fmt::format("the {} sensor saw the target from nearly one direction (the target was "
+                        "tilted by {:.0f} "
+                        "degrees; at least {:.0f} are needed): tilt the target to all sides",
+                        sensor, spread.tilt / kDegree, kLeastTilt / kDegree));
     if (!(spread.depth >= kLeastDepth))
         throw Unsuitable(fmt::format(
             "the {} sensor saw the target at nearly one distance (its farthest corner was "

@@ -112,7 +112,8 @@ void checkStorage(const LinkedShader& shader, bool vertex, Faults& faults) {
         const GLint binding = shader.property(GL_SHADER_STORAGE_BLOCK, i, GL_BUFFER_BINDING);
         if (binding >= ShaderBudget::kStorageBlocks)
             faults.push_back("storage block " + shader.resource(GL_SHADER_STORAGE_BLOCK, i) +
-                             " at binding " + std::to_string(binding));
+                             " at binding " + std::to_string(binding) +
+                             "; bindings must be below 4");
     }
 }
 
@@ -142,7 +143,8 @@ void checkImageCount(const LinkedShader& shader, bool vertex, Faults& faults) {
         GLint binding = 0;
         glGetUniformiv(shader.id(), glGetUniformLocation(shader.id(), name.c_str()), &binding);
         if (binding + elements > ShaderBudget::kImages)
-            faults.push_back("image " + name + " at binding " + std::to_string(binding));
+            faults.push_back("image " + name + " at binding " + std::to_string(binding) +
+                             "; bindings must be below 4");
     }
     if (vertex && images > 0) faults.push_back("a vertex shader must not use images");
     if (images > ShaderBudget::kImages)
@@ -155,7 +157,7 @@ void checkGroup(const LinkedShader& shader, Faults& faults) {
     const GLint invocations = size[0] * size[1] * size[2];
     if (invocations > ShaderBudget::kInvocations)
         faults.push_back(std::to_string(invocations) +
-                         " invocations a work group; 128 are guaranteed");
+                         " invocations in a work group; 128 are guaranteed");
 }
 
 // OpenGL ES does not report the size of shared variables. So this function moves them into storage
@@ -210,11 +212,12 @@ std::vector<std::string> shaderTextFaults(std::string_view text) {
     Faults faults;
     const std::string code = withoutComments(text);
     if (found(code, R"(\b(mediump|lowp)\b)")) faults.emplace_back("precision below highp");
-    if (found(code, R"(\b(double|dvec[234]|dmat[234])\b)")) faults.emplace_back("fp64");
-    if (found(code, R"(\bfma\s*\()")) faults.emplace_back("fma()");
-    if (found(code, R"(#\s*extension\b)")) faults.emplace_back("#extension");
-    if (found(code, R"(#\s*version\b)")) faults.emplace_back("#version; the preamble has one");
-    if (found(code, R"(#\s*include\b)")) faults.emplace_back("#include that was not resolved");
+    if (found(code, R"(\b(double|dvec[234]|dmat[234])\b)")) faults.emplace_back("uses fp64");
+    if (found(code, R"(\bfma\s*\()")) faults.emplace_back("uses fma()");
+    if (found(code, R"(#\s*extension\b)")) faults.emplace_back("uses #extension");
+    if (found(code, R"(#\s*version\b)")) faults.emplace_back("has #version, as the preamble does");
+    if (found(code, R"(#\s*include\b)"))
+        faults.emplace_back("has an #include that was not resolved");
     checkImages(code, faults);
     checkVariantsAreNamed(text, code, faults);
     return faults;

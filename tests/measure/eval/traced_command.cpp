@@ -50,8 +50,8 @@ CLI::App* addTracedCommand(CLI::App& app, TracedRequest& request) {
         ->check(CLI::Range(1, 100000))
         ->capture_default_str();
     sub->add_option("--every", request.every,
-                    "number of frames between comparisons; flicker is measured from a compared "
-                    "frame to the next one")
+                    "compare one of this many frames; flicker is measured from a compared frame "
+                    "to the next one")
         ->check(CLI::Range(1, 100000))
         ->capture_default_str();
     sub->add_flag("--hdrvdp", request.hdrVdp, "compute HDR-VDP-2 as well, which takes longer");
