@@ -41,15 +41,14 @@ enum class YuvMatrix : std::uint8_t { Bt601, Bt709 };
 /// Limited: Y is in 16..235, U and V in 16..240. Full, as in JPEG: all three are in 0..255.
 enum class YuvRange : std::uint8_t { Limited, Full };
 
-/// One plane of a picture.
 struct PlaneView {
     const std::uint8_t* data = nullptr;
     std::size_t stride = 0;  ///< bytes from one row to the next
 };
 
-/// Location of a picture's planes in memory that other devices can read, too (dma-buf).
+/// The dma-bufs that hold a picture's planes. Other devices, e.g. the GPU, can read them.
 struct SharedMemory {
-    std::uint64_t id = 0;
+    std::uint64_t id = 0;  ///< from newSharedMemoryId(); differs for each memory of this process
     struct Plane {
         int fd = -1;
         std::size_t offset = 0;

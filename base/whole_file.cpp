@@ -75,7 +75,7 @@ int writeInto(const std::filesystem::path& device, std::span<const std::uint8_t>
 }
 
 /// Returns the file that is replaced when `file` is written: the file itself or, if it is a
-/// symbolic link, the file to which it leads.
+/// symbolic link to an existing file, that file.
 std::filesystem::path replacedBy(const std::filesystem::path& file) {
     std::error_code error;
     std::filesystem::path target = std::filesystem::canonical(file, error);

@@ -26,9 +26,9 @@ struct NewFile {
     std::string_view text;
 };
 /// Writes several files with Durability::OnReturn. No file is replaced before the contents of all
-/// are on the disk. Symbolic links are treated as by writeWholeFile(), but a device or a link to a
-/// device is replaced itself. Throws like writeWholeFile(); then some of the files may already be
-/// replaced.
+/// are on the disk. Symbolic links are treated as by writeWholeFile(). Exception: if a name leads
+/// to a device or pipe, directly or through a link, the new file replaces the device or the link.
+/// Throws like writeWholeFile(); then some of the files may already be replaced.
 void writeWholeFiles(std::span<const NewFile> files);
 
 /// Makes all data on this folder's file system safe from a power cut. Throws like writeWholeFile().

@@ -7,8 +7,9 @@
 
 namespace mfar::gpu {
 
-/// Longest wait for the GPU. A GPU that does not finish in this time counts as hanging. This does
-/// not rely on the kernel, which resets a blocked GPU only after a time that depends on the driver.
+/// Longest wait for the GPU. A GPU that does not finish in this time counts as hanging. mfar needs
+/// a limit of its own, because the time after which the kernel resets a blocked GPU depends on the
+/// driver.
 inline constexpr std::chrono::milliseconds kLongestGpuWait{500};
 
 /// Marks a point in the stream of GL commands. Move-only.

@@ -16,9 +16,9 @@ class GlError : public std::runtime_error {
 
 inline constexpr GLenum kContextLost = 0x0507;
 
-/// Returns the first error that the context has recorded since the last call, or GL_NO_ERROR. If
-/// the context is lost, glGetError() may return kContextLost on every call, so kContextLost ends
-/// the loop, too.
+/// Returns the first error that the context has recorded since the last call, or GL_NO_ERROR. The
+/// loop also ends at kContextLost, because glGetError() may return it on every call after the
+/// context is lost.
 [[nodiscard]] inline GLenum takeError() {
     const GLenum first = glGetError();
     for (GLenum next = first; next != GL_NO_ERROR && next != kContextLost;)

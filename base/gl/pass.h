@@ -87,8 +87,8 @@ private:
 };
 
 /// A linked program with its uniform block `Params` (binding 0). ComputePass and DrawPass are typed
-/// wrappers of it. The constructors throw GlError with the shader's name and the compiler's
-/// message.
+/// wrappers of it. The constructors throw GlError, e.g. with the shader's name and the compiler's
+/// message, or if the block does not have `paramsBytes` bytes.
 class Program {
 public:
     /// `defines`: lines that are inserted after #version, e.g. "#define TWO_WAY 1\n".

@@ -28,7 +28,6 @@ private:
     GLint before_ = 0;
 };
 
-/// The bytes of a buffer, for reading.
 class MappedBuffer {
 public:
     explicit MappedBuffer(GLuint buffer) {

@@ -62,7 +62,7 @@ public:
 
     static constexpr std::size_t kGuardBytes = 256;
 
-    // Only Buffer and the passes call the following functions.
+    // Only Buffer, Texture and the passes call the following functions.
     static Validation* active();
     void guard(GLuint buffer, std::size_t bytes) { guarded_[buffer] = bytes; }
     /// Copies the storage buffers that the pass is about to write.
