@@ -32,8 +32,8 @@ public:
 };
 
 enum class GlDevice : std::uint8_t {
-    /// The GPU. The software renderer if there is no GPU or the environment has
-    /// MFAR_GL_DEVICE=software.
+    /// Use the GPU. If there is no GPU, or the environment has MFAR_GL_DEVICE=software, use the
+    /// software renderer.
     Preferred,
     Software
 };

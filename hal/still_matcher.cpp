@@ -116,10 +116,10 @@ void StillMatcher::learn(std::int64_t sinceEdge) {
     samples_.clear();
 }
 
-// Remembers a still that missed the window, as evidence that the camera's clock has stepped. If the
-// nearest pulse waits for its still and does not count as lost, a larger window applies: the
-// reported time may be wrong by more than the wide window, e.g. by an exposure time that the camera
-// chose itself.
+// Remembers a still that missed the window, as evidence that the camera's clock has stepped. The
+// still must be within wideWindow of the nearest pulse's expected time. But if that pulse still
+// waits for its still (and does not count as lost), it must be within kLongest: the reported time
+// may be wrong by more than wideWindow, e.g. by an exposure time that the camera chose itself.
 void StillMatcher::misfit(const Nearest& still) {
     const bool isWaiting = pulses_[still.index].state == State::Waiting;
     const nanoseconds window = isWaiting ? kLongest : options_.wideWindow;

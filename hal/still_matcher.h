@@ -19,8 +19,8 @@ struct StillMatcherOptions {
     std::chrono::nanoseconds guess{0};
     /// Window while the delay is being learned.
     std::chrono::nanoseconds wideWindow{std::chrono::milliseconds(100)};
-    /// Window after the delay was learned. 1 ms suits cameras whose times come from the sensor. USB
-    /// cameras report arrival times, which need a larger window.
+    /// Window once the delay is learned, see above. 1 ms suits cameras whose times come from the
+    /// sensor. USB cameras report arrival times, which need a larger window.
     std::chrono::nanoseconds window{std::chrono::milliseconds(1)};
     int learnFrom = 20;
     /// If a still does not arrive within this time after the expected start of its exposure, its

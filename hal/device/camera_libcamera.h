@@ -30,12 +30,10 @@ struct LibcameraOptions {
 struct LibcameraCounters {
     std::uint64_t frames = 0;
     std::uint64_t dropped = 0;
-    /// `broken`, `startup` and `badTimes` count frames that were not delivered; see CameraCounters.
+    /// The following five counters are explained in CameraCounters (`restarted` as `restarts`).
     std::uint64_t broken = 0;
     std::uint64_t startup = 0;
-    /// Frames whose timestamp is in the future, too old, or not later than the previous frame's.
     std::uint64_t badTimes = 0;
-    /// Delivered frames to which the driver gave no timestamp. They got their arrival time.
     std::uint64_t untimed = 0;
     std::uint64_t restarted = 0;
     SensorClock::Kind clock = SensorClock::Kind::Monotonic;

@@ -29,10 +29,13 @@ struct CameraWish {
 
 /// Returns the index of the camera that has wish.name. If that is empty, returns the camera with
 /// the smallest or largest pictures, see CameraWish::largest. The id decides among equal sizes.
-/// Throws std::runtime_error, whose message lists the cameras, in these cases: no camera or several
-/// cameras have the name; all cameras are named `except`; `name` and `except` are empty, `largest`
-/// and `sharesDriver` are set, and there is only one camera. Throws std::runtime_error, too, if
-/// `cameras` is empty.
+/// Throws std::runtime_error in these cases:
+///   - There is no camera.
+///   - No camera or several cameras have the name.
+///   - No name is given, and all cameras are excluded by CameraWish::except.
+///   - Neither a name nor `except` is given, there is only one camera, and `largest` and
+///     `sharesDriver` are set: this camera belongs to the video sensor.
+/// In all cases but the first, the message lists the cameras.
 [[nodiscard]] std::size_t chooseCamera(const std::vector<ListedCamera>& cameras,
                                        const CameraWish& wish);
 

@@ -37,10 +37,10 @@ struct CameraV4l2Options {
 ///     CameraV4l2 camera({.device = {"/dev/video0"}, .wish = {{640, 480}, 30}});
 ///     camera.start();
 ///     while (auto frame = camera.next(500ms)) ...
-/// Frames use the driver's buffers without a copy and may outlive the camera. Two exceptions: JPEG
-/// is decoded into separate buffers, and pictures are copied if the driver grants fewer buffers
-/// than requested and fewer than four. When the users of a frame have released it, the next call of
-/// next() gives its buffer back to the driver.
+/// Frames may outlive the camera. They use the driver's buffers without a copy, except in two
+/// cases: JPEG is decoded into separate buffers, and pictures are copied if the driver grants fewer
+/// buffers than requested and fewer than four. When the users of a frame have released it, the next
+/// call of next() gives its buffer back to the driver.
 ///
 /// Frame::time() is the driver's timestamp (start of the exposure or end of the frame) plus
 /// timeOffset, shifted by half the exposure towards its middle. The exposure is known only if it is

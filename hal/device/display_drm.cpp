@@ -63,7 +63,6 @@ std::uint32_t currentCrtc(int fd, const drmModeConnector& connector) {
     return encoder ? encoder->crtc_id : 0;
 }
 
-// Returns the CRTCs that drive other connectors than `connector`.
 std::vector<std::uint32_t> crtcsOfOthers(int fd, const drmModeRes& all, std::uint32_t connector) {
     std::vector<std::uint32_t> out;
     for (int i = 0; i < all.count_connectors; ++i) {

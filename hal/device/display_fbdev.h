@@ -13,8 +13,8 @@
 namespace mfar {
 
 /// The validated layout of a framebuffer device's memory. All rows of all pages lie inside it.
-/// `visible` is the offset [bytes] of the pixel that is at the top left of the screen. `page0` is
-/// the offset of the pixel that will be there after panning to the top.
+/// `visible` is the offset [bytes] of the pixel that the driver now shows at the top left of the
+/// screen. `page0` is the offset [bytes] of the pixel that it shows there after panning to row 0.
 struct FbGeometry {
     Size size;
     PixelLayout layout;
@@ -26,8 +26,8 @@ struct FbGeometry {
     bool operator==(const FbGeometry&) const = default;
 };
 
-/// Throws std::runtime_error if the format is not true colour with 16, 24 or 32 bits, or if the
-/// driver's numbers contradict each other.
+/// Throws std::runtime_error if the format is not true or direct colour with 16, 24 or 32 bits, if
+/// the screen is empty or too large, or if the driver's numbers contradict each other.
 [[nodiscard]] FbGeometry checkedGeometry(const fb_var_screeninfo& var,
                                          const fb_fix_screeninfo& fix);
 

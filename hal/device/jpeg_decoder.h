@@ -21,7 +21,8 @@ public:
 
     /// Returns the picture as Yuv420 (BT.601, full range, as JFIF defines) or Gray8. For chroma
     /// subsampled 4:2:2, the mean of two chroma rows is used. Returns nothing if the picture is
-    /// damaged or has another size or subsampling, or if all buffers are in use (isFull()).
+    /// damaged or has another size, if its chroma is subsampled otherwise than 4:2:0 or 4:2:2, or
+    /// if all buffers are in use (isFull()).
     [[nodiscard]] std::optional<Frame> decode(std::span<const std::uint8_t> jpeg, Timestamp time);
     /// Returns true if the last decode() returned nothing because all buffers were in use.
     [[nodiscard]] bool isFull() const { return isFull_; }

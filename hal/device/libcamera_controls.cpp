@@ -114,9 +114,9 @@ NamedValues withManualModes(const ControlInfoMap& camera, NamedValues wanted) {
         std::string_view value, mode, manual;
     };
     // Since libcamera 0.5, exposure and gain have a mode each. Before, AeEnable was the mode of
-    // both. On a Raspberry Pi, AeEnable may stay on while only the exposure or only the gain is
-    // fixed. Other boards ignore both values while AeEnable is on, so it is turned off if both are
-    // wanted.
+    // both. If both values are given, AeEnable is turned off, because all boards except Raspberry
+    // Pi ignore the values while it is on. If only one value is given, AeEnable stays on: a
+    // Raspberry Pi then fixes this value and controls the other.
     static constexpr std::array<Mode, 3> kModes{{{"ExposureTime", "ExposureTimeMode", "1"},
                                                  {"AnalogueGain", "AnalogueGainMode", "1"},
                                                  {"LensPosition", "AfMode", "0"}}};

@@ -28,8 +28,9 @@ struct RecorderOptions {
     /// If the files of all pictures together have become larger than this [bytes], the recording
     /// ends with an error. 0: no limit.
     std::uint64_t mostBytes = 0;
-    /// This time was added to the times of the stills [s]. It is written to cam1/sensor.yaml,
-    /// because a calibration from this recording must add it to its result.
+    /// The caller has already added this time to the times of the stills [s]. The recorder only
+    /// writes it to cam1/sensor.yaml, because a calibration from this recording must add it to the
+    /// clock offset that it finds.
     double stillTimeOffset = 0;
     WatchedThread writer{};
     /// Least interval between two synchronisations of the disk. What was recorded before a
@@ -38,7 +39,7 @@ struct RecorderOptions {
     std::chrono::milliseconds syncEvery{1000};
 };
 
-/// Throws std::runtime_error if `root` exists and is not an empty folder that can be read.
+/// Throws std::runtime_error unless `root` is missing or is an empty folder that can be read.
 void requireNoRecording(const std::filesystem::path& root);
 
 /// Writes a recording. video(), still() and pose() copy their argument. If all buffers are in use
@@ -50,10 +51,10 @@ void requireNoRecording(const std::filesystem::path& root);
 /// was recorded after the last synchronisation.
 ///
 /// video(), still() and pose() may be called from three different threads, but each of them from
-/// one thread only. They return false if all buffers are in use, the time is negative or not later
-/// than the previous one, the size differs from the rig's, a pose is not finite or its quaternion
-/// is not a unit quaternion, or a write has failed before. A picture of the rig's size whose view
-/// is invalid (requireSound()) throws std::invalid_argument.
+/// one thread only. They return false if a picture gets no buffer, too many poses wait, the time is
+/// negative or not later than the previous one, the size differs from the rig's, a pose is not
+/// finite or its quaternion is not a unit quaternion, or a write has failed before. A picture of
+/// the rig's size whose view is invalid (requireSound()) throws std::invalid_argument.
 class Recorder {
 public:
     struct Counts {

@@ -152,8 +152,8 @@ Recording load(const fs::path& root, std::size_t most) {
     out.root = root;
     out.videoRateHz = video.rateHz;
     out.stillTimeOffset = still.timeOffset - video.timeOffset;
-    if (const auto fault =
-            plausible::timeOffsetFault(out.stillTimeOffset, "the difference of both time_offset"))
+    if (const auto fault = plausible::timeOffsetFault(
+            out.stillTimeOffset, "a time_offset difference between the cameras"))
         recordingFault(stillFolder / "sensor.yaml", 0, *fault);
     out.rig = {video.camera, still.camera, still.T_body_sensor.inverse() * video.T_body_sensor};
     if (const auto fault = plausible::baselineFault(out.rig.T_still_video))

@@ -31,8 +31,8 @@ struct Recording {
     std::filesystem::path root;
     StereoRig rig;
     double videoRateHz = 0;
-    /// Time that was added to the times of the stills, minus the time that was added to the times
-    /// of the video [s].
+    /// Time that the recording program added to the times of the stills, minus the time that it
+    /// added to the times of the video [s]. Computed from time_offset in both sensor.yaml.
     double stillTimeOffset = 0;
     /// Video (never empty), stills and poses are sorted by time. No list contains a time twice.
     std::vector<RecordedImage> video;

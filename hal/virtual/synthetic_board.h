@@ -42,7 +42,7 @@ class SyntheticStudio;
 ///
 /// Pace::Realtime: the clock is Timestamp::now(), and frames come at rateHz. If the renderer or the
 /// consumer is too slow, frames are skipped. Stills are rendered in steps between video frames. The
-/// same options give the same pictures for the same times.
+/// same options give the same picture at the same time after epoch().
 ///
 /// Pace::Consumer: a frame is delivered as soon as it is requested; none is skipped. The same
 /// options and pulses give the same bytes. The current time is the time of the last frame that

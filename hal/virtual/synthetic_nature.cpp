@@ -55,7 +55,7 @@ cv::Mat4b bark(std::uint64_t seed) {
     return toBytes(colour, cv::Mat1f(colour.size(), 0.F));
 }
 
-/// Paints a leaf at (x, y) [texels]. A leaf that crosses the edge of the layer continues at the
+/// Paints a leaf at (x, y) [texels]. A leaf that crosses the edge of the texture continues at the
 /// opposite edge.
 void paintLeaf(cv::Mat3f& canvas, Random& random, double x, double y, float depth) {
     const double angle = random.range(0, 2 * std::numbers::pi);

@@ -34,9 +34,9 @@ gpu::Binding uniform(GLuint index, const gpu::Buffer& b) {
     return {gpu::Binding::Kind::Uniform, index, b.id()};
 }
 
-/// Returns the bounds of a solid's bounding box in the picture, in normalised ray coordinates. The
-/// part of the box behind the near plane is ignored. If the whole box is behind it, the bounds are
-/// empty (left > right).
+/// Returns the bounds of a solid's bounding box in the picture, in normalised ray coordinates
+/// (x/z, y/z). The part of the box with z < kNear in the camera's frame is ignored. If that is the
+/// whole box, the bounds are empty (left > right).
 template <class Rect>
 Rect boundsOf(const RigidTransform& T_camera_prim, const Eigen::Vector3d& half) {
     constexpr double kNear = 0.01;

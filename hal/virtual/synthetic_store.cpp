@@ -25,7 +25,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Hashes numbers one after the other.
 class Key {
 public:
     explicit Key(std::uint64_t kind) : hash_(mix(MFAR_SYNTHETIC_CODE ^ kind)) {

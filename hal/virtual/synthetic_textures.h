@@ -35,7 +35,8 @@ void eachPixel(cv::Mat_<T>& image, const Paint& paint) {
 [[nodiscard]] cv::Mat1f fractal(std::uint64_t seed, int cellsX, int cellsY, int octaves,
                                 float gain = 0.5F);
 /// Returns the brightness of a surface that is lit from the upper left. `height` is the height of
-/// the surface at each texel. The brightness of a level surface is 1.
+/// the surface at each texel. The brightness is 1 where the surface is level. `strength`: change of
+/// brightness per difference of height from the texels to the left and above.
 [[nodiscard]] cv::Mat1f relief(const cv::Mat1f& height, float strength);
 [[nodiscard]] cv::Mat4b toBytes(const cv::Mat3f& colour, const cv::Mat1f& gloss);
 
