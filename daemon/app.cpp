@@ -58,7 +58,7 @@ App::App(const Options& options, Log& log)
     : options_(options), log_(log), config_(effectiveConfig(options)),
       summary_(openSummary(options, config_)) {
     logNotes();
-    // SIGPIPE is ignored: writing to a closed pipe then returns an error and does not end the
+    // SIGPIPE is ignored, so that writing to a closed pipe returns an error instead of ending the
     // process.
     signal(SIGPIPE, SIG_IGN);
     if (options_.report) {
@@ -214,7 +214,7 @@ void App::onRead() {
 }
 
 // Applies the settings that can change while mfard runs. Returns a message that names the changed
-// settings that take effect only after a restart.
+// settings that need a restart.
 std::string App::take(const Config& wanted) {
     const std::string restart = needRestart(config_, wanted);
     config_.superres = wanted.superres;

@@ -50,10 +50,12 @@ constexpr milliseconds kLearning{60'000};
 
 constexpr std::string_view kPictureThread = "picture";
 
+/// A picture that was shown longer ago than this does not count as recent. For slow cameras, the
+/// limit is longer, see health.cpp.
 constexpr std::chrono::milliseconds kStalePicture{3000};
-/// While the first pictures are made, the following time limits are longer by this factor, because
-/// compiling shaders is slow on a small board: the budgets of all threads, kStalePicture and
-/// the timeout of systemd's watchdog.
+/// While the first pictures are made, time limits are multiplied by this factor, because compiling
+/// shaders is slow on a small board. These limits are: the budgets of all threads, kStalePicture
+/// and the timeout of systemd's watchdog.
 constexpr int kFirstPatience = 6;
 
 }  // namespace mfar

@@ -21,8 +21,8 @@ struct ControlActions {
     /// Returns the last finished picture. If `screen` is true, returns it in the form in which the
     /// screen shows it.
     std::function<ScreenPicture(bool screen)> snapshot;
-    /// Reads the configuration again. Returns a message that names the settings that need a
-    /// restart.
+    /// Reads the configuration again. Returns a message that names the changed settings that need
+    /// a restart.
     std::function<std::string()> reload;
     /// Starts a recording with this name. Returns its folder.
     std::function<std::filesystem::path(const std::string& name)> record;

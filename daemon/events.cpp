@@ -19,7 +19,8 @@
 namespace mfar {
 namespace {
 
-/// Blocks or unblocks signals in this thread (`how`: SIG_BLOCK or SIG_UNBLOCK). Returns them.
+/// Blocks or unblocks the signals in this thread (`how`: SIG_BLOCK or SIG_UNBLOCK). Returns the set
+/// of these signals.
 sigset_t mask(int how, std::initializer_list<int> signals) {
     sigset_t set;
     sigemptyset(&set);

@@ -90,8 +90,8 @@ private:
     bool hasOlder_ = false;  // true: `older_` is the still before the one in `pictures_`
     // True: replaced() has set `older_` since the last matched(). Only the picture thread uses it.
     bool olderTaken_ = false;
-    // The frame in `older_`, matched with the new still instead of the older one. Only thread_ uses
-    // truth_ and matcher_.
+    // The frame in `older_`, matched with the new still instead of the still in `older_`. Only
+    // thread_ uses truth_ and matcher_.
     MatchedPictures truth_;
     std::unique_ptr<FrameMatcher> matcher_;
 

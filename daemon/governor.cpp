@@ -14,21 +14,22 @@ namespace {
 constexpr double kRoom = 0.85;
 constexpr double kDownRoom = 0.95;
 // A faster level is chosen when more than kMostLate of the last kLateWindow counted frames are
-// late. A frame with a new still is not counted, unless the frame before it had one. If the last
-// frame with a new still was late, only one in kStillEvery frames gets a new still. So at most one
-// frame in twenty is late: one in 40 with a new still, and one in 40 of the others.
+// late. A frame with a new still is counted only if the frame before it had a new still, too. If
+// the last frame with a new still was late, only one in kStillEvery frames gets a new still. So of
+// 40 frames, at most two are late: one with a new still and one without.
 constexpr std::size_t kMostLate = 1;
 constexpr std::uint64_t kLateWindow = 40;
 // Smallest number of counted frames between a change of level and a change to a better level.
 constexpr std::uint64_t kSettle = 8;
-// A level that missed the deadline is not used for the next kFirstWait counted frames. This number
-// doubles with each further failure of the level, up to kLongestWait.
+// A level that missed the deadline is not used for the next kFirstWait counted frames (see
+// kMostLate). This number doubles with each further failure of the level, up to kLongestWait.
 constexpr std::uint64_t kFirstWait = 20, kLongestWait = 960;
-// If a level misses the deadline only after at least kHeld counted frames, the scene has changed.
-// The level is then not used for the next kFirstWait frames, as after its first failure. After
-// kHeld counted frames at a level, the next better level may be tried, if none of the last
-// kLateWindow frames was late.
+// If a level misses the deadline only after at least kHeld counted frames, the scene has probably
+// changed. So this counts as the level's first failure: the level is not used for the next
+// kFirstWait counted frames. Also, after kHeld counted frames at a level of which none of the last
+// kLateWindow was late, the next better level may be tried.
 constexpr std::uint64_t kHeld = 100;
+// The picture counts as at rest after this number of frames in which nothing was redrawn.
 constexpr int kAtRest = 3;
 constexpr std::uint64_t kStillEvery = 40;
 

@@ -38,8 +38,8 @@ namespace mfar {
 ///     be late, because nothing moves in it.
 class Governor {
 public:
-    /// `levels` must not be empty and must be sorted by time. `deadlineMs` must be greater than
-    /// zero.
+    /// `levels` must not be empty and must be sorted by time, the fastest first. `deadlineMs` must
+    /// be greater than zero.
     Governor(std::vector<QualityLevel> levels, double deadlineMs);
 
     struct Choice {
@@ -61,8 +61,8 @@ public:
     void add(const Frame& frame);
 
     /// Returns true if the next frame may get a new still. Returns false if the level uses no
-    /// still. If the last frame with a new still was late, returns false for some frames, so that
-    /// not too many frames are late.
+    /// still. If the last frame with a new still was late, returns false for the next 40 frames, so
+    /// that not too many frames are late.
     [[nodiscard]] bool mayTakeStill() const;
 
     [[nodiscard]] double deadlineMs() const { return deadline_; }

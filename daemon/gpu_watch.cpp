@@ -5,7 +5,8 @@
 namespace mfar {
 namespace {
 
-// Largest number of unfinished pictures on the GPU. A display has the same number of buffers.
+// Largest number of unfinished pictures on the GPU. A screen into whose memory the GPU draws has
+// the same number of buffers.
 constexpr std::size_t kMostInWork = 3;
 constexpr const char* kLate = "the GPU does not finish a picture";
 

@@ -47,8 +47,8 @@ bool isFresh(std::optional<Timestamp> shown, const Observed& seen) {
 // recently, although mfard became ready long enough ago. Otherwise returns nothing. Must be called
 // only if no vital thread hangs.
 std::optional<Judged> standingStill(const Observed& seen) {
-    // The last banner counts even if the device has just returned, because its first picture is not
-    // shown at once.
+    // A recent banner is enough even if no device is faulty any more: after a device has returned,
+    // its first picture is not shown at once.
     if (isFresh(seen.lastPicture, seen) || isFresh(seen.lastBanner, seen)) return std::nullopt;
     const std::optional<Timestamp> begin = std::max(seen.lastPicture, seen.started);
     if (!begin || isFresh(begin, seen)) return std::nullopt;

@@ -158,8 +158,8 @@ void noteUnused(const TomlReader& file, const std::string& prefix, const PlacedO
 void readObjects(TomlReader& file, const std::filesystem::path& folder, FileMemory& memory,
                  std::vector<PlacedObject>& objects, std::vector<std::string>& notes) {
     const std::vector<std::string> prefixes = file.sections("objects", kMostObjects);
-    // Shapes are counted before the models are read. If there are too many parts, a model's fault
-    // reports this, with the line of the model.
+    // The shapes are counted first. So if there are too many objects and moving nodes, the fault
+    // names the line of the model with which the limit is exceeded.
     const auto shapes = std::ranges::count_if(
         prefixes, [&](const std::string& prefix) { return !file.placeOf(prefix + "model"); });
     ModelReader models(folder, memory, static_cast<std::size_t>(shapes));

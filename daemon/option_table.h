@@ -49,7 +49,7 @@ struct OptionSection {
 };
 
 /// Returns all keys of mfard's configuration. The parser takes types and ranges from this table.
-/// The build prints mfard.toml, the manual pages and docs/configuration.md from it.
+/// mfar-texts prints mfard.toml, the manual pages and docs/configuration.md from it.
 [[nodiscard]] std::span<const OptionSection> configOptions();
 
 /// Returns the keys of the governor's table of levels (`table` in section [governor]).

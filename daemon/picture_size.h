@@ -10,7 +10,7 @@ namespace mfar {
 
 struct PictureSize {
     enum class Fits {
-        Screen,  ///< as large as the screen that is connected at the start; without a screen: Still
+        Screen,  ///< fits the screen that is connected at the start; without a screen: Still
         Still,
         Given,
     };

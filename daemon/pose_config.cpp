@@ -67,7 +67,7 @@ TagMap readTagMap(const std::filesystem::path& file, TagFamily ofRosMap) {
 }
 
 TagMap configuredTags(const PoseConfig& pose) {
-    // With recorded poses, objects on tags need the map, too.
+    // The map is read even with recorded poses, because objects on tags need it.
     if (pose.source == PoseOrigin::None || pose.tags.empty()) return {};
     if (isRosTagMap(pose.tags) && pose.families.size() != 1)
         throw Failure(ExitCode::BadData,

@@ -26,8 +26,9 @@ struct PoseConfig {
     /// a usable pose defines the world frame.
     std::filesystem::path tags;
     std::vector<TagFamily> families{TagFamily::Tag36h11};
-    double tagSize = 0.1;   ///< edge of the tag that defines the world without a map [m]
-    double decimation = 2;  ///< tags are searched in video reduced by this factor: 1, 1.5, 2 to 8
+    double tagSize = 0.1;  ///< edge of the tag that defines the world without a map [m]
+    /// Tags are searched in video that is reduced by this factor: 1.5 or a whole number, 1 to 8.
+    double decimation = 2;
     int threads = 1;
     int fullSearchInterval = 15;  ///< longest time between searches of the whole picture [frames]
     int bridgeFrames = 12;        ///< longest prediction of poses without tags [frames]
@@ -40,8 +41,9 @@ void readPose(TomlReader& file, PoseConfig& pose);
 [[nodiscard]] std::optional<PoseOrigin> poseOrigin(std::string_view word);
 
 /// Returns the configured tag map. It is empty if no map is configured or pose.source is "none".
-/// With recorded poses, the map is read, too. Throws like readTagMap(), and Failure(BadData) for
-/// the map of apriltag_ros if `families` does not have exactly one family.
+/// The map is read even with recorded poses, because objects on tags need it. Throws like
+/// readTagMap(), and Failure(BadData) for the map of apriltag_ros if `families` does not have
+/// exactly one family.
 [[nodiscard]] TagMap configuredTags(const PoseConfig& pose);
 
 /// Throws Failure(NoInput) if the file does not exist, Failure(BadData) if it is invalid.

@@ -16,7 +16,6 @@ struct QualityCounts {
     double deadlineMs = 0;  ///< 0: no deadline, because the level is pinned
     Histogram frameMs;
     std::uint64_t frames = 0, late = 0;
-    /// Number of frames of each level.
     std::vector<std::pair<std::string, std::uint64_t>> framesOf;
 
     [[nodiscard]] bool isLate(double ms) const { return deadlineMs > 0 && ms > deadlineMs; }

@@ -115,7 +115,7 @@ Rig::Rig(const Config& config, Heartbeats& hearts)
     recording_.leastFreeBytes = bytes(config.record.leastFreeMb);
     recording_.mostBytes = bytes(config.record.mostMb);
     recording_.writer = {&hearts, "recorder", budget::kWriter, ThreadRole::Helper};
-    // A source that waits for mfard must lose no picture because a disk is slow.
+    // A source that waits for mfard can also wait for a slow disk, so that no picture is lost.
     if (handOver() == HandOver::Lossless) recording_.patience = budget::kWriter;
 }
 
@@ -300,7 +300,8 @@ std::filesystem::path newRecordingIn(const std::filesystem::path& directory) {
 std::unique_ptr<Display> openDisplay(const Config& config, double rateHz, std::stop_token cancel,
                                      const FileDisplayPolicy& policy) {
     return orFail(ExitCode::OutputFailed, [&]() -> std::unique_ptr<Display> {
-        // A display can replace a file. So the recording's folder is checked first.
+        // Opening a display may replace a file. If --record names a folder that is not empty, mfard
+        // must fail before that.
         if (!config.recordTo.empty()) requireNoRecording(config.recordTo);
         if (isScreen(config.display)) return openScreen(config.display);
         return openFileDisplay(config.display, rateHz, std::move(cancel), policy);

@@ -22,8 +22,8 @@
 namespace mfar {
 namespace {
 
-constexpr double kNominalView = std::numbers::pi / 3;
-constexpr double kNominalBaseline = 0.014;
+constexpr double kNominalView = std::numbers::pi / 3;  // [rad]
+constexpr double kNominalBaseline = 0.014;             // [m]
 // After kSilentPeriods frame periods without a frame, but not earlier than
 // ReopeningOptions::silent, a camera is reported as silent. After kStalledPeriods, but not earlier
 // than ReopeningOptions::stalled, it is reopened.

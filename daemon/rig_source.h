@@ -29,7 +29,7 @@ public:
     bool hasSensors = false;  ///< true: the cameras are real sensors, see CameraKind::Sensor
     ExitCode failure = ExitCode::Unavailable;
     std::optional<std::uint64_t> videoFrames{};
-    /// Offset that must be added to the times of the stills.
+    /// Offset that must be added to a still's time to get a time on the video camera's clock.
     std::chrono::nanoseconds stillTimeOffset{0};
     /// Offset that was already added to the times of the stills when they were recorded.
     std::chrono::nanoseconds recordedTimeOffset{0};

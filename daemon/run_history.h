@@ -29,7 +29,7 @@ private:
 };
 
 struct RunTotals {
-    std::uint64_t notTaken = 0;
+    std::uint64_t notTaken = 0;  ///< frames dropped before processing
     std::uint64_t notRecorded = 0;
     std::uint64_t notWritten = 0;
     std::uint64_t stillsReceived = 0, stillsUsed = 0, stillsLost = 0;

@@ -179,8 +179,8 @@ private:
     std::optional<Governor> governor_;
     Governor::Choice choice_{};
     std::vector<StageTime> stages_;
-    /// Time of the last processed frame. The next frame's FrameStats::explained may belong to this
-    /// frame.
+    /// Time of the last processed frame. With the GLES engine, FrameStats::explained of the next
+    /// frame belongs to this frame.
     std::optional<Timestamp> previous_;
     std::optional<Timestamp> stillTime_;
     std::optional<Timestamp> shownAt_;  ///< time at which the display got its last picture

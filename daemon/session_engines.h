@@ -14,10 +14,10 @@ struct OpenedGl {
     std::string without;  ///< reason why GL could not be opened; empty: it is open or not needed
 };
 
-/// Opens GL, unless all steps run on SIMD and nothing else needs GL. If GL turns out to be a mere
-/// software renderer, closes it again, unless a step is configured to run on GLES or something else
-/// needs GL. Throws Failure if GL cannot be opened, but the configuration needs GLES or validates
-/// shader outputs.
+/// Opens GL if a step may run on GLES, or if previews of objects or validation need GL. Closes GL
+/// again if it is a software renderer that is not needed: no step is configured to run on GLES, and
+/// neither previews nor validation need GL. Throws Failure if GL cannot be opened, but a step is
+/// configured to run on GLES or shader outputs are validated.
 [[nodiscard]] OpenedGl openGl(const Config& config, GlDevice device);
 
 /// Chooses the engine of each step. If an engine is configured for a step, it is used. For the

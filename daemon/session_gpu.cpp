@@ -1,4 +1,3 @@
-
 #include "base/image_layout.h"
 #include "daemon/exit_code.h"
 #include "daemon/filter_learning.h"

@@ -18,7 +18,7 @@ double rate(std::uint64_t intervals, Timestamp from, Timestamp to) {
     return s > 0 ? static_cast<double>(intervals) / s : 0;
 }
 
-/// Returns `now` with all that was counted `before` by other path tracers.
+/// Adds the counters of the earlier path tracers to those of the present one.
 TracedLayerCounters sumOf(const TracedLayerCounters& before, TracedLayerCounters now) {
     now.render.samples += before.render.samples;
     now.render.cpuMs += before.render.cpuMs;
@@ -128,7 +128,8 @@ void Stats::fault(const std::optional<std::string>& fault) {
     const Timestamp now = Timestamp::now();
     if (!fault) fault_ = {};
     if (fault && !fault_.since) fault_.since = now;
-    // Before the first picture, a camera that is being opened is a fault only if that takes long.
+    // Before the first picture, a camera that is being opened is a fault only if opening it takes
+    // long.
     if (fault && !fault_.isCounted &&
         (counted_.frames > 0 || (now - *fault_.since).count() * 1e-9 >= kOpeningS)) {
         ++counted_.faults;

@@ -83,6 +83,7 @@ struct Counted {
     /// Tiles that show a virtual object, and whose depth was not measured, because the real surface
     /// is known to lie behind the object.
     std::uint64_t depthTilesSkipped = 0;
+    /// Frames whose depth was measured with a keyframe, alone or together with the still.
     std::uint64_t keyframeSearches = 0;
     /// Tiles that were searched in both dimensions, because they had no reliable match on epipolar
     /// lines.
@@ -92,6 +93,7 @@ struct Counted {
     std::uint64_t objectFrames = 0;
     std::uint64_t hiddenFrames = 0;
     std::optional<TracedLayerCounters> traced;
+    /// Age of the shown traced picture, counted from the time at which its view was chosen.
     std::optional<double> referenceAgeS;
     FrameStats last;
     std::vector<StageTime> lastStages;
@@ -137,7 +139,8 @@ public:
     [[nodiscard]] double at(Timestamp now) const;
 
 private:
-    // Size of the ring buffer. A screen shows fewer pictures than this in a second.
+    // Size of the ring buffer. If more pictures are shown in a second, the mean covers less than a
+    // second.
     static constexpr std::size_t kMost = 128;
     std::array<Timestamp, kMost> times_{};
     std::size_t count_ = 0;

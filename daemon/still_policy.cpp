@@ -9,8 +9,8 @@ namespace {
 /// a smaller share.
 constexpr double kMovedShare = 0.05;
 
-/// Longest pause after two lost stills. The cause may be an unplugged camera; when it is plugged in
-/// again, the next still must not come much later.
+/// Longest pause after a still and its repetition were lost. The camera may be unplugged, and the
+/// next still must come soon after the camera is plugged in again.
 constexpr double kLongestPauseS = 10;
 
 /// Pause after a trigger that could not fire.

@@ -7,7 +7,7 @@
 
 namespace mfar {
 
-/// Returns the path of the file in which the service notes the GPIO line that it has requested.
+/// Returns the path of the file in which the service notes the GPIO line before it requests it.
 /// After a crash, the service's stop hook reads the file to release the line. The file is in
 /// $RUNTIME_DIRECTORY, which systemd deletes when the service has ended. Returns an empty path if
 /// this variable is not an absolute path.

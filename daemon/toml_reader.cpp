@@ -295,8 +295,8 @@ void TomlReader::fault(const toml::source_region& at, std::string message) {
 void TomlReader::refuseUnknown(const toml::table& table, const std::string& prefix) {
     for (const auto& [key, value] : table) {
         const std::string_view name = key.str();
-        // A name with a dot or bracket was in quotes, so it is a single key and does not set what
-        // the same name without quotes sets.
+        // A name that contains a dot or bracket was written in quotes. Then it is a single key:
+        // "a.b" is not the key b of section a.
         if (name.find_first_of(".[]") != name.npos && name.size() <= kLongestKey)
             fault(key.source(),
                   fmt::format("unknown key \"{}\"; write names without quotes", name));

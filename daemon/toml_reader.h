@@ -23,8 +23,8 @@ public:
     /// Returns the fault of a text, or nothing if the text is valid.
     using Check = std::function<std::optional<std::string>(std::string_view)>;
 
-    /// Checks a number that is within its range. Returns its fault, or nothing if the number is
-    /// valid.
+    /// An additional check of a number that is within its range. Returns the fault, or nothing if
+    /// the number is valid.
     using NumberCheck = std::function<std::optional<std::string>(double)>;
 
     using NumbersCheck = std::function<std::optional<std::string>(std::span<const double>)>;

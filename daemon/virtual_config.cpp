@@ -45,8 +45,6 @@ void readSun(TomlReader& file, std::optional<Sun>& sun) {
     if (radiusDeg > 0) sun->angularRadius = static_cast<float>(radiusDeg * std::numbers::pi / 180);
 }
 
-/// Sets the light's source. `name` is "studio", "sky", "camera" or the name of a picture file.
-/// Returns a message if `name` is invalid, otherwise nothing.
 std::optional<std::string> takeEnvironment(std::string_view name,
                                            const std::filesystem::path& folder, FileMemory& memory,
                                            LightOptions& light) {

@@ -31,13 +31,11 @@ std::string valueText(const ordered_json& value) {
     return value.dump();
 }
 
-// Returns the number with this key, or 0.
 double number(const ordered_json& object, std::string_view key) {
     const auto found = object.find(key);
     return found != object.end() && found->is_number() ? found->get<double>() : 0;
 }
 
-// Returns the text with this key, or an empty one.
 std::string text(const ordered_json& object, std::string_view key) {
     const auto found = object.find(key);
     return found != object.end() && found->is_string() ? found->get<std::string>() : "";

@@ -33,8 +33,9 @@ public:
     /// the lower quartile of the gaps between poses, because many frames may be missing.
     [[nodiscard]] double interval() const;
 
-    /// Lets around() and at() accept single missing frames. The error of between() grows there, but
-    /// without this, a recording that has lost many frames has too few usable stills.
+    /// Lets around() and at() accept single missing frames. Poses interpolated across such a gap
+    /// are less accurate. But otherwise, a recording that has lost many frames would have too few
+    /// usable stills.
     void allowMissingFrames();
 
 private:

@@ -16,17 +16,17 @@ namespace mfar::calibration {
 namespace {
 
 constexpr int kLeastVideoViews = 12, kLeastStillViews = 6, kLeastPairs = 5;
-// If fewer stills than this lie between video frames without gaps, gaps of one missing frame are
-// accepted.
+// A still is usable if no video frame is missing between the four frames around it. If fewer stills
+// than this are usable, single missing frames are accepted.
 constexpr int kFewPairs = 12;
 // A clock offset counts as known if its standard deviation is at most this [s].
 constexpr double kMaxOffsetDeviation = 0.002;
 // The target counts as moving during a still if its image in the video moves by at least this
 // distance [px] over the three frame intervals around the still.
 constexpr double kLeastMotion = 1;
-constexpr int kLeastMoving = 3;
-constexpr double kMaxFocalDeviation = 0.005;
-constexpr double kMaxBaselineDeviation = 0.002;
+constexpr int kLeastMoving = 3;  // stills; if the target moves in fewer, the offset stays 0
+constexpr double kMaxFocalDeviation = 0.005;     // as a share of the focal length
+constexpr double kMaxBaselineDeviation = 0.002;  // [m]
 // The cameras disagree if the RMS residual of one of them, fitted together with the other, exceeds
 // both kMostResidual [px] and kMostGrowth times its residual when it is fitted alone.
 constexpr double kMostResidual = 1, kMostGrowth = 4;
@@ -188,9 +188,9 @@ private:
     }
 
     bool leaveOut(const RigBundle& bundle) {
-        // The poses of track_ are used, because they come from the video alone. The bundle has
-        // adjusted its video poses to the stills, which are more precise. With those poses, a still
-        // with an error would seem to fit.
+        // The poses of track_ are used, because they come from the video alone. The bundle's video
+        // poses are adjusted to the stills, because stills are more precise than video. So with the
+        // bundle's poses, a still with an error would seem to fit.
         const auto shift = static_cast<std::int64_t>(std::llround(bundle.offset() * 1e9));
         // Stills that are not tied to video poses have much smaller residuals than the others, so
         // both kinds are judged apart.
