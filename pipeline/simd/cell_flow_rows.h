@@ -50,10 +50,10 @@ void cellLandings(const CellVector* flow, int j, Size cells, std::int32_t* landi
 
 /// Parameters of cellsHidden(), which tests if a nearer surface hides a cell in the other picture.
 /// `landing`: cell of the other picture that shows the cell's point; -1: no cell shows it.
-/// `nearest[k]`: largest s of all cells with landing k. The first entry of `out` is the cell's
-/// distance behind the nearest surface [px of parallax]: (nearest[landing] - s) * pixelsPerUnit -
-/// slope, limited to [0, nowhere]. It is `nowhere` if `landing` is -1. `slope`: largest parallax
-/// [px] between two cells of one slanted surface.
+/// `nearest[k]`: largest s of all cells with landing k. In the cell's entry of `out`, the first
+/// number is the cell's distance behind the nearest surface [px of parallax]: (nearest[landing] -
+/// s) * pixelsPerUnit - slope, limited to [0, nowhere]. It is `nowhere` if `landing` is -1; the
+/// other numbers are 0. `slope`: largest parallax [px] between two cells of one slanted surface.
 struct HiddenRule {
     float pixelsPerUnit, slope, nowhere;
 };

@@ -63,7 +63,8 @@ struct MeasureRule {
 /// Computes the inverse depth perUnit * s / (1 - s t.z) [1/m] of each pixel, but at least 0, and
 /// the variance of the inverse depth [1/m^2]. An invalid pixel gets inverse depth 0 and infinite
 /// variance. A pixel is valid if the other picture shows its point, 1 - s t.z exceeds `leastDepth`,
-/// and a change of s moves the point in that picture.
+/// and a change of s moves the point in that picture. For perUnit, t and leastDepth, see
+/// MeasureRule.
 void measureRow(const SearchedRow& row, const MeasureRule& rule, std::size_t count,
                 float* inverseDepth, float* variance);
 

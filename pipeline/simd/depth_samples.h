@@ -19,10 +19,11 @@ struct SampleSource {
     const std::uint8_t *red, *green, *blue;
 };
 
-/// A row of SampleSource, with all values as floats. A virtual pixel is certainly in front of
-/// the sample if its inverse depth exceeds `nearest`. It is certainly behind the sample if its
-/// inverse depth is less than `farthest`. In an unknown sample, `nearest` and `farthest` are 0, and
-/// `inverse` is negative, so that the sample hides nothing.
+/// A row of SampleSource, with all values as floats. A virtual pixel with inverse depth i is
+/// certainly in front of the sample if i >= `nearest`. It is certainly behind the sample if
+/// i * (1 + SampleBounds::hidden * CompositeOptions::virtualSigma) <= `farthest`. In an unknown
+/// sample, `nearest` and `farthest` are 0, and `inverse` is negative, so that the sample hides
+/// nothing.
 struct SampleRow {
     float *inverse, *variance, *red, *green, *blue;
     float *nearest, *farthest;

@@ -16,7 +16,7 @@ namespace mfar::simd {
 /// Positions at which the output pixels of a row read the still. They are interpolated between two
 /// rows of LookUpCells, which are already enlarged to the output's width. All numbers are finite.
 struct LookUpRows {
-    std::array<const float*, 2> x, y;   ///< LookUpCell::x and y, offset of a position [still px]
+    std::array<const float*, 2> x, y;   ///< LookUpCell::x and y, the offset [still px]
     std::array<const float*, 2> share;  ///< LookUpCell::weight; mode Blend: LookUpCell::confidence
     float t;                            ///< interpolation weight of the second row, [0, 1]
     /// Position of output pixel i before the offset is added: (stepX * i + startX, startY) [still
@@ -36,8 +36,9 @@ struct StillPairs {
 void warpRow(const StillPairs& still, const LookUpRows& lookUp, int begin, int end,
              std::int16_t* to);
 
-/// Input of guideRow(): kRows rows with one value per video pixel. The corrected row is the middle
-/// one. Each row has kGuideReach more values on both sides.
+/// Input of guideRow(), which corrects one row of the still at the video's resolution: this row,
+/// and kGuideReach rows above and below it. A row has one value per video pixel, and kGuideReach
+/// more values on both sides.
 struct GuideRows {
     static constexpr int kRows = 2 * params::kGuideReach + 1;
     /// Guidance::still * (still's luma) - Guidance::video * (video's luma); 0 if `trusted` is 0.
@@ -47,12 +48,14 @@ struct GuideRows {
 };
 
 /// Corrects `from`, a row of the still at the video's resolution: to = from - trusted * (difference
-/// - mean). `mean` is the mean of the trusted differences at most kGuideReach pixels away along
-/// each axis. All values have the same unit.
+/// - mean). `trusted` and `difference` are the pixel's values in GuideRows. `mean` is the mean of
+/// the differences of all trusted pixels that are at most kGuideReach pixels away along each axis.
+/// `from`, `to` and the differences have the same unit.
 void guideRow(const GuideRows& rows, int begin, int end, const float* from, float* to);
 
-/// A row of the warped still, and what is left of it at the video's resolution: the sum of the rows
-/// `low`, multiplied by `weights`. The still's detail is the difference of the two.
+/// A row of the warped still, and the same row after reduction to the video's resolution and
+/// enlargement: the sum of the rows `low`, each multiplied by its entry of `weights`. The still's
+/// detail is the first minus the second.
 struct WarpedRow {
     const std::int16_t* luma;  ///< luma of the warped still [1/32 grey level]
     /// Four rows of the still at the video's resolution, enlarged to the output's width [1/64 grey

@@ -74,8 +74,8 @@ DetailStep::Show DetailStep::showOf(const Frame& frame, int column, int row) con
     const PixelRect& in = work.detailTiles;
     if (!(column >= in.x0 && column < in.x1 && row >= in.y0 && row < in.y1)) return Show::Video;
     // The class Enlarged does not imply that the still has no weight in the tile: unmatched tiles
-    // have this class too. Near a matched neighbour, their weights are interpolated between the
-    // cells of both tiles.
+    // have this class too. At the border between a matched and an unmatched tile, weights are
+    // interpolated between the cells of both tiles, so they are above 0 in the unmatched tile, too.
     const bool weightless =
         enlarged && tile.matched != 0 && frame.options.mode == SuperResMode::Detail;
     return weightless ? Show::Video : Show::Detail;

@@ -14,8 +14,8 @@ namespace mfar::simd::HWY_NAMESPACE {
 
 namespace hw = hwy::HWY_NAMESPACE;
 
-/// Returns the linear value of a display level. Converted back to display levels, the error is
-/// below 0.06.
+/// Returns the linear value of a display level. Its error, converted to display levels, is below
+/// 0.06.
 template <class D>
 HWY_INLINE hw::Vec<D> LinearOf(D d, hw::Vec<D> byte) {
     const auto x = hw::Mul(byte, hw::Set(d, 1.0F / 255));

@@ -14,9 +14,8 @@ std::uint8_t channel(std::uint32_t colour, unsigned c) {
 }
 
 /// The class Contrasts computes a contrast level in [0, kLevels) for each pixel of a row. The level
-/// is proportional to the largest difference of a colour channel within 3x3 pixels. Pixels outside
-/// of virtual objects count as black. So the level at an object's outline depends only on the
-/// object's brightness, not on the real background.
+/// is proportional to the largest difference of a colour channel within 3x3 pixels. Empty pixels of
+/// the layer are black. So the level at an object's outline does not depend on the real background.
 class Contrasts {
 public:
     explicit Contrasts(const PixelRect& where)

@@ -119,7 +119,7 @@ HWY_INLINE hn::Vec<F> GradientClass(hn::Vec<F> xx, hn::Vec<F> xy, hn::Vec<F> yy)
     const F d;
     // Factor that converts a squared strength [(grey levels / px)^2] to the unit of `twiceLargest`,
     // which is twice the largest eigenvalue. An eigenvalue is a sum of 25 squared differences [1/8
-    // grey level]. The values of a difference are two pixels apart.
+    // grey level] between pixels at a distance of 2 px.
     constexpr float kScale = 2.0F * 25 * (2 * kLumaScale) * (2 * kLumaScale);
     const auto sum = hn::Add(xx, yy), cosine = hn::Sub(xx, yy), sine = hn::Add(xy, xy);
     const auto spread = hn::Sqrt(hn::MulAdd(cosine, cosine, hn::Mul(sine, sine)));

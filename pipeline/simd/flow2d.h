@@ -19,10 +19,10 @@ namespace mfar::simd {
 /// engine's Flow2d, with the same pyramids.
 ///
 /// Work whose result is not read is skipped. At the two finest pyramid levels, unmatched tiles are
-/// searched only where neighbouring tiles read their vectors. The same applies to unchanged tiles
-/// if only changed tiles are drawn; for run(), `usePrior` must also be true. At the finest level of
-/// the backward flow, cells of the still are searched only around the ends of flow vectors from the
-/// video.
+/// searched only where neighbouring tiles read their vectors. If only changed tiles are drawn,
+/// unchanged tiles are searched only there, too; run() does this only if `usePrior` is true. At the
+/// finest level of the backward flow, cells of the still are searched only around the ends of flow
+/// vectors from the video.
 class Flow2d {
 public:
     /// Throws std::invalid_argument if an option is out of range.

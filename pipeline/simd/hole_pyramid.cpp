@@ -94,9 +94,9 @@ void HolePyramid::markBlocks(const PixelRect& where, std::span<const Hole> holes
     }
 }
 
-/// Merges four texels into one texel of the next coarser pyramid level. The new texel stores the
-/// object that covers most of it. This object gets full weight (255) if it covers at least half of
-/// the texel. The same applies to the shadow catcher.
+/// Merges four texels into one texel of the next coarser pyramid level. The new texel stores two
+/// surfaces: the object that covers most of it, and the shadow catcher. A surface that covers at
+/// least half of the texel gets full weight (255).
 HolePyramid::Area HolePyramid::merged(const std::array<Area, 4>& parts) {
     Area out;
     Mixture best, catcher;

@@ -49,7 +49,7 @@ HWY_INLINE V vertices(D d, const Valleys<D>& valleys) {
 }
 
 /// Finds the still's pixels that are nearest to the labels' points on the epipolar line. In this
-/// class, labels are counted from the best label, which is 0.
+/// class, a label is given by its difference from the cheapest label (Valley::label).
 template <class D>
 struct NearestPixels {
     using V = hn::Vec<D>;
@@ -72,10 +72,10 @@ struct NearestPixels {
         const V along = hn::Mul(hn::Sub(x, best.x), way.x);
         return {x, y, hn::Mul(hn::MulAdd(hn::Sub(y, best.y), way.y, along), perSquare)};
     }
-    /// Looks for a pixel other than `own`, the best label's pixel, among the pixels of the next two
-    /// labels in the direction `side` (-1 or 1). Returns the first one: its foot, and how much more
-    /// it costs than `own`. The cost is kUnknown if both labels have the pixel `own`. `near`,
-    /// `far`: how much more the first and the second of the two labels cost than the best label.
+    /// `own` is the best label's pixel. Of the next two labels in the direction `side` (-1 or 1),
+    /// finds the first one with another pixel. Returns the foot of that pixel (Pixel::foot), and
+    /// how much more the label costs than the best label: `near` for the first of the two labels,
+    /// `far` for the second, kUnknown if both have the pixel `own`.
     HWY_INLINE Side beside(const Pixel& own, float side, V near, V far) const {
         const Pixel one = at(side), two = at(2 * side);
         const auto isNext = [&](const Pixel& p)
@@ -87,8 +87,9 @@ struct NearestPixels {
 };
 
 /// Returns the position of the cost minimum in each Valley, as an offset from the best label
-/// [labels]. Labels with the same nearest pixel count as one label, whose position is the pixel's
-/// `foot`. The result is the best label's foot if the cost of a neighbour is unknown.
+/// [labels]. Labels with the same nearest pixel count as one label. Its position is Pixel::foot,
+/// where the epipolar line is nearest to this pixel. The result is the best label's foot if the
+/// cost of a neighbour is unknown, or if no neighbour costs more.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V bottoms(D d, const Valleys<D>& valleys, const NearestPixels<D>& pixels) {
     const auto own = pixels.at(0);

@@ -32,8 +32,8 @@ public:
                const PixelSpan& pixels);
     /// Sets the columns of the output that later calls of row() compute. Initially, there are none.
     void cover(const PixelSpans& pixels);
-    /// Returns the residual of the covered pixels of a row [1/32 grey level], valid until the next
-    /// call.
+    /// Returns the residual in row y of the output [1/32 grey level], in the columns set by
+    /// cover(). The result is valid until the next call.
     [[nodiscard]] const std::int16_t* row(int y);
 
 private:

@@ -27,9 +27,8 @@ public:
     /// LookUpRows::share is the confidence if true, the weight if false.
     void begin(Rows<const LookUpCell> field, const LookUpTaps& taps, bool confident, int begin,
                int end);
-    /// Returns a row of the output, which is computed from two rows of cells. The result is valid
-    /// until a later call needs a row of cells that is four or more rows away from one of these
-    /// two.
+    /// Returns row y of the output, which is computed from two rows of cells. The result stays
+    /// valid while later calls need only rows of cells that are at most three rows away from both.
     [[nodiscard]] LookUpRows row(int y);
 
 private:

@@ -30,7 +30,7 @@ struct MirrorRow {
     int count;
     const std::uint32_t* packed;  ///< surfaces, see TracedPicture::packed
     const GlossWords* gloss;
-    const float *rayX, *rayY;  ///< normalised rays of the pixels
+    const float *rayX, *rayY;  ///< rays (x, y, 1) through the pixels
 };
 
 /// The specular light of a pixel, split into parts. `share`: share of the mirrored sky that no

@@ -17,8 +17,8 @@ namespace mfar::simd {
 /// move as in the scene, instead of sticking to the surface.
 class MovingMirrors {
 public:
-    /// `rayX`, `rayY`: normalised rays of the layer's camera. If `workers` is null, all work runs
-    /// in the caller's thread.
+    /// `rayX`, `rayY`: rays (x, y, 1) through the layer's pixels. If `workers` is null, all work
+    /// runs in the caller's thread.
     MovingMirrors(const CameraModel& layer, Rows<const float> rayX, Rows<const float> rayY,
                   std::shared_ptr<Workers> workers);
 

@@ -24,8 +24,9 @@ HWY_INLINE V luminance(D d, V r, V g, V b) {
                       hn::MulAdd(hn::Set(d, 0.7152F), g, hn::Mul(hn::Set(d, 0.0722F), b)));
 }
 
-/// The weighted mean of a LightPart over a pixel's neighbours. A neighbour's weight falls with the
-/// difference in luminance. It is 0 if the difference is larger than noise explains.
+/// The weighted mean of a LightPart over a pixel and its neighbours. If the pixel has samples, a
+/// neighbour's weight falls with the difference in luminance, and is 0 if the difference is larger
+/// than noise explains.
 template <class D>
 class PartMean {
 public:
@@ -88,7 +89,6 @@ private:
     V weights_, variances_;
 };
 
-/// Compares the surface of a vector of pixels with that of their neighbours.
 template <class D>
 class SameSurface {
 public:

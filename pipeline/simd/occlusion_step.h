@@ -16,10 +16,11 @@
 namespace mfar::simd {
 
 /// A picture of the virtual objects alone, as the video camera sees them. This struct does not own
-/// its memory. It is the counterpart of the GLES engine's VirtualLayer in host memory.
+/// its memory. It is the counterpart in host memory of VirtualLayer, which has textures.
 struct LayerRowsView {
     Rows<const std::uint32_t> colour;  ///< RGBA8, premultiplied by coverage
-    /// z along the camera's axis [m]; 0: no surface. In shadows, it is reduced by kShadowLift.
+    /// z along the camera's axis [m]; 0: no surface. The z of shadows is multiplied by
+    /// 1 - kShadowLift.
     Rows<const float> depth;
     PixelRect bounds;  ///< bounds of the covered pixels; empty: nothing is drawn
 };

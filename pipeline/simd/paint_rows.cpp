@@ -181,8 +181,8 @@ HWY_INLINE Paint Sample(const PaintInput& in, VU triangle, V x, V y, float sprea
     const VU levels = WordOf(DU(), in.triangles, triangle, 10);
     const V texels = hn::Mul(LowHalf(size), HighHalf(size));
     const V area = hn::Mul(hn::Abs(hn::NegMulAdd(f.uy, f.vx, hn::Mul(f.ux, f.vy))), texels);
-    // Area of the parallelogram whose corners are the four probes [texels]. The parallelogram's
-    // sides are twice as long as those of `f`, so its area is four times as large.
+    // Area of the parallelogram whose corners are the positions of the four probes [texels]. Its
+    // sides are twice as long as those of the footprint `f`, so its area is four times as large.
     const V apart = hn::Mul(area, F(4));
     const M finite = hn::Lt(apart, F(1e12F));
     const V held = hn::Max(hn::IfThenElse(finite, apart, F(1e12F)), F(1));

@@ -43,9 +43,9 @@ struct PaintRow {
     PaintWords* out;
 };
 /// Writes the paint of `row.count` pixels as sRGB bytes, or 0 for a pixel without an object. Up to
-/// 7 entries after the last pixel are overwritten. If a pixel shows several objects, the paint is
-/// that of the object with the most quarters (as in RestPixels), at the centre of these quarters.
-/// If these quarters show different materials, the paint is the mean over the quarters instead.
+/// 7 entries after the last pixel are overwritten. If the four quarters of a pixel show several
+/// objects, the paint is that of the object with the most quarters (as in RestPixels), at the
+/// centre of this object's quarters. If these show different materials, their mean is the paint.
 void paintRow(const PaintRow& row, const PaintInput& in);
 
 }  // namespace mfar::simd

@@ -63,8 +63,8 @@ HWY_INLINE Bend bendAt(const AlignStep& step, int column, int row) {
     const auto slope = [](Vector2 before, Vector2 here, Vector2 after) {
         return Vector2{slopeOf(before.x, here.x, after.x), slopeOf(before.y, here.y, after.y)};
     };
-    // A cell at the border gets the change of the nearest cell for which both one-sided differences
-    // exist.
+    // Near the border of the field, a cell gets the slope of the nearest cell that has two cells on
+    // either side.
     const int c = std::clamp(column, 2, std::max(step.out.columns - 3, 2));
     const int r = std::clamp(row, 2, std::max(step.out.rows - 3, 2));
     return {
@@ -199,7 +199,8 @@ struct BentPixels {
 };
 
 /// Sums the products of a patch's pixels with the searched picture's pixels at `places`. `slopeX`,
-/// `slopeY`: change of the interpolation weights per half pixel along a row.
+/// `slopeY`: change of the interpolation weights along a row, per half pixel (the unit of
+/// alongPart()).
 template <int kParts>
 HWY_INLINE void addUpParts(const Patch& patch, const std::uint8_t* pixels,
                            const BentPlaces<kParts>& places, std::int16_t slopeX,

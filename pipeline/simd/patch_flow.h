@@ -49,12 +49,13 @@ struct SearchStep {
 };
 void searchCells(const SearchStep& step, int row, int first, int end);
 
-/// Parameters of the LISTED variant of flow_search.comp. The search finds a new vector for each
-/// cell; the old one is in `search.out`. At the finest pyramid level, if the ends of both are
-/// farther apart than kOnLine, the new vector replaces the old one only if it costs clearly less
-/// (kClearlyLess). Then the cell's two-way error, the first of its four floats in `errors`, is
-/// replaced too. If the ends are closer together, the new vector always replaces the old one, and
-/// the error stays. At coarser levels, `errors` is null, and the vectors of all cells are replaced.
+/// Parameters of the LISTED variant of flow_search.comp. Each cell has an old vector in
+/// `search.out`, and the search finds a new one. At coarser pyramid levels, `errors` is null, and
+/// the new vector always replaces the old one. At the finest pyramid level, there are two cases.
+/// If the ends of the two vectors are at most kOnLine apart, the new vector replaces the old one,
+/// and the cell's two-way error (the first of the cell's four floats in `errors`) stays. Otherwise,
+/// the new vector replaces the old one only if it costs clearly less (kClearlyLess). In this case,
+/// an error that is computed from the new cost replaces the two-way error; see kErrorPerCost.
 struct ListedStep {
     SearchStep search;
     float* errors = nullptr;
@@ -85,10 +86,10 @@ void alignCells(const AlignStep& step, int row, int first, int end);
 /// large become 0.
 void keepSeedCells(const AlignStep& step, int row, int first, int end);
 
-/// Parameters of flow_filter.comp. The margins of in.x, in.y and `known` must be filled with the
-/// outermost cells: prepareCleanUpRow() fills those beside the rows, the caller the kCleanUpRadius
-/// rows above and below the field. `known`: reliability of each cell, [0, 1]. `out`: four floats
-/// per cell, row by row without gaps.
+/// Parameters of flow_filter.comp. The margins of in.x, in.y and `known` must repeat the outermost
+/// cells. prepareCleanUpRow() fills the margins to the left and right. The caller must fill
+/// kCleanUpRadius rows above and below the field. `known`: reliability of each cell, [0, 1]. `out`:
+/// four floats per cell, row by row without gaps.
 struct CleanUpStep {
     FlowPlanes in;
     const float* known = nullptr;  ///< same pitch and margins as `in`

@@ -111,8 +111,9 @@ struct WholeBest {
     float x, y, cost;
 };
 
-/// Compares the patch at the displacements `firstDx` to `endDx` - 1 with the same `dy`. If costs
-/// are equal, the first displacement wins.
+/// Compares the patch with `to` at the displacements (dx, dy), dx from `firstDx` to `endDx` - 1.
+/// `best` becomes the displacement with the least cost. If costs are equal, the first displacement
+/// wins.
 HWY_INLINE void searchWholeRow(const Batch& batch, int cell, const PatchPicture& to, int firstDx,
                                int endDx, int dy, WholeSums& sums, WholeBest& best) {
     const int y = std::clamp(patchStart(batch.row[cell], to.height) + dy, -7, to.height - 2);
@@ -133,8 +134,8 @@ HWY_INLINE void searchWholeRow(const Batch& batch, int cell, const PatchPicture&
 }
 
 /// Compares the patch at all whole-pixel displacements of at most `radius` along each axis. Stores
-/// the cheapest one in batch.trial. Displacement zero is compared first, so it wins if the patch
-/// has no texture.
+/// the cheapest one in batch.trial. If none costs less than batch.best, stores batch.best there.
+/// Displacement zero is compared first, so it wins over the others if the patch has no texture.
 void searchWhole(Batch& batch, int cell, const PatchPicture& to, int radius) {
     WholeSums sums{};
     WholeBest best{batch.best.x.of[cell], batch.best.y.of[cell], batch.cost.of[cell]};

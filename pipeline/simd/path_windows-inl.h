@@ -1,5 +1,5 @@
-// Aggregates costs along paths (see path_costs.h) for any number of labels per pixel. The path
-// costs of a pixel are kept in an array with a margin at both ends. (path_blocks-inl.h, for 16
+// Aggregates costs along paths (see path_costs.h) for any multiple of kLabels labels per pixel. The
+// path costs of a pixel are kept in an array with a margin at both ends. (path_blocks-inl.h, for 16
 // labels, keeps them in registers.) This header is included once per instruction set.
 #include "pipeline/simd/path_costs.h"
 
@@ -18,12 +18,13 @@ HWY_BEFORE_NAMESPACE();
 namespace mfar::simd::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Path cost of labels outside the pixel's window; the margins of the array hold it. It is so high
-/// that these labels never win.
+/// Path cost of labels outside a pixel's window. Both margins around the pixel's path costs contain
+/// this value. It is so high that these labels never win.
 constexpr std::uint8_t kNever = 200;
 
-/// Returns the length of one margin [labels]. It suffices even if two neighbouring pixels' windows
-/// have no label in common.
+/// Returns the length of one margin around a pixel's path costs [labels]. A margin is longer than a
+/// window, so reading is safe even if the windows of two neighbouring pixels have no label in
+/// common. `vectors`: length of a window, divided by kLabels.
 HWY_INLINE std::size_t marginOf(int vectors) {
     return static_cast<std::size_t>(kLabels) * (vectors + 1);
 }

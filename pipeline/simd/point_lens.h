@@ -15,7 +15,8 @@ struct PointLens {
     float nearest = 0.01F;  ///< smallest z of a visible point [m]
 };
 
-/// A rigid transformation [R | t] of points [m].
+/// A transformation [s R | t] of points: rotation R, translation t [m], and a scale s, which is 1
+/// except for models (see pointTransformOf()).
 struct PointTransform {
     float rows[3][4];
 };

@@ -32,7 +32,7 @@ public:
     /// A tent filter that is as wide as two entries of the result, as in still_reduce.frag. `to`
     /// must not exceed `from`.
     [[nodiscard]] static RowTaps tent(int from, int to);
-    /// Mean of four linearly interpolated samples, as in superres_sharpen.frag. `footprint`: four
+    /// Mean of four linearly interpolated samples, as in still_seen.glsl. `footprint`: four
     /// times the distance between two samples [entries of the result].
     [[nodiscard]] static RowTaps mean(int from, int to, double footprint);
 

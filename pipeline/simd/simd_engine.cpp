@@ -181,8 +181,8 @@ private:
         subpixel_.run(pictures.video.planes, stills_->of(pictures.still), pictures.light, work,
                       row_[0], errors);
     }
-    // Must not be called if no changed tile is matched: row_ then contains the corrected flow of
-    // the last frame and its errors, which are still valid.
+    // Copies results of flow_ to row_. Must not be called in a frame without matched tiles: flow_
+    // has no new results then, and the corrected flow and errors in row_ stay valid.
     template <class Cell>
     static void copy(Rows<const Cell> from, Cell* to) {
         for (int y = 0; y < from.size.height; ++y)

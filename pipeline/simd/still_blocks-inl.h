@@ -70,8 +70,8 @@ private:
     static constexpr std::int32_t kBefore = 4;  // columns loaded before the first lane's block
     static constexpr std::uint32_t kReach = 31;
 
-    /// Returns the blocks at columns `begin` + `place` of a row of the still. They are permuted
-    /// from loaded vectors, so all blocks must lie in the kReach + 1 entries from `begin` on.
+    /// Returns the blocks at columns `begin` + `place` of a row of the still. They are selected
+    /// from two loaded vectors, so each `place` must be less than kReach.
     HWY_INLINE hn::Vec<U> permuted(std::int32_t row, std::int32_t begin, hn::Vec<U> place) const {
         const U du;
         const hn::Repartition<std::uint16_t, U> d16;

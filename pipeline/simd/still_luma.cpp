@@ -63,8 +63,8 @@ void StillLuma::row(int y, Scratch& scratch, std::uint8_t* luma) const {
 }
 
 // Interpolates chroma for row y. Along each axis in which chroma has fewer samples than Y, the
-// result is 3/4 of the nearer sample plus 1/4 of the next one. Returns null if luma does not depend
-// on chroma.
+// result is 3/4 of the nearest sample plus 1/4 of the second nearest. Returns null if luma does not
+// depend on chroma.
 const std::int16_t* StillLuma::chromaRow(int y, Scratch& scratch) const {
     if (!needsChroma_) return nullptr;
     const int width = picture_.size.width / 2;

@@ -11,8 +11,8 @@
 namespace mfar::simd {
 namespace {
 
-// The halved copy of a band has one row of blocks (8 pixel rows), with one more pixel row above and
-// below.
+// The noise is measured in at most kBands bands of kBandRows pixel rows each. The copy of a band at
+// half size has 10 rows: one row of BlockNoise's 8x8 blocks, and one pixel row above and below it.
 constexpr int kBands = 24, kBandRows = 20;
 constexpr int kPadding = 64;  // StillLuma::row() writes beyond the end of a row [px]
 

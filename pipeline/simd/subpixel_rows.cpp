@@ -58,7 +58,6 @@ HWY_INLINE Place PlaceOf(const LookUpParams& lookUp, const SubpixelCells& cells,
             hn::And(within(at.x, lookUp.still.width), within(at.y, lookUp.still.height))};
 }
 
-/// Adds up products of deviations from means.
 class Sums {
 public:
     HWY_INLINE Sums() {
@@ -204,9 +203,9 @@ void SubpixelSumsRow(const LookUpParams& lookUp, const StillPairs& still,
             sums(lookUp, still, cells, x, to);
 }
 
-/// Weighted sums over a cell and its neighbours. awayX and awayY: sum of the products of each
-/// neighbour's matrix [XX, XY; XY, YY] and the difference between the neighbour's flow and the
-/// plane through the cell's flow.
+/// Weighted sums over a cell and its neighbours; `sum` is indexed by SubpixelSum. (awayX, awayY) is
+/// the sum of the vectors M d. M is the matrix [XX, XY; XY, YY] of a neighbour's sums. d is the
+/// neighbour's flow minus the flow that a plane through the cell's flow has at the neighbour.
 struct Around {
     V sum[kSubpixelSums];
     V awayX, awayY;

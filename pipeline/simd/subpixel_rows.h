@@ -32,8 +32,8 @@ struct SubpixelCells {
     float light;  ///< Guidance::light
 };
 
-/// Computes the sums of the cells [begin, end). If no cell of a vector is compared, its sums are
-/// not written.
+/// Computes the sums of the cells [begin, end). Writes no sums for a vector in which no cell is
+/// compared.
 void subpixelSumsRow(const LookUpParams& lookUp, const StillPairs& still,
                      const SubpixelCells& cells, int begin, int end,
                      const std::array<float*, kSubpixelSums>& to);

@@ -43,7 +43,8 @@ public:
     void paintRow(int y, int x0, int x1, PaintWords* out) const;
 
 private:
-    /// A part of a model. `corners`: rows of x, y and z [m].
+    /// A part of a model. `corners`: rows of x, y and z in the model's coordinates, before
+    /// SilhouetteModels::Object::scale is applied.
     struct Part {
         explicit Part(const SilhouetteModels::Part& from);
         const SilhouetteModels::Part* source;

@@ -31,8 +31,8 @@ void ProjectCorners(const MeshRows& mesh, int count, const PointTransform& view,
     }
 }
 
-/// Columns [first, last) of a row: those whose centres lie between two positions, limited to the
-/// band's columns.
+/// Columns [first, last) of a row whose centres are inside a triangle and that are drawn
+/// (RasterBand::where).
 struct Columns {
     int first, last;
 };

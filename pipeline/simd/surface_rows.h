@@ -16,8 +16,8 @@ namespace mfar::simd {
 // remains in any order of drawing.
 
 inline constexpr std::uint32_t kNoSurface = 0xFFFFFFFF;
-/// A word with this bit is larger than all words without it, so objects hide the shadow catcher.
-/// The bit is the sign of z, which is always positive.
+/// This bit marks the words of the shadow catcher. They are larger than all words of objects, so
+/// objects hide the shadow catcher. The bit is free: it is the sign of z, and z is never negative.
 inline constexpr std::uint32_t kBehindObjects = 0x80000000;
 
 struct MeshRows {
@@ -96,8 +96,8 @@ struct RasterBand {
 };
 void drawTriangles(std::span<const RasterTriangle> triangles, const RasterBand& band);
 void drawMasked(std::span<const MaskedTriangle> triangles, const RasterBand& band);
-/// clearBand() fills the band with kNoSurface. After drawing, finishBand() replaces kNoSurface by 0
-/// and removes kBehindObjects.
+/// clearBand() fills the band's words with kNoSurface. After drawing, finishBand() replaces
+/// kNoSurface by 0 and clears the bit kBehindObjects in all words.
 void clearBand(const RasterBand& band);
 void finishBand(const RasterBand& band);
 

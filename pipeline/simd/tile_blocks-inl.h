@@ -41,8 +41,8 @@ struct Blocks {
     // Each value is computed for all three colour channels of a cell, and the largest is stored.
     // farthest: |sum of the differences|. absolute: sum of the |differences|.
     HWY_ALIGN CellSums farthest, absolute;
-    // Sums of the squared twists of the red difference and of the blue difference. A tile has four
-    // sums of each kind, one for each column of its cells.
+    // Sum over blocks of (twist of the difference of red)^2, and the same for blue. A tile has four
+    // sums for each of the two colours, one for each column of the tile's cells.
     HWY_ALIGN std::array<std::int32_t, kRowCells> redTwist, blueTwist;
 };
 
@@ -233,7 +233,7 @@ HWY_INLINE void ReadColumn(D d, const TilePixels& pixels, int x, Blocks& out) {
 }
 
 void ReadBlocks(const TilePixels& pixels, Blocks& out) {
-    // First, vectors of several whole tiles are processed, then vectors of one tile.
+    // First, vectors with the blocks of up to four tiles are processed, then vectors of one tile.
     const hn::CappedTag<std::int16_t, 4 * kSide> d;
     const hn::FixedTag<std::int16_t, kSide> tile;
     const int blocks = kSide * pixels.tiles, lanes = static_cast<int>(hn::Lanes(d));

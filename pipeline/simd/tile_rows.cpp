@@ -156,8 +156,9 @@ HWY_INLINE V NoiseOf(const Blocks& blocks, int tile) {
     return hn::Mul(sum, Const(kMeanToDeviation / 64));
 }
 
-/// Returns the variance of the mean of an unchanged cell's difference. `variance`: variance of the
-/// difference of one pixel. `grain`: see ChangeBounds.
+/// Returns the variance of a cell's mean difference between the new frame and the frame drawn last,
+/// if the cell has not changed. `variance`: variance of the difference of one pixel. `grain`: see
+/// ChangeBounds.
 HWY_INLINE V OfCell(V variance, float grain) {
     const V rounded = hn::Add(variance, Const(kByteRounding));
     return hn::Mul(hn::Mul(rounded, Const(1.0F / 16)), Const(grain));

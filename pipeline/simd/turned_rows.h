@@ -18,8 +18,9 @@ struct TurnedLens {
     float rim;                  ///< radius of the outermost visible ray
 };
 
-/// Writes the pixels at which the camera `lens` sees the second camera's rays (x, y, 1). A ray that
-/// is not visible or NaN gives a position far outside the picture.
+/// Writes the pixel at which the camera `lens` sees each ray (x, y, 1). The rays are given in the
+/// coordinates of the second camera of TurnedLens. A ray that is not visible or NaN gives a
+/// position far outside the picture.
 void turnedPoints(const TurnedLens& lens, const float* raysX, const float* raysY, std::size_t count,
                   float* x, float* y);
 

@@ -14,8 +14,8 @@ HWY_BEFORE_NAMESPACE();
 namespace mfar::simd::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Vectors have at most 8 lanes, because rows of quarters (two words per pixel) are padded for only
-// 8 pixels.
+// Vectors have at most 8 lanes, because ViewRow::upper and ViewRow::lower (two words per pixel) are
+// padded for only 8 pixels.
 using D = hn::CappedTag<float, 8>;
 using DU = hn::RebindToUnsigned<D>;
 using DI = hn::RebindToSigned<D>;

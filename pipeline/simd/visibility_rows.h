@@ -31,8 +31,9 @@ struct DecideRow {
 /// Value in DecideRow::visibility for a pixel that decideRow() leaves to weighOpenPixels().
 inline constexpr std::uint8_t kOpen = 1;
 
-/// Writes the visibility of pixels that are certainly in front of the real scene (255) or behind it
-/// (0), and kOpen for the others (visibility_decide.frag). Returns true if any pixel is kOpen.
+/// Writes the visibility of the layer's pixels: 255 if the pixel is certainly in front of the real
+/// scene, 0 if it is certainly behind it or has no depth, otherwise kOpen (visibility_decide.frag).
+/// Returns true if any pixel is kOpen.
 bool decideRow(const DecideRow& row, const VisibilityParams& params);
 
 /// Index of pixel 0 in the rows of SampleWindow.

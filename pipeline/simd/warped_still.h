@@ -89,9 +89,9 @@ private:
     int slots_ = 0;
     std::array<int, GuideRows::kRows> comparedRows_;
     AlignedRows<std::int16_t> videoLuma_;
-    // One value per video pixel in the rows comparedRows_ of the video, plus a margin. seen_: the
-    // warped still at the video's resolution [1/32 grey level]. differences_, trusted_: see
-    // GuideRows.
+    // One value per video pixel in the rows comparedRows_ of the video, and spare columns on both
+    // sides. seen_: the warped still at the video's resolution [1/32 grey level]. differences_,
+    // trusted_: see GuideRows.
     AlignedRows<float> seen_, differences_, trusted_;
 };
 

@@ -45,9 +45,10 @@ public:
     WeighStep(const StereoRig& stillRig, std::shared_ptr<Workers> workers);
 
     /// Computes the weight of every cell. If no tile has changed, the last results stay valid. If
-    /// no changed tile is matched, the second level's last photometric gain is used. Cells of
-    /// unmatched tiles are not compared; they get a weight only from neighbouring cells of matched
-    /// tiles. The results have one entry per cell and are valid until the next run().
+    /// no changed tile is matched, the photometric gain at the second pyramid level is not measured
+    /// again; its last value is used. Cells of unmatched tiles are not compared; they get a weight
+    /// only from neighbouring cells of matched tiles. The results have one entry per cell and are
+    /// valid until the next run().
     void run(const WeighInput& in);
 
     /// Raises each weight w below 1 to 1 - (1 - w)^4, then multiplies the weight of each cell by
