@@ -19,8 +19,8 @@ struct FlowCell {
     float texture = 0;
 };
 
-/// Result of the epipolar search about a cell's flow. `error` is the two-way error [px], see eq. 2
-/// of the paper (docs/paper.md).
+/// Result of the epipolar search for a cell. `error` is the two-way error [px], see eq. 2 of the
+/// paper (docs/paper.md).
 struct ErrorCell {
     float error = 0;
     // Sums over the cell's patch from a comparison of the video with the still at its full

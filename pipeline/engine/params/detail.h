@@ -17,7 +17,8 @@ inline constexpr std::uint32_t kTileBlended = 3U;
 inline constexpr float kLeastDetailWeight = 0.02F;
 /// A tile is drawn as one rectangle if two conditions hold: its flow deviates from an affine
 /// function of the position by less than kPlainFlow [video px], and its weight varies by less than
-/// kPlainWeight. A deviation of 0.08 video px is about 0.3 px of the output.
+/// kPlainWeight. If the output has 3.6 pixels per video pixel, a deviation of 0.08 video px is
+/// about 0.3 px of the output.
 inline constexpr float kPlainFlow = 0.08F;
 inline constexpr float kPlainWeight = 0.25F;
 /// Where two stills are used, the second is drawn over the first. Its opacity depends on the weight
@@ -70,15 +71,15 @@ struct alignas(16) ClassifyTiles {
     /// Largest weight of the still in a tile of the class kTileEnlarged: kLeastDetailWeight, or -1
     /// so that no matched tile gets this class.
     float leastWeight;
-    /// Limit for the flow of a tile that is drawn as one rectangle [video px]. It is kPlainFlow, or
-    /// 0 to draw no tile in this way.
+    /// A tile is drawn as one rectangle only if its flow deviates from an affine function by less
+    /// than this [video px]. It is kPlainFlow, or 0 to draw no tile in this way.
     float plainFlow;
     std::int32_t stillGiven;
     /// Number of the frame. Drawing a tile's detail reads the neighbouring tiles, so unchanged
     /// neighbours are listed, too. The shader stores this number for each of them, so that none is
     /// listed twice. 0: neighbours are not listed, because no drawn tile reads them.
     std::uint32_t detailFrame;
-    std::int32_t learns;
+    std::int32_t learns;  ///< 1: learned filters enlarge the matched tiles
     std::int32_t secondGiven;
 };
 

@@ -15,7 +15,8 @@ inline constexpr int kPairs = 12;  ///< number of pairs of taps in a filter
 /// Luma is stored in steps of 1/8 grey level, and residuals in steps of 1/32.
 inline constexpr int kLumaScale = 8;
 inline constexpr int kResidualScale = 32;
-/// Between passes, shaders store colours and luma in steps of 1/64 grey level.
+/// superres_seen.frag and superres_vertical.frag store luma, colours, the guidance signal and
+/// residuals in steps of 1/64 grey level.
 inline constexpr int kPassScale = 64;
 
 /// Borders between GradientClasses: three for the strength [grey levels per px], two for the

@@ -10,7 +10,7 @@
 namespace mfar::params {
 
 /// Search radius at the coarsest pyramid level [px] if the last frame's flow is known. A small
-/// radius suffices, because the last flow is tried first and fails only on moving objects.
+/// radius suffices, because the last frame's flow is tried first and fails only on moving objects.
 inline constexpr int kTrackingRadius = 3;
 /// Largest search radius at the coarsest pyramid level [px] in tiles without a reliable match along
 /// epipolar lines. (The radius is Flow2dOptions::searchRadius if that is smaller.) For video of
@@ -42,7 +42,8 @@ inline constexpr float kUnexplainedCost = 0.4F;
 /// the test for occlusion.
 inline constexpr float kNotShown = 100.0F;
 /// A tile is searched in two dimensions if at least this number of its 16 cells has no reliable
-/// match along epipolar lines, or if this is true of at least two of its four neighbours.
+/// match along epipolar lines. It is also searched if at least two of the four adjacent tiles have
+/// that many such cells.
 inline constexpr int kLeastUnexplained = 3;
 
 /// A cell is doubtful if its cost is meaningful (see kTexturePerVariance), its two-way error is
@@ -52,7 +53,7 @@ inline constexpr int kLeastUnexplained = 3;
 /// On a moving object, the test for occlusion is meaningless. Therefore, a cell that gets a flow
 /// vector off its epipolar line also gets a two-way error [px] that is computed from the vector's
 /// cost: max(cost - kGoodCost, 0) * kErrorPerCost. If a doubtful cell costs less in the comparison
-/// with the full-size still, its error is limited in the same way by this lower cost.
+/// with the full-size still, its error is limited to the value of this formula for the lower cost.
 inline constexpr float kGoodCost = 0.1F;
 inline constexpr float kErrorPerCost = 5.0F;
 /// A flow vector whose end is within this distance [px] of the match along the epipolar line counts
@@ -90,11 +91,12 @@ inline constexpr float kSteepestFlow = 0.25F;
 
 /// Because of aliasing (see kPatchSamples), the flow of most cells is off by about 0.1 px.
 /// Therefore, every cell is finally compared with the still at its full resolution, and one
-/// Gauss-Newton step corrects its flow. The derivative of the still along x is its mean half a
-/// pixel to the right minus its mean half a pixel to the left; along y likewise. The mean is that
-/// of the light that a pixel sees, see kSeen; the derivative of the root r of a mean square is the
-/// derivative of the mean square divided by 2 r. The sums over a cell's pixels count with weight 4,
-/// those of the cells beside, above and below it with weight 2, and those of the diagonal
+/// Gauss-Newton step corrects its flow. The derivative of the still along x is the mean over a
+/// square whose centre is half a pixel further right, minus the mean over a square whose centre is
+/// half a pixel further left. The derivative along y is computed in the same way. The kind of mean
+/// is that of kSeen: m + light * (r - m), where r is the root of a mean square. The derivative of r
+/// is the derivative of the mean square, divided by 2 r. The sums over a cell's pixels count with
+/// weight 4, those of the cells beside, above and below it with weight 2, and those of the diagonal
 /// neighbours with weight 1.
 ///
 /// The flow of a cell and its change per pixel define a plane. A neighbour was compared at its own
@@ -125,14 +127,14 @@ inline constexpr float kHalfTrusted = 2000.0F;
 inline constexpr float kLeastPlaneWeight = 1e-4F;
 /// Damping of the slopes of a fitted plane. It is necessary because a single neighbour does not
 /// determine the slopes. The sum kSlopeDamping + kSlopeDampingPerWeight * (sum of weights) is added
-/// to the diagonal of the equations.
+/// to the diagonal entries of both slopes in the normal equations.
 inline constexpr float kSlopeDamping = 0.5F;
 inline constexpr float kSlopeDampingPerWeight = 0.05F;
 
 /// Parameters of flow_search.comp. All flow fields are parts of the array cells[]. The members
 /// target, coarser, lastFrame and errors say at which index of cells[] a field begins. -1: there is
-/// no such field. With LISTED, lastFrame is not the last frame's field, but the field of the flow
-/// along epipolar lines.
+/// no such field. In the shader's variant LISTED, the field of the flow along epipolar lines takes
+/// the place of the last frame's field, and lastFrame is its index.
 struct alignas(16) SearchFlow {
     /// Pyramid levels of the patches and of the searched picture.
     LumaLevel from, to;

@@ -67,8 +67,8 @@ inline constexpr float kFineShareRoom = 3.0F;
 /// A rough texture, such as grass, aliases in the video: much of its finest detail cannot be
 /// predicted, although the look-ups are right. Roughness is the variance of the video's finest
 /// detail, divided by the variance of all pixels around the cell. It is 1 for white noise and about
-/// 0.2 for an edge between two uniform areas. The limit applies fully up to a roughness of
-/// kFineTexture. From kRoughTexture on, there is no limit.
+/// 0.2 for an edge between two uniform areas. Up to a roughness of kFineTexture, the limit of the
+/// unexplained variance (see kFineRoom) applies fully. From kRoughTexture on, there is no limit.
 inline constexpr float kFineTexture = 0.2F;
 inline constexpr float kRoughTexture = 0.4F;
 /// Where a surface has an edge, look-ups are probably wrong or show another surface. There, the
