@@ -192,8 +192,8 @@ void DetailPainter::draw(const gpu::Texture& video, const Matched* matched, cons
         drawSecond(p, video, *matched, *filtersOf(options));
 }
 
-// Blends the detail of the second still over that of the first still, in tiles where the second
-// still has the larger weight.
+// Blends the detail of the second still over that of the first still, in the tiles that show some
+// of the second still.
 void DetailPainter::drawSecond(const TileParams& params, const gpu::Texture& video,
                                const Matched& matched, const FilterBank& filters) {
     const Matched& second = *matched.second;

@@ -19,8 +19,8 @@ public:
     struct Fields {
         int flow, lines, errors;
     };
-    /// Changes the flow and the ErrorCells in `cells`. `still` is luma with amplified finest
-    /// detail and a linear filter.
+    /// Changes the flow and the ErrorCells in `cells`. `still` is a luma texture that is sampled
+    /// linearly; its finest detail is amplified, see StillReference::raised().
     void run(const gpu::Buffer& cells, const Fields& fields, const gpu::Texture& video,
              const gpu::Texture& still, const TileBuffer& tiles);
 

@@ -18,7 +18,7 @@ public:
 
     /// `textures` must contain `traced`. Both must live until the next call of setTracedPicture().
     void setTracedPicture(const TracedPicture& traced, const TracedTextures& textures);
-    /// False if only the traced picture's colours are known.
+    /// False before the first traced picture, and if the picture has colours but no light.
     [[nodiscard]] bool isLit() const { return traced_ != nullptr && !traced_->light.empty(); }
     /// Computes the textures for the position `eye` in the world. `rays` is the rayTexture() of the
     /// layer's camera. Does nothing if isLit() is false. Mirrored light is unchanged if the pixels'

@@ -8,8 +8,9 @@
 
 namespace mfar {
 
-/// Raises weights below 1, and then lowers the weights of cells in which the still does not show
-/// the video's finest detail as well as usual, see params::kFineRoom.
+/// Corrects the weights, which are too cautious because they were computed without the finest
+/// detail. Raises all weights below 1. Then lowers the weights of cells in which the still does not
+/// show the video's finest detail as well as usual. See params::kFineRoom.
 class FineCheck {
 public:
     /// The still camera of `stillRig` must have the resolution of run()'s `still`.

@@ -24,8 +24,8 @@ public:
     [[nodiscard]] std::shared_ptr<const PaintTextures> of(const PaintSource& source);
 
 private:
-    // Textures live as long as a part uses them. Such a part also keeps the pictures of the source
-    // alive, so that no other picture gets their address.
+    // Textures live as long as a part of a model uses them. The key contains addresses of pictures.
+    // The part keeps these pictures alive, so that no other picture gets the same address.
     std::map<PaintSource, std::weak_ptr<const PaintTextures>> textures_;
 };
 

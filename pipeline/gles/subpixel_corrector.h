@@ -19,8 +19,8 @@ public:
     struct Fields {
         int flow, errors;
     };
-    /// Changes the flow in `cells` where tiles are matched. `still` is luma with amplified finest
-    /// detail and a linear filter. `light`: Guidance::light.
+    /// Changes the flow in `cells` where tiles are matched. `still` contains the still's luma, its
+    /// finest detail amplified. It must have a linear filter. `light`: Guidance::light.
     void run(const gpu::Buffer& cells, const Fields& fields, const gpu::Texture& video,
              const gpu::Texture& still, float light, const TileBuffer& tiles);
 

@@ -25,7 +25,6 @@ public:
 
     /// Replaces all lists. They are empty if no tile is matched. `tiles` gives the noise.
     void find(const Field& field, const TileBuffer& tiles);
-    /// Empties all lists.
     void clear();
 
     /// Positions of groups of 4x4 cells, packed by tiles.glsl. The list of a pyramid level begins
