@@ -17,16 +17,16 @@ constexpr float kNowhere = 1e4F;
 // pixel is near the epipole if it moves by at most kLeastWay [px] when s is changed by the step
 // that moves the fastest pixel of the picture by 1 px.
 constexpr float kLeastWay = 0.05F;
-// Several cells can match the same cell of the still. A cell counts as part of the same slanted
-// surface as the nearest of them if their parallaxes differ by at most this distance [px].
-// Otherwise, the nearest cell occludes it.
+// Several cells can match the same cell of the still. The one nearest to the camera occludes the
+// others, except those whose parallax differs from its parallax by at most this distance [px]. They
+// count as parts of the same slanted surface.
 constexpr float kSlope = 1.0F;
-// Width of the margin that is searched around the rectangle that needs depth [px]. It is needed for
-// census windows, for the cost aggregation, and for the motion until the next frame.
+// Width of the margin that is searched around the requested rectangle [px]. It is needed for census
+// windows, for the cost aggregation, and for the motion until the next frame.
 constexpr int kRoom = 16;
 
-/// Returns the rectangle that is searched if depth is needed in `where`. It includes a margin. Its
-/// edges are at multiples of kRoom or at the picture's border.
+/// Returns the rectangle that is searched if `where` is requested. It includes a margin. Its edges
+/// are at multiples of kRoom or at the picture's border.
 PixelRect searchedFor(const PixelRect& where, Size video) {
     const PixelRect around = widened(where, kRoom, video);
     const auto down = [](int x) { return x / kRoom * kRoom; };

@@ -34,10 +34,10 @@ public:
     }
 
     /// Refines the relative pose and matches the frame with the still. May be called only while
-    /// there is a still. Pixels in `where` [video px] and in a margin around it are matched, and in
-    /// a frame with a predicted search also the other pixels of the last frame's area. All other
-    /// pixels get the s of the nearest matched pixel. `where` must not be empty. `rests`: true if
-    /// the camera has not moved since the still was taken, see restingPose().
+    /// there is a still. Matches the pixels in `where` [video px], which must not be empty, and in
+    /// a margin around it. If s is predicted from the last frame, all pixels that were matched in
+    /// the last frame are matched. The remaining pixels get the s of the nearest matched pixel.
+    /// `rests`: true if the camera has not moved since the still was taken, see restingPose().
     void run(const ImageView& video, const Pose& pose, const PixelRect& where, bool rests = false);
     void run(const ImageView& video, const Pose& pose) {
         run(video, pose, {0, 0, rig_.video.size.width, rig_.video.size.height});
@@ -49,10 +49,10 @@ public:
     /// numbers. Positions in the still are those after resampling it with the video's lens.
     [[nodiscard]] const Cells& forward() const { return forward_; }
     /// Two-way error [px], one entry per cell: the error (eq. 2 of the paper, see docs/paper.md),
-    /// and three zeros. Several surfaces can match the same cell of the still. The error of a cell
-    /// is the difference between its parallax and that of the nearest of these surfaces, minus 1 px
-    /// for slanted surfaces, and at least 0. If the flow ends outside the picture of the still
-    /// after resampling, which has the video's size, the error is 1e4.
+    /// and three zeros. Several cells can match the same cell of the still. The error of each is
+    /// the difference between its parallax and that of the nearest of these cells, minus 1 px, and
+    /// at least 0. (The parallaxes of cells of one slanted surface differ by up to 1 px.) If the
+    /// flow ends outside the resampled still, which has the video's size, the error is 1e4.
     [[nodiscard]] const Cells& occlusion() const { return hidden_; }
     /// Converts flow vectors to inverse depths. For every cell, finds the point on its epipolar
     /// line that is nearest to the end of its vector in `flow`, and returns the s of this point.
@@ -107,8 +107,8 @@ private:
     Rows<const std::uint8_t> frame_;
     Cells forward_, hidden_;
     std::vector<float> predicted_;
-    // s_, aligned_: s of each cell of the video. nearest_: for each cell of the still, the largest
-    // s of the video's cells that match it.
+    // s_: s of each cell of the video, from the search. aligned_: result of sOf(). nearest_: for
+    // each cell of the still, the largest s of the video's cells that match it.
     std::vector<float> s_, aligned_, nearest_;
     std::vector<std::int32_t> landing_;
     // Rays through the point between each cell's four central pixels.

@@ -3,9 +3,7 @@
 namespace mfar {
 namespace {
 
-// Largest radius of valid rays, as a multiple of the radius of the picture's corners. Some lens
-// models fold rays back: beyond a certain radius, the distorted radius decreases. Rays are then
-// valid only up to this radius.
+// Upper limit of rimOf(), as a multiple of the radius of the picture's corners.
 constexpr double kBeyondPicture = 2;
 
 }  // namespace

@@ -153,8 +153,8 @@ bool EpipolarSearch::run(const Rows<const std::uint8_t>& video, const RigidTrans
     videoNoise_ = noiseOf(levels_[0].video);
     refinement_ = {};
     normalError_ = 0;
-    // If s is predicted, the search needs only the pyramid levels up to finestLevel(). Matching
-    // patches needs the finest two.
+    // If s is predicted, the search needs only the pyramid levels from 0 (full size) to
+    // finestLevel(). Matching patches needs levels 0 and 1.
     const int all = static_cast<int>(levels_.size());
     const int searched = predicted.empty() ? all : finestLevel() + 1;
     const int drawn = covariance ? std::min(std::max(searched, 2), all) : searched;
@@ -365,10 +365,10 @@ void EpipolarSearch::match(int index, int vectors) {
         placeLabels(index);
 }
 
-// Chooses the window of labels that each pixel searches. The window is centred on the range of
-// labels that the coarser pyramid level found around the pixel. If this range plus kRoom labels on
-// both sides does not fit into the window, the window is the part of the widened range around the
-// pixel's own label.
+// Chooses the window of labels that each pixel searches. The window is centred on the range of the
+// approximate labels around the pixel, see Coarser. If this range plus kRoom labels on both sides
+// does not fit into the window, the window is the part of the widened range around the pixel's own
+// approximate label.
 void EpipolarSearch::centreWindows(const Coarser& coarse, Level& fine) {
     constexpr int kRoom = 2;
     const Size from = coarse.size, to = fine.lens.size();

@@ -79,8 +79,9 @@ public:
     /// Largest motion of any pixel along its epipolar line [px] per unit of s. If there is no
     /// parallax, it is zero, and nothing was searched.
     [[nodiscard]] double pixelsPerUnit() const { return pixelsPerUnit_; }
-    /// Adding this translation to a point's coordinates in the frame's camera gives those in the
-    /// still camera, if the still camera is rotated into the frame's orientation.
+    /// The translation t in q = p + t. p is a point in coordinates of the frame's camera. q is the
+    /// same point in coordinates of the still camera, after the still camera was rotated into the
+    /// orientation of the frame's camera.
     [[nodiscard]] const Eigen::Vector3f& translation() const { return translation_; }
     /// Largest searched label (candidate of s, counted in steps) at full size. It is equal to the
     /// longest searched parallax [px]. If nothing was searched, it is zero.

@@ -190,8 +190,9 @@ std::vector<PatchPlace> texturedPlaces(const LumaImage& picture, double noise) {
     if (field.width < 2 || field.height < 2) return out;
     const int right = field.width - 1, bottom = field.height - 1;
     const int cell = std::max(2, static_cast<int>(std::sqrt(1.0 * right * bottom / kPlaces)));
-    // A patch with less texture than this is skipped. The limit is twice the sum of squared central
-    // differences that noise alone causes, plus a margin of 8 grey levels^2 per pixel.
+    // A patch with less texture than this is skipped. Texture is the sum of squared differences
+    // between pixels two px apart, in the direction in which this sum is smallest. The limit is
+    // twice the sum that noise alone causes, plus a margin of 8 grey levels^2 per pixel.
     const double least = kPixels * (4 * noise * noise + 8);
     for (int j0 = 0; j0 < bottom; j0 += cell) {
         for (int i0 = 0; i0 < right; i0 += cell) {

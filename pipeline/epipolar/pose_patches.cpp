@@ -82,8 +82,8 @@ private:
         const Eigen::Vector2d across(-out.along.y(), out.along.x());
         out.acrossSteps = stepsFor(across.dot(spread * across));
         // If the error of s requires at most one step along the line, the pixel is near the
-        // epipole. There, the error of the prior pose can be larger, so the number of steps is
-        // computed from that error.
+        // epipole. There, the error of the prior pose can require more steps, so the number of
+        // steps is computed from the error of the prior pose.
         if (out.alongSteps <= 1) out.alongSteps = stepsFor(out.along.dot(spread * out.along));
         return out;
     }

@@ -25,8 +25,8 @@ struct PatchPrior {
     /// Standard deviation of a pixel's noise [grey levels], the larger one of frame and still.
     double noise;
     double pixelsPerUnit;  ///< largest motion of a pixel per unit of s [px]; 0: no parallax
-    /// Returns s at a pixel of the frame. The error of s must move the pixel by at most kAlongSlack
-    /// pixels along the epipolar line.
+    /// Returns s at a pixel of the frame, so accurate that the pixel's place in the still is wrong
+    /// by at most kAlongSlack px along the epipolar line.
     std::function<double(const Eigen::Vector2d&)> sAt;
 };
 inline constexpr int kAlongSlack = 6;

@@ -39,18 +39,18 @@ class SemiGlobal {
 public:
     static constexpr int kLabels = simd::kLabels;
 
-    /// A function that writes the matching costs of row y to `costs`: for each pixel, kLabels *
-    /// vectors bytes for the labels base, base + 1, ... (its first label and the following ones).
-    /// Each cost is at most kCensusBits. run() calls the function from several threads at once.
+    /// A function that writes the matching costs of row y to `costs`: for each pixel, one byte for
+    /// each label that run() searches there, from the pixel's first label on. Each cost is at most
+    /// kCensusBits. run() calls the function from several threads at once.
     using CostRow = std::function<void(int y, std::uint8_t* costs)>;
 
-    /// `vectors`: the largest number of SIMD vectors that all pixels of one picture need together.
-    /// A vector holds the costs of kLabels labels of a pixel.
+    /// `vectors`: the largest number of SIMD vectors that a picture needs for the costs of all its
+    /// pixels. A vector holds the costs of kLabels labels of one pixel.
     explicit SemiGlobal(std::size_t vectors);
 
-    /// Finds the best label of every pixel among kLabels * `vectors` labels. `base` is the first
-    /// label of each pixel. At edges of `guide`, Smoothness::jump is reduced. `base` and `out` have
-    /// one entry per pixel of `guide`.
+    /// Finds the best label of every pixel among kLabels * `vectors` labels; here, `vectors` is the
+    /// number of SIMD vectors per pixel. `base` is the first label of each pixel. At edges of
+    /// `guide`, Smoothness::jump is reduced. `base` and `out` have one entry per pixel of `guide`.
     void run(const LumaImage& guide, const std::vector<std::int16_t>& base, int vectors,
              const Smoothness& smoothness, const CostRow& costs, Workers& workers,
              std::span<Valley> out);

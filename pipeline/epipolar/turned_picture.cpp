@@ -11,13 +11,11 @@ namespace {
 
 static_assert(TurnedPicture::kAlign == simd::kTurnedCell);
 
-// A ray (x, y, 1) is outside the camera's view if its z after the rotation is smaller than this.
+// A ray (x, y, 1) is outside the camera's view if its z after the rotation is at most this.
 constexpr double kBeside = 0.2;
 constexpr int kSidePoints = 16;
 
-// Largest radius of valid rays, as a multiple of the radius of the picture's corners. Some lens
-// models fold rays back: beyond a certain radius, the distorted radius decreases. Rays are then
-// valid only up to this radius.
+// Upper limit of rimOf(), as a multiple of the radius of the picture's corners.
 constexpr double kFarthestRay = 4;
 
 double rimOf(const CameraModel& camera) {
