@@ -26,9 +26,9 @@ struct UniqueClass {
     int number;  ///< index of the stored filter, [0, kUnique)
     Symmetry same;
 };
-/// Both functions return the stored filter of the class with this number. simd::classRow() computes
-/// the number.
+/// Returns the stored filter of the gradient class `number`, as simd::classRow() numbers classes.
 [[nodiscard]] UniqueClass uniqueByGradient(int number);
+/// The same for a curvature class.
 [[nodiscard]] UniqueClass uniqueByCurvature(int number);
 
 [[nodiscard]] FilterBank::Filter roundedFilter(const ClassWeights& weights);

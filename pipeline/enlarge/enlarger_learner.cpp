@@ -37,7 +37,8 @@ constexpr double kLeastNew = 0.1;  // least share of changed tiles in a still th
 // filter or of the zero filter, whichever is better.
 constexpr double kWorthwhile = 0.998;
 
-// After this number of refused stills with a tone curve in a row, the tone curve is dropped.
+// The tone curve is dropped when this number of stills that used it were refused because of
+// kLeastTrusted or kLeastSharpness, without a better still between them.
 constexpr int kMostRefused = 3;
 constexpr int kBlock = 4;  // block size [px]
 

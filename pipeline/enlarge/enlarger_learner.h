@@ -92,8 +92,8 @@ private:
     /// filters. If the next still contradicts the filters as well, the lens or the sensor has
     /// changed.
     [[nodiscard]] bool isOutlier(const StillSums& still);
-    /// Counts a refused still to which the tone curve `tone` was applied, and returns its outcome.
-    /// May drop the learned tone curve.
+    /// Counts a refused still and returns the outcome of add(). `tone`: the tone curve that was
+    /// applied to the still. Drops the learned tone curve after several refused stills in a row.
     Outcome refusedWith(const StillTone& tone);
     bool choose(const enlarge::SumsOfClasses& check);
     [[nodiscard]] enlarge::ClassWeights solved(int unique) const;
@@ -112,9 +112,9 @@ private:
     enlarge::ToneLearner tone_;
     int refusedInARow_ = 0;  // number of stills with a tone curve that were refused in a row
     std::shared_ptr<const FilterBank> inPlace_;
-    // Means over blocks of 4x4 video pixels. `shown_` (`shownSize_` blocks): for each tile, its
-    // means when filters were last learned from it. `means_`: the means of the picture that was
-    // last given to findNew().
+    // Means over blocks of 4x4 video pixels. `means_`: in the picture that was last given to
+    // findNew(). `shown_`: in each tile when filters were last learned from this tile.
+    // `shownSize_`: size of `shown_` [blocks].
     std::vector<std::uint8_t> shown_, means_;
     Size shownSize_{};
     std::vector<std::uint8_t> isNew_;

@@ -18,9 +18,9 @@ class FilterBankError : public std::runtime_error {
 };
 
 /// Learned factors that combine still and video at the video's resolution. `still` and `video`
-/// determine how far the still's finest detail replaces the video's; see params::kGuideReach. They
-/// are similar if both sensors have the same exposure. `light` determines how a video pixel
-/// averages what it sees; see params::kSeen. If all factors are zero, there is no guidance.
+/// determine how far the still's finest detail replaces the video's; see params::kGuideReach. These
+/// two are similar if both sensors have the same exposure. `light` determines how a video
+/// pixel averages what it sees; see params::kSeen. If all factors are zero, there is no guidance.
 struct Guidance {
     float still = 0;  ///< added share of the still's detail, [0, 1]
     float video = 0;  ///< removed share of the video's detail, [0, kMost]
@@ -36,11 +36,11 @@ struct Guidance {
 };
 
 /// Variance of the video's finest detail that a correctly matched still usually leaves
-/// unexplained: noise + share * (variance of the finest detail). See params::kFineRoom. As long as
-/// this is not known, noise is 0.
+/// unexplained: noise + share * (variance of the video's finest detail). See params::kFineRoom.
+/// Until both numbers are learned, noise is 0.
 struct FineMatch {
     float noise = 0;  ///< constant part [grey levels^2], [0, kMostNoise]
-    float share = 0;  ///< share of the variance of the finest detail that is unexplained, [0, 1]
+    float share = 0;  ///< unexplained share of the variance of the video's finest detail, [0, 1]
 
     static constexpr float kMostNoise = 4096;
     [[nodiscard]] bool isKnown() const { return noise > 0; }
@@ -58,7 +58,9 @@ public:
     /// the residuals of a pixel's two classes are added to compute their mean.
     using Filter = std::array<std::int16_t, enlarge::kFilterSize>;
 
-    /// `unique` must contain kUnique filters, gradient classes first. Throws FilterBankError.
+    /// `unique` contains the filters, gradient classes first. Throws FilterBankError if their
+    /// number is not kUnique, if weights are too large, or if `guidance` or `fineMatch` is out of
+    /// range.
     explicit FilterBank(std::span<const Filter> unique, const Guidance& guidance = {},
                         const FineMatch& fineMatch = {}, const StillTone& tone = {});
     /// The shipped filters, which are part of the program. They were learned by
@@ -78,8 +80,8 @@ public:
     /// The tone curve of the stills. With the shipped filters, it changes nothing.
     [[nodiscard]] const StillTone& tone() const { return tone_; }
     /// A filter whose result is Keys' cubic enlargement minus the pixel's own value, with the same
-    /// taps and sub-pixels as the learned filters. A weight w is stored as w * 16384, without the
-    /// division by 2.
+    /// taps and sub-pixels as the learned filters. A weight w is stored as w * 16384. (Weights of
+    /// learned filters are stored as w * 16384 / 2, see Filter.)
     [[nodiscard]] const std::int16_t* cubic() const { return cubic_[0]; }
 
 private:
@@ -95,7 +97,7 @@ private:
 /// FNV-1a checksum of all bytes before the checksum.
 [[nodiscard]] std::vector<std::uint8_t> storedFilters(std::span<const FilterBank::Filter> unique);
 /// Reads filters from their stored form. Error messages contain `name`. Throws FilterBankError if
-/// the data is damaged.
+/// the data is damaged, or has another format version, other classes or other sizes.
 [[nodiscard]] std::vector<FilterBank::Filter> readFilters(std::span<const std::uint8_t> bytes,
                                                           const std::string& name);
 

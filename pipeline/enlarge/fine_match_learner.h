@@ -13,12 +13,13 @@ namespace mfar::enlarge {
 /// unexplained variance of each trusted cell: the part of the variance of the video's finest detail
 /// that the still does not predict. FineMatch::noise is the 10 % quantile of the unexplained
 /// variance over all trusted cells. FineMatch::share is the median of ((unexplained variance) -
-/// noise) / variance over cells with structure. Quantiles are used because wrongly matched parts of
-/// the picture hardly influence them.
+/// noise) / (variance of the video's finest detail) over the trusted cells in which this variance
+/// clearly exceeds the noise. Quantiles are used because wrongly matched parts of the picture
+/// hardly influence them.
 class FineMatchLearner {
 public:
-    /// Learns from a matched still. Returns false if too few cells are trusted or have structure,
-    /// or if `stop` was requested.
+    /// Learns from a matched still. Returns false if too few cells are trusted, if too few of them
+    /// have finest detail above the noise, or if `stop` was requested.
     bool add(const MatchedPictures& pictures, const std::stop_token& stop = {});
     [[nodiscard]] const FineMatch& fineMatch() const { return match_; }
 

@@ -171,7 +171,8 @@ void FactorSums::fade(double share) {
 }
 
 bool FactorSums::isFinite() const {
-    // The product of two values is at most the larger of their squares, so it is finite as well.
+    // The product of two values is at most the larger of their squares. So if the sums of squares
+    // are finite, all sums are.
     return std::isfinite(products_.trace() + missing2_);
 }
 

@@ -65,8 +65,8 @@ private:
 ///
 /// The weight of the whole detail of a still (LookUpCell::weight) is not learned in this way.
 /// Warping removes a part of a still's finest detail, so the warped new still has less detail than
-/// the scene. A learned weight would be too low by 0.25 to 0.35 (synthetic scenes). Guidance is too
-/// low for the same reason, which is harmless.
+/// the scene. A learned weight would be too low by 0.25 to 0.35 (synthetic scenes). For the same
+/// reason, guidance is too low, but this is harmless.
 class GuidanceLearner {
 public:
     /// Learns from one frame that was matched with two stills. `truth` is its match with the new

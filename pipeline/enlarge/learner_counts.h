@@ -6,8 +6,8 @@
 
 namespace mfar {
 
-/// Counts and results of EnlargerLearner. Gains are measured in tiles to which no filter and no
-/// guidance was fitted.
+/// Counts and results of EnlargerLearner. Gains of filters are measured in tiles to which no filter
+/// was fitted, and the gain of guidance in tiles to which no guidance was fitted.
 struct LearnerCounts {
     std::uint64_t stills = 0, repeated = 0, refused = 0;
     int classes = 0;     ///< number of classes with a learned filter, of enlarge::kUnique classes

@@ -26,7 +26,6 @@ struct StillTone {
             sum += std::abs(levels[i] - other.levels[i]);
         return sum <= kNear * kLevels;
     }
-    /// Replaces each grey level of a row by levels[grey level].
     void apply(std::span<std::uint8_t> row) const {
         for (std::uint8_t& level : row)
             level = levels[level];

@@ -111,8 +111,9 @@ float TrustedPairs::toneOf(float value) const {
 }
 
 /// Fits two things: a symmetric 5x5 kernel that blurs the still as much as the video (the sensors
-/// have different point spread functions), and the factor Guidance::light with which a video pixel
-/// averages what it sees. Afterwards, only wrong matches appear as differences.
+/// have different point spread functions), and the factor Guidance::light (0 if a video pixel is
+/// the mean of the grey levels that it sees, 1 if it is the root of the mean of their squares).
+/// Differences between still and video that remain come from noise or from wrong matches.
 void TrustedPairs::fitBlur() {
     constexpr int kReach = 2;
     Plane toned(seen_.size());
