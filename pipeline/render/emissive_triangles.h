@@ -16,8 +16,8 @@ public:
     EmissiveTriangles() = default;
     /// The scene must outlive this object.
     explicit EmissiveTriangles(const TracedScene& scene);
-    /// For the same scene with objects in other poses. Areas and emission stay the same, so this
-    /// takes little time.
+    /// Copies `other` for the same scene with objects in other poses. Areas and emission are kept,
+    /// so this takes little time.
     EmissiveTriangles(const EmissiveTriangles& other, const TracedScene& posed);
 
     /// True if no triangle emits light.
@@ -25,14 +25,14 @@ public:
 
     /// A point on an emissive triangle as seen from another point.
     struct Sample {
-        Ray ray;            ///< towards the point, unit length; ends a little behind it
+        Ray ray;            ///< towards `point`, direction of unit length; ends a little behind it
         RayHit point;       ///< the sampled point, as the ray's hit
         float density = 0;  ///< probability density of the direction [1/sr]; 0: no point was found
     };
     /// Samples a point. `u` decides both the triangle and the point on it, so that well distributed
-    /// numbers give well distributed points on a lamp of few triangles. `fine` continues the bits
-    /// of u.x, which are too few for very many triangles. All numbers are in [0, 1). Must not be
-    /// called if dark().
+    /// numbers give well distributed points on a lamp of few triangles. `fine` adds bits to
+    /// u.x, whose own bits are too few for a large number of triangles. All numbers are in [0, 1).
+    /// Must not be called if dark().
     [[nodiscard]] Sample sample(const Eigen::Vector3f& from, const Eigen::Vector2f& u,
                                 float fine) const;
     /// Probability density [1/sr] with which sample() gives the direction of `ray` and a point of

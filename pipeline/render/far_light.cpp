@@ -35,8 +35,8 @@ float signOf(float x) {
     return x < 0 ? -1.0F : 1.0F;
 }
 
-/// Weight of texel i along one axis in a sum over all directions. It is 1/2 on the border, because
-/// directions there have two texels along this axis.
+/// Weight of texel i along one axis in a sum over all directions. On the border of the table, most
+/// directions have two texels (see DirectionTable). So a border texel has the weight 1/2.
 float partOfBorder(int i, int edge) {
     return i == 0 || i == edge - 1 ? 0.5F : 1.0F;
 }

@@ -178,8 +178,8 @@ void Film::add(std::size_t pixel, const FilmSample& sample) {
     ++p.objectHits;
     p.radiance += sample.radiance.cast<double>();
     p.radianceSquares += squared(luminanceOf<double>(sample.radiance.cast<double>()));
-    // At an edge, samples of objects other than the one at the pixel's centre are ignored.
-    // Otherwise, their light would be shown on the object at the centre.
+    // At an edge, the sums below contain only samples of the object at the pixel's centre.
+    // Otherwise, light of other objects would be shown on this object.
     if (hasObjectAtCentre(p) && sample.hit.id != p.seen.hit.id) return;
     ++p.object.hits;
     const auto [diffuse, specular] = weightsOf(sample.paint);

@@ -38,8 +38,8 @@ struct SeenSurface {
 
 struct FilmSample {
     FirstHit hit;
-    Eigen::Vector3f radiance{0, 0, 0};  ///< radiance of the hit surface if all objects exist
-    Eigen::Vector3f without{0, 0, 0};   ///< radiance of the shadow catcher if no object existed
+    Eigen::Vector3f radiance{0, 0, 0};  ///< radiance of the hit surface, with all objects
+    Eigen::Vector3f without{0, 0, 0};   ///< radiance of the shadow catcher without any object
     SurfaceLight light{};               ///< light on the hit object
     SurfaceLight far{{1, 1, 1}, {1, 1, 1}};
     Paint paint{};
@@ -89,8 +89,9 @@ public:
     void add(std::size_t pixel, const FilmSample& sample);
     /// Mean radiance of a pixel's samples. `object` is the mean over the samples that hit an
     /// object. `with` and `without` are means over the samples that hit the shadow catcher: its
-    /// radiance with objects, and its radiance if no object existed. A share is a number of such
-    /// samples, divided by the number of all samples that were not dropped.
+    /// radiance with objects, and its radiance if no object existed. `objectShare` and
+    /// `catcherShare`: number of samples that hit an object or the shadow catcher, divided by the
+    /// number of all samples that were not dropped.
     struct Means {
         Eigen::Vector3f object{0, 0, 0};
         Eigen::Vector3f with{0, 0, 0}, without{0, 0, 0};
@@ -148,7 +149,7 @@ private:
     struct LightSum {
         Eigen::Vector3d light{0, 0, 0}, far{0, 0, 0};
         double weights = 0;
-        double squares = 0;  // sum of squared luminances of light / far, without weights
+        double squares = 0;  // sum of (luminance of the quotient light / far)^2, unweighted
 
         void add(double weight, const Eigen::Vector3f& light, const Eigen::Vector3f& far);
         [[nodiscard]] Eigen::Vector3f relative() const;
@@ -204,8 +205,8 @@ private:
         return (block.begun.load(std::memory_order_relaxed) >> i & 1U) != 0 ? block.pixels[i]
                                                                             : kNothing;
     }
-    /// Returns the pixel's index in the sequence of all blocks. Pixels of a tile lie together in
-    /// sampling order, so that a sparsely sampled tile uses few blocks.
+    /// Returns the index of the pixel's data, counted through all blocks. The pixels of a tile lie
+    /// together, in sampling order, so that a sparsely sampled tile uses few blocks.
     [[nodiscard]] std::size_t placeOf(std::size_t pixel) const;
     [[nodiscard]] Pixel& begun(std::size_t pixel);
 

@@ -98,9 +98,10 @@ Film::Resolved Film::resolvedFrom(const LightPixel& light, std::size_t pixel,
     const bool mixed = !layered && !isWhole(p);
     Resolved out = resolved(p, mixed ? shown(p, exposure) : shown(m, exposure));
     out.light = words;
-    // A layered picture shows the surface at the pixel's centre. On the shadow catcher, its shadow
-    // may come from neighbouring pixels only, while all samples of the pixel itself hit an object.
-    // Then resolved() has returned this object's hit.
+    // In a layered picture (see RenderedPicture), a pixel shows only the surface at its centre. If
+    // this is the shadow catcher, the filter may have taken the shadow from neighbouring pixels
+    // only: all samples of the pixel itself hit an object. Then resolved() has returned this
+    // object's hit.
     const bool onCatcher = light.id == kCatcherId && p.seen.hit.id == kCatcherId;
     if (layered && onCatcher && out.hit.id != 0) out.hit = p.seen.hit;
     return out;

@@ -10,9 +10,9 @@ namespace mfar {
 namespace {
 
 constexpr float kNearest = 1e-3F;
-// A pixel shows the same surface as a given point if it keeps two limits. Its surface point is at
-// most kOffPlane times the depth away from the tangent plane of the given point. The cosine of the
-// angle between both normals is at least kSameBend.
+// A pixel shows the same surface as a given point if two conditions hold: its surface point is less
+// than kOffPlane times its depth away from the tangent plane of the given point, and the cosine of
+// the angle between the normals of the two points is at least kSameBend.
 constexpr float kOffPlane = 0.01F, kSameBend = 0.9F;
 constexpr float kLeastWeight = 0.1F;
 // The weight of a specular lobe of width alpha falls to 1/e when the eye moves by the angle

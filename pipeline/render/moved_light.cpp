@@ -11,15 +11,15 @@ namespace {
 
 // Smaller motions count as no motion [rad], [m].
 constexpr double kLeastTurn = 1e-5, kLeastWay = 1e-6;
-// The same for the motion of two objects relative to each other, which has rounding errors [rad],
-// [radii].
+// Smaller motions of two objects relative to each other count as no motion [rad], [radii]. They are
+// computed with larger rounding errors.
 constexpr float kLeastRelativeMotion = 1e-3F;
 // Assumed standard deviation of a single sample, relative to the light.
 constexpr float kNoise = 0.5F;
 // The light that a moved object receives from lights and objects at rest is assumed to change by
 // this share if the object moves by its radius or turns by a radian.
 constexpr float kOwnChange = 0.5F;
-// A shadow of the sun is expected up to this angle outside of the object's ball [rad].
+// The sun's shadow is expected up to this angle outside of the ball around an object [rad].
 constexpr float kPenumbra = 0.03F;
 constexpr float kLeastLight = 1e-6F;
 
@@ -132,8 +132,8 @@ float MovedLight::diffuseChange(std::span<const Ball> balls, const Eigen::Vector
         const float glow = ball.glow * std::max(before.sine * before.sine, now.sine * now.sine);
         const Blocked was = blocked(before, normal), is = blocked(now, normal);
         sum += fresh * (std::max(was.sky, is.sky) + glow);
-        // The sun is visible or hidden as a whole. `fresh` is the share of the shadow's area where
-        // that changes, so its root is the RMS change.
+        // At a point, the whole sun is visible or hidden. This changes in the share `fresh` of the
+        // shadow's area, so the RMS change over this area is the root of `fresh`.
         sum += std::sqrt(fresh) * std::max(was.sun, is.sun);
     }
     const float sun = std::max(normal.dot(sun_.towards()), 0.0F) *

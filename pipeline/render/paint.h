@@ -65,9 +65,9 @@ struct SurfaceLight {
     return {a.diffuse.cwiseProduct(b.diffuse), a.specular.cwiseProduct(b.specular)};
 }
 
-/// Packs the light of a surface, multiplied by `exposure`. The specular light is also multiplied by
-/// albedo.full(), and the share albedo.offset / full is packed, because the code that unpacks the
-/// words has only Paint::diffuse and Paint::facing.
+/// Packs the light of a surface, multiplied by `exposure`. The code that unpacks the words knows
+/// Paint::diffuse and Paint::facing, but not Paint::albedo. Therefore, the specular light is also
+/// multiplied by albedo.full(), and the ratio albedo.offset / albedo.full() is packed with it.
 [[nodiscard]] inline LightWords packed(const SurfaceLight& light, const Paint& paint,
                                        float exposure) {
     const float full = paint.albedo.full();

@@ -174,9 +174,9 @@ bool PathIntegrator::survives(Carried& carried, int depth, const PixelSampler& s
 
 void PathIntegrator::addDirect(const Vertex& vertex, Lights& lights, Walk& walk) const {
     Parts& out = walk.out;
-    // A surface's own emission is direct light of the surface before it on the path, and so gets
-    // that surface's depth. At the first surface, only the walk with Lobes::Broad adds the
-    // emission, because the walk with Lobes::Mirrored begins at the same surface.
+    // The emission of this surface is direct light of the preceding surface on the path. So it is
+    // sent with the depth of the preceding surface. At the first surface, only the walk with
+    // Lobes::Broad adds the emission, because the walk with Lobes::Mirrored begins there, too.
     if (!walk.isFirst() || walk.lobes != Lobes::Mirrored)
         out.rest += sent(walk.carried, vertex.point.emission, walk.depth - 1);
     const Arrived arrived = direct(vertex, walk.lobesHere(), lights, walk.world);
@@ -263,8 +263,8 @@ PathIntegrator::OfObject PathIntegrator::ofObject(const RayHit& hit,
                                                   const PixelSampler& sampler) const {
     const Vertex vertex(scene_.objectPoint(hit, direction), -direction.normalized());
     World all{scene_, emitters_, true};
-    // Both walks use the same light samples, so that only one shadow ray is traced for each light
-    // sample.
+    // The walks for broad and for mirrored reflection use the same light samples, so that only one
+    // shadow ray is traced for each light sample.
     Lights lights = sampledLights(sampler, kCameraPairs);
     Sent sent, known;
     float open = 1;
@@ -274,8 +274,8 @@ PathIntegrator::OfObject PathIntegrator::ofObject(const RayHit& hit,
         Sent whole = sky;
         whole += knownSun(vertex, lobes);
         known += whole;
-        // Without light in this walk, the share of unblocked light of the walk before is the best
-        // guess.
+        // If this walk sampled no direct light, its share of unblocked light is unknown. Then the
+        // share of the first walk is used, or 1 in the first walk itself.
         open = unblockedShare(parts.direct, open);
         sent += sum(parts, sunIsKnown_ ? whole : sky, open, sampler.number());
     };

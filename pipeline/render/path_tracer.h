@@ -30,12 +30,12 @@ public:
     PathTracer(const PathTracer&) = delete;
     PathTracer& operator=(const PathTracer&) = delete;
 
-    /// Traces one ray through the centre of each listed pixel, unless done before, and then
-    /// `samples` samples of each. `pixels` holds row-major indices, each only once.
-    /// Threads may trace disjoint pixels of a film at the same time. The result depends neither on
-    /// the threads nor on the distribution of samples over calls.
-    /// Throws std::invalid_argument if the view is invalid, the film's size differs from the
-    /// camera's, or a pixel is outside the film.
+    /// First traces one ray through the centre of each listed pixel, unless an earlier call has
+    /// done so. Then traces `samples` samples of each pixel. `pixels` holds row-major indices, each
+    /// only once. Threads may trace disjoint pixels of a film at the same time. The result depends
+    /// neither on the threads nor on the distribution of samples over calls. Throws
+    /// std::invalid_argument if the view is invalid, the film's size differs from the camera's, or
+    /// a pixel is outside the film.
     void trace(const RenderView& view, std::span<const std::uint32_t> pixels, int samples,
                Film& film, const LightHistory* history = nullptr) const;
 

@@ -31,7 +31,8 @@ struct PathTracerOptions {
     bool operator==(const PathTracerOptions&) const = default;
 };
 
-/// Throws std::invalid_argument. Its message names the first option that is out of range.
+/// Throws std::invalid_argument if an option is out of range. The message names the first such
+/// option.
 void validate(const PathTracerOptions& options);
 
 }  // namespace mfar

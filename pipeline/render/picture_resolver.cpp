@@ -138,8 +138,8 @@ Film::Resolved PictureResolver::filtered(int x, int y) {
     return out;
 }
 
-// Returns the mean of those neighbours of (x, y) that have an even column and an even row and show
-// the shadow catcher.
+// Returns the mean of the neighbours of (x, y) with even column and even row that show the shadow
+// catcher.
 LightPixel PictureResolver::between(int x, int y) const {
     LightPixel out;
     float count = 0, perDepth = 0;

@@ -22,11 +22,11 @@ public:
     /// Begins a picture. Pixels outside `traced` become empty. `film` and `out` must exist until
     /// the picture is complete.
     /// `layered` has an effect only if `filter` is true; see RenderedPicture.
-    /// `memory` must be null or the film. With the film, and if `filter` is true, two things
-    /// differ. First: if a pixel shows a surface but has no samples, the filter's result is stored
-    /// as its carried light, unless it already carries light (Film::remember()). Second: a pixel
-    /// through whose centre no ray was traced shows the mean of those neighbours that show the
-    /// shadow catcher and have an even column and an even row.
+    /// `memory` must be null or the film. If it is the film and `filter` is true, the resolver does
+    /// two more things. First, it stores the filter's result as carried light in each pixel that
+    /// shows a surface, has no samples and carries no light yet (Film::remember()). Second,
+    /// a pixel through whose centre no ray was traced gets the mean of its neighbours with even
+    /// column and even row that show the shadow catcher.
     void begin(const Film& film, const RenderView& view, const PixelRect& traced,
                const Exposure& exposure, bool filter, RenderedPicture& out, Film* memory = nullptr,
                bool layered = false);

@@ -21,10 +21,10 @@ struct RenderedPicture {
     /// Display values (sRGB), premultiplied by coverage. The last byte is the coverage. A shadow is
     /// black with partial coverage.
     std::vector<std::array<std::uint8_t, 4>> colour;
-    /// Depth [m], along the optical axis, of the first surface at the pixel's centre. If no surface
-    /// is there, or only a part of the shadow catcher whose light no object changes, it is the
-    /// depth of the nearest object that a sample hit, or without such an object, of the nearest hit
-    /// on the catcher. 0: the pixel is empty.
+    /// Depth [m], along the optical axis, of the first surface at the pixel's centre. A shadow
+    /// catcher does not count there if no object changes its light. If there is no surface, it is
+    /// the depth of the nearest object that a sample hit. If no sample hit an object, it is the
+    /// depth of the nearest hit on the catcher. 0: the pixel is empty.
     std::vector<float> depth;
     std::vector<std::uint8_t> id;  ///< SceneObject's number or kCatcherId; 0: the pixel is empty
     /// Light on each pixel's object without the object's paint. Empty if the renderer does not

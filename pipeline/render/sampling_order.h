@@ -27,7 +27,6 @@ constexpr std::uint32_t evenlySpread(std::uint32_t rank) {
     return (rank & 0x03) << 4 | (rank & 0x0c) | (rank & 0x30) >> 4;
 }
 
-/// Rank of pixel (x, y) in the tile's sampling order.
 constexpr std::uint32_t rankOf(int x, int y) {
     return evenlySpread(mortonCode(x, y));
 }

@@ -19,7 +19,8 @@ SunLight::SunLight(const std::optional<Sun>& sun) {
 }
 
 LightSample SunLight::sample(const Eigen::Vector2f& u) const {
-    // Lambert's azimuthal projection maps a disc onto the spherical cap and preserves area.
+    // The inverse of Lambert's azimuthal projection maps a disc onto the spherical cap and
+    // preserves area.
     const Eigen::Vector2f p = discPoint(u);
     const float d2 = chord2_ * p.squaredNorm();
     const Eigen::Vector2f side = p * std::sqrt(chord2_ * (1 - d2 / 4));

@@ -55,9 +55,9 @@ SurfaceScatter::SurfaceScatter(const SurfaceLook& look, const Eigen::Vector3f& w
     const float specular = reflectance_.mirrored.mean();
     const float wide = manyfold.mean() * passedOut_.manyfold +
                        (1 - metallic) * look.baseColour.mean() * passedOut_.diffuse;
-    // If the peak of the mirrored lobe is lower than the broad lobes, fewer samples are drawn from
-    // the mirrored lobe, and more from the broad lobes, which cover the mirrored directions as
-    // well. A few samples of the mirrored lobe alone would be distributed unevenly.
+    // A few samples of the mirrored lobe would be distributed unevenly. So if its peak is lower
+    // than the broad lobes, fewer samples are drawn from it and more from the broad lobes, which
+    // include the mirrored directions.
     const float height = fresnel(wo_.z()).mean() / (4 * alphaOf(roughness_) * alphaOf(roughness_));
     specularShare_ =
         std::min(specular / (specular + wide) * std::min(1.0F, height / wide), kMostSpecular);

@@ -33,7 +33,7 @@ enum class Lobes { Both, Broad, Mirrored };
 /// Shares of light that a surface sends to the eye. `mirrored` is for light in the mirrored lobe;
 /// `white` and `manyfold` are for uniform light from the hemisphere.
 struct Reflectance {
-    float white = 1;
+    float white = 1;  ///< share that is reflected diffusely, if the diffuse paint is white
     /// Share of the light that is reflected by several microfacets, one after the other.
     Eigen::Vector3f manyfold{0, 0, 0};
     Eigen::Vector3f mirrored{0, 0, 0};
