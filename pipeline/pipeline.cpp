@@ -301,7 +301,7 @@ void Pipeline::State::tellReplaced() {
 
 void Pipeline::State::drawDetail(const VideoFrame& frame, const TileWork& work,
                                  const Match* match) {
-    // Mode Blend enlarges in another way and weighs by confidence, which changes between cells.
+    // Both skips are off in mode Blend: it enlarges in another way and weighs by the confidence.
     const bool blends = quality.mode == SuperResMode::Blend;
     const DetailOptions how{quality.mode, quality.cubic, options.skips.enlargedTiles && !blends,
                             options.skips.plainTiles && !blends,

@@ -26,16 +26,16 @@ namespace mfar {
 
 struct PipelineOptions {
     SuperResMode mode = SuperResMode::Detail;
-    /// Size of the output picture; 0x0 means Pipeline::fullSize(). If it is smaller than the still,
-    /// each output pixel averages all still pixels of its area.
+    /// Size of the output picture; 0x0 means Pipeline::fullSize(). For an output that is much
+    /// smaller than the still, the still is reduced first, see stillFor().
     Size output;
     /// True: unchanged tiles keep their pixels. False: every tile is computed in each frame.
     bool skipUnchanged = true;
     Flow2dOptions flow2d{};
     EpipolarOptions epipolar{};
     DepthOptions depth{};
-    /// True: depth is measured in the whole picture, for evaluation and for the preview. False: it
-    /// is measured only where a virtual object may be occluded.
+    /// True: depth is measured in the whole picture, for evaluation and the demo. False: it is
+    /// measured only where a virtual object may be occluded.
     bool depthEverywhere = false;
     SkipOptions skips{};
     /// The engine of each step. A GL context must be current if a step uses GLES. For setObjects(),
@@ -46,9 +46,10 @@ struct PipelineOptions {
 };
 
 /// Makes a high-resolution picture from each video frame and the still. The constructor allocates
-/// the memory that every frame needs. The first object causes the allocation of memory for the
-/// depth measurement. The first frame or still with a pose starts a thread that creates the
-/// epipolar search; setStill() with a pose waits for this thread.
+/// the memory that every frame needs. The memory for the depth measurement is allocated when the
+/// first virtual object is set. The epipolar search is created in a thread of its own, which starts
+/// at the first still with a pose, or at the first frame with a pose if Quality::alongLines is true
+/// and the mode is not Off. setStill() with a pose waits until it is created.
 ///
 /// All calls must come from one thread. If a step runs on GLES, the GL context must be current in
 /// this thread. Only functions that set something up throw GlError, or std::invalid_argument for
@@ -83,9 +84,9 @@ public:
     /// are used from the next still on, because a new still changes the picture anyway. If there is
     /// no still, they are used at once.
     void setFilters(std::shared_ptr<const FilterBank> filters);
-    /// Sets the object that receives every still when it was first matched and when a new still
-    /// replaces it, as long as learned filters enlarge the video. Null: no listener. The listener
-    /// must outlive the pipeline.
+    /// Sets the listener. It receives each still twice: after the first match, and when a new still
+    /// replaces it. It is called only while learned filters enlarge the video. Null: no listener.
+    /// The listener must outlive the pipeline.
     void setMatchListener(MatchListener* listener);
     /// Sets the importer that lets the GPU read camera memory without a copy. Null: every picture
     /// is uploaded. The importer must outlive the pipeline.
@@ -135,7 +136,7 @@ public:
     /// if there was never an object and `depthEverywhere` is false.
     [[nodiscard]] const InverseDepthField& inverseDepth() const;
 
-    // The functions below read results back, for tests, evaluation and the preview. They wait for
+    // The functions below read results back, for tests, evaluation and the demo. They wait for
     // the GPU. With the GLES engine, some numbers in FrameResult::stats are those of the run before
     // the last one (see FrameStats); readStats() returns all numbers of the last run.
     [[nodiscard]] FrameStats readStats() const;
@@ -161,9 +162,9 @@ private:
 };
 
 /// Returns the dense 2-D flow from picture a to picture b, for evaluation and tests. The pictures
-/// must have the same size, at least 16x16 pixels, and may have any format; otherwise throws
-/// std::invalid_argument. Each pixel p of a has two successive numbers, x and y: b shows at
-/// p + (x, y) what a shows at p. Needs a current GL context.
+/// may have any format. Throws std::invalid_argument if a picture is invalid (requireSound()) or
+/// smaller than 16x16 pixels, or if the sizes differ. Each pixel p of a has two successive numbers,
+/// x and y: b shows at p + (x, y) what a shows at p. Needs a current GL context.
 [[nodiscard]] std::vector<float> flowBetween(const ImageView& a, const ImageView& b);
 
 }  // namespace mfar

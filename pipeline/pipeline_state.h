@@ -22,8 +22,8 @@ namespace mfar {
 inline constexpr float kOffLine = 3;
 
 /// The data that Pipeline keeps between frames. Data of a single frame is passed in arguments and
-/// return values instead. The member functions that process frames are in pipeline.cpp, the others
-/// in pipeline_objects.cpp and readback.cpp.
+/// return values instead. The member functions for depth and virtual objects are in
+/// pipeline_objects.cpp, all others in pipeline.cpp.
 struct Pipeline::State {
     State(const StereoRig& rig, const PipelineOptions& options);
 

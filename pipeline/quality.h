@@ -14,7 +14,8 @@ enum class SuperResMode {
 };
 
 /// Settings that trade time per frame for accuracy. The defaults are the most accurate. The
-/// settings can be changed between frames without additional time, except to mode Blend.
+/// settings can be changed between frames without additional time, except for a change to mode
+/// Blend.
 struct Quality {
     SuperResMode mode = SuperResMode::Detail;
     /// How the video is enlarged in mode Off. True: with Keys' cubic (4x4 pixels). False: with

@@ -45,9 +45,9 @@ std::vector<float> Pipeline::readFlow() const {
     for (int channel = 0; channel < 2; ++channel)
         channelInto(out, 2, channel, *s.newest.lastWeights, channel, video);
     if (!s.newest.lastFlow->errorsGiven) return out;
-    // The flow vector of a cell is accurate to a fraction of a pixel, but is the same for 4x4
-    // pixels. On which side of a depth edge a single pixel lies is known only from the pixel's own
-    // vector, which the epipolar search found.
+    // Flow interpolated between cells is accurate to a fraction of a pixel, but does not show on
+    // which side of a depth edge a pixel lies. The pixel's own vector from the epipolar search
+    // shows this.
     const std::vector<bool> searched = readSearchedTiles();
     const std::vector<float> alongLines = s.epipolar->flow();
     for (int y = 0; y < video.height; ++y)

@@ -45,8 +45,8 @@ struct FrameStats {
     /// Number of tiles that need real depth, because a virtual object may be occluded there. Tiles
     /// that get the depth of an earlier frame count, too (see Quality::depthEvery).
     int depthTiles = 0;
-    /// Number of tiles with a virtual object that need no real depth, because the real surface is
-    /// known to lie behind the object.
+    /// Number of tiles of Pipeline::objectsRegion() that need no real depth, because the real
+    /// surface is known to lie behind the objects.
     int depthTilesSkipped = 0;
     bool objectsInView = false;
     bool objectsHidden = false;  ///< nothing virtual was drawn, because real things hide it

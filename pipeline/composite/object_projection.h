@@ -17,11 +17,11 @@ struct SurfaceExtent {
     double nearest = std::numeric_limits<double>::max();
     double farthest = 0;
 
-    /// Extends the bounds so that they contain a point. The point must not lie in front of the near
-    /// plane and is given as (w u, w v, w), see LensProjection.
+    /// Extends the bounds so that they contain a point. The point must not be nearer to the camera
+    /// than the near plane. It is given as (w u, w v, w), see LensProjection.
     void extend(const Eigen::Vector3d& point);
     /// Extends the bounds so that they contain the part of the line from a to b that lies beyond
-    /// the near plane. Both ends are given as (w u, w v, w).
+    /// the near plane. Both ends are given as (w u, w v, w), see LensProjection.
     void extendBySegment(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
 };
 

@@ -11,7 +11,7 @@
 namespace mfar {
 namespace {
 
-// Planes beside a measured surface have small triangles, so that the gap between both is small.
+// Planes beside a measured surface have small triangles, so that the gap to the surface is small.
 constexpr int kUnseenCells = 32;
 // Distance between vertices [video px]. A finer grid would only show the noise of the depth.
 constexpr int kStep = 4;

@@ -178,8 +178,8 @@ WorkPlan::Redraw VirtualView::redraw() const {
 }
 
 PixelRect VirtualView::staleTiles() const {
-    // While all objects are hidden, none is drawn. Their tiles still count as stale, because the
-    // real things in front of them may move away.
+    // While the real scene hides all objects, none is drawn. Their tiles still count as stale,
+    // because the real things in front of the objects may move away.
     const bool keepsAll = !mustRedraw() && !hidden_;
     if (keepsAll || region_.empty()) return drawn_;
     return around(drawn_, tilesAround(region_));

@@ -30,9 +30,9 @@ public:
     void forget();
     /// Moves the known depths to a camera at this pose. `seconds` is the time since the last call.
     /// If several points move to one pixel, the nearest is kept (z-test). The variance grows with
-    /// the duration of the motion. Motions too small to be visible move nothing until their sum is
-    /// visible, so a camera at rest loses no depth. An invalid pose (see soundMotion()) discards
-    /// all depths.
+    /// the duration of the motion. Small motions of the camera are summed, and the depths move only
+    /// when the sum is visible. So a camera at rest loses no depth. An invalid pose (see
+    /// soundMotion()) discards all depths.
     void predict(const RigidTransform& T_world_video, double seconds);
     /// Fuses the depth of a frame, measured within `where` at the pose of the last predict(). If a
     /// measurement agrees with the known depth of its pixel, the two are averaged. If two

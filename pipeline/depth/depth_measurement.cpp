@@ -74,8 +74,8 @@ void DepthMeasurement::land(const EpipolarSearch& search, const Eigen::Matrix3f&
             const auto count = static_cast<std::size_t>(where.x1 - where.x0);
             simd::landRow(lens_.lens(), lens_.size(), motion, lens_.raysX().data() + i,
                           lens_.raysY().data() + i, s_.data() + i, count, landing_.data() + i);
-            // landRow() treats the other picture as being as large as the video. The picture may
-            // cover less.
+            // landRow() assumes that the other picture is as large as the video, but it may be
+            // smaller. dropUnseen() removes the points outside of it.
             search.dropUnseen(where.x0, y, std::span(s_).subspan(i, count),
                               std::span(landing_).subspan(i, count));
         }

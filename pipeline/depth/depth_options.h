@@ -41,8 +41,8 @@ struct DepthOptions {
 /// Keyframe, Both: a match of the frame with the still, with a keyframe, or with both.
 enum class DepthSource { None, Carried, Still, Keyframe, Both };
 
-/// These functions throw std::invalid_argument. Its message names the first option that is out of
-/// range.
+/// These functions throw std::invalid_argument if an option is out of range. The message names the
+/// first such option.
 void validate(const KeyframeOptions& options);
 void validate(const DepthOptions& options);
 

@@ -72,7 +72,7 @@ void DepthStage::run(const Rows<const std::uint8_t>& luma, const Pose& pose,
             source_ = DepthSource::Still;
         }
         // While the camera rests, a keyframe brings no new evidence, unlike a new still. So the
-        // keyframe may add only unknown depths.
+        // keyframe must not change known depths.
         if (rechecks) fixKnown(where);
         findNeeds(pose, brightness, source_ == DepthSource::Still ? still->unit : 0, where);
         searchKeyframe(luma, pose);
@@ -104,9 +104,9 @@ bool DepthStage::isMeasured(const PixelRect& where) const {
     return !isLost_ && around(measuredWhere_, where) == measuredWhere_;
 }
 
-// Fixes the known depths, so that a measurement adds only unknown ones. Measuring the same view
-// again would repeat the same errors, but the filter would take them for new evidence and reduce
-// the variance.
+// Fixes the known depths, so that the next measurement does not change them. Measuring the same
+// view again would repeat the same errors, but the filter would take them for new evidence and
+// reduce the variance.
 void DepthStage::fixKnown(const PixelRect& where) {
     const InverseDepthField& field = filter_.field();
     fixed_.assign(field.inverseDepth.size(), 0);
@@ -142,8 +142,8 @@ void DepthStage::findNeeds(const Pose& pose, double brightness, double stillBase
     }
 }
 
-// Finds the part with the largest uncertainty. Measures the rectangle around this part and around
-// all other parts for which the same keyframe was chosen.
+// Measures depth with the keyframe that findNeeds() chose for the most uncertain part of the
+// picture. The measured rectangle contains all parts for which this keyframe was chosen.
 void DepthStage::searchKeyframe(const Rows<const std::uint8_t>& luma, const Pose& pose) {
     if (needs_.empty()) return;
     const auto knowsMore = [](const Need& a, const Need& b) { return a.share < b.share; };

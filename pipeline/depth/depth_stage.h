@@ -35,14 +35,15 @@ public:
     void forget();
     /// Must be called when the still changes. Without this call, depth would be measured with the
     /// new still only after the next motion of the camera. While the camera rests, depth is
-    /// measured only once with each still. This measurement therefore replaces the known depth at
-    /// once, in each block of pixels in which it contradicts most of the known depths.
+    /// measured only once with each still, so this measurement must correct wrong depths at once:
+    /// in blocks of pixels where it contradicts most known depths, it replaces the contradicted
+    /// ones.
     void renew() { isRenewed_ = true; }
     /// Moves the known depth to the pose of this frame and measures depth inside `where`, which may
     /// be empty. `still` is empty if the frame was not matched along epipolar lines.
     void run(const Rows<const std::uint8_t>& luma, const Pose& pose,
              const std::optional<StillSearch>& still, const PixelRect& where);
-    /// Forgets the known depth inside `where`. It is measured again, also if the camera rests.
+    /// Forgets the known depth inside `where`. It is measured again even if the camera rests.
     void forget(const PixelRect& where);
 
     [[nodiscard]] const InverseDepthField& field() const { return filter_.field(); }

@@ -17,13 +17,13 @@ constexpr int kBand = 4;
 // Pixels that are at most this far away along each axis vote on a pixel's depth [px].
 constexpr int kVoteRadius = 10;
 constexpr int kVoters = simd::kVoterStep;
-// A pixel is near a depth edge if the inverse depths that are at most kBand pixels away along each
-// axis differ by more than kJump * (largest of them) + kSigmas * (the pixel's standard deviation).
+// A pixel is near a depth edge if the inverse depths of the pixels within kBand px along each axis
+// differ by more than kJump * (largest of them) + kSigmas * (the pixel's standard deviation).
 constexpr float kJump = 0.08F, kSigmas = 3;
 constexpr float kLikeness = 12;  // colour distance that halves the weight of a vote [grey levels]
-// The voters are divided into a near and a far group. A pixel gets the depth of the group with the
-// larger total weight, but only if this weight is at least kLeastWeight. The weight of a vote is at
-// most 1.
+// The voters (pixels that vote on a pixel's depth) are divided into a near and a far group. The
+// pixel gets the depth of the group with the larger total weight, but only if this weight is at
+// least kLeastWeight. The weight of a vote is at most 1.
 constexpr float kLeastWeight = 0.75F;
 
 static_assert(kBand <= simd::kMostRange);

@@ -13,8 +13,8 @@ struct Flow2dOptions {
     int candidates = 4;
     int steps = 4;  ///< number of Gauss-Newton steps from the best candidate, [0, 16]
     /// Number of rounds in which each cell tries the flow vectors of its neighbours, [0, 8].
-    /// `propagations` applies to the finest pyramid level of the flow from video to still,
-    /// `coarsestPropagations` to the coarsest level.
+    /// `propagations`: at the finest pyramid level of the flow from video to still.
+    /// `coarsestPropagations`: at the coarsest level. Other levels have fixed numbers of rounds.
     int propagations = 0;
     int coarsestPropagations = 4;
     int planeFits = 2;  ///< number of rounds of plane fits (flow_filter.comp), [0, 2]
@@ -22,9 +22,9 @@ struct Flow2dOptions {
     bool operator==(const Flow2dOptions&) const = default;
 };
 
-/// Options of the epipolar search. Two things are not options. The number of candidates (labels)
-/// per pixel is 16, and at the coarsest pyramid level a multiple of 16, because their costs are
-/// processed as vectors of 16 bytes. Costs are aggregated from four directions.
+/// Options of the epipolar search. Two properties are fixed. First, the number of candidates
+/// (labels) per pixel is 16, and at the coarsest pyramid level a multiple of 16, because costs are
+/// processed as vectors of 16 bytes. Second, costs are aggregated from four directions.
 struct EpipolarOptions {
     /// Largest number of pyramid levels, [1, 4]. Levels below full size have at least 60x60 px.
     int levels = 4;
@@ -52,7 +52,8 @@ struct EpipolarOptions {
 [[nodiscard]] Flow2dOptions changed(const Flow2dOptions& now, const Flow2dOptions& wanted);
 [[nodiscard]] EpipolarOptions changed(const EpipolarOptions& now, const EpipolarOptions& wanted);
 
-/// These functions throw std::invalid_argument that names the first option that is out of range.
+/// These functions throw std::invalid_argument if an option is out of range. The message names the
+/// first such option.
 void validate(const Flow2dOptions& options);
 void validate(const EpipolarOptions& options);
 

@@ -17,8 +17,9 @@ using params::LumaLevel;
 /// last level.
 inline constexpr int kLumaSpareWords = 2;
 
-/// Returns the width of a box filter [video px] that blurs as much as the area of a pixel and the
-/// smoothing by kLumaSmoothing together. (Both blurs have the same variance.)
+/// Returns the width of a box filter [video px] that blurs as much as two other filters together:
+/// the mean over the area of a pixel, and the smoothing by kLumaSmoothing. (The variance of the box
+/// is the sum of the variances of these two filters.)
 [[nodiscard]] double lumaBoxWidening();
 
 /// Returns the layout of the pyramid levels for a picture of `size`, finest first. Each level has

@@ -99,8 +99,9 @@ ElementView elementsIn(const GltfDocument& document, int bufferView, std::uint64
     return wanted;
 }
 
-/// Returns the accessor with this index. Throws ModelError if its elements do not have `components`
-/// components, or if it has no elements or more than `most`.
+/// Returns the accessor with this index. Throws ModelError if the index or the componentType is
+/// invalid, if its elements do not have `components` components, or if it has no elements or more
+/// than `most`.
 const Accessor& checkedAccessor(const GltfDocument& document, int index, int components,
                                 std::size_t most, std::string_view place) {
     const Accessor& accessor = document.at(document.gltf.accessors, index, place);

@@ -35,8 +35,8 @@ struct ModelLimits {
     /// Keyframes of all tracks together. A track counts when it is read, and once more for each
     /// moving node that it moves, directly or because it moves an ancestor of the node.
     std::size_t keyframes = 1'000'000;
-    /// Largest absolute value of a coordinate after all transforms, and of each coordinate in an
-    /// animation [m, m/s].
+    /// Largest absolute value of each coordinate of a vertex after all transforms [m], and of each
+    /// coordinate of a moving node's translations [m] and their tangents [m/s].
     float farthest = 10'000;
 };
 

@@ -12,7 +12,7 @@ public:
     explicit LightFollower(const std::optional<Sun>& sun) : sun_(sun) {}
 
     /// Must be called for each frame. Passes at most two frames a second to LightEstimator::add().
-    /// Returns the light after each of these frames that was added, otherwise nothing.
+    /// Returns the new light if LightEstimator::add() used this frame, otherwise nothing.
     std::optional<Lighting> follow(const ImageView& frame, const CameraModel& camera,
                                    const RigidTransform& T_world_camera, Timestamp time);
 

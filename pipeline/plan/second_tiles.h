@@ -22,8 +22,8 @@ public:
     static constexpr float kLack = 0.1F;
     /// Smallest gain in mean weight that is worth the time of matching with the second still.
     static constexpr float kGain = 0.05F;
-    /// If a match with the second still gains less than kGain in a tile, the tile is not a
-    /// candidate (see choose()) in this number of later frames in which it would be one.
+    /// If a match with the second still gains less than kGain in a tile, choose() skips the tile
+    /// the next kRest times that it would be a candidate.
     static constexpr int kRest = 8;
 
     struct Match {
@@ -60,8 +60,8 @@ private:
     TileWork work_;
     std::vector<Candidate> candidates_;
     std::vector<bool> showed_;
-    // For each tile: number of the next frames in which it is not matched with the second still
-    // although it would be a candidate.
+    // For each tile: for how many more frames it is not matched with the second still, although it
+    // would be a candidate.
     std::vector<std::uint8_t> rest_;
     int matched_ = 0, shownByNewest_ = 0, gained_ = 0;
 };

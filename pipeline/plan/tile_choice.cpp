@@ -15,8 +15,9 @@ constexpr int kTileBlock = 8;
 // value by more than kSignificant standard deviations.
 constexpr double kSpread = 0.27;
 constexpr double kSignificant = 5;
-// An excess of TileEnergy::means below this fraction of its value for noise never counts as a
-// change. Rounding to 8 bits is not white noise and can cause such excesses.
+// An excess of TileEnergy::means over its expected value never counts as a change if it is below
+// this fraction of the expected value. Rounding to 8 bits is not white noise and can cause such
+// excesses.
 constexpr double kLeast = 0.03;
 
 constexpr int kStructureBins = 84;  // a bin is a quarter of an octave

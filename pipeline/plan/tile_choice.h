@@ -16,15 +16,15 @@ struct TileEnergy {
     double pixels = 0, means = 0, bends = 0;
 
     void add(const TileMeasure& tile);
-    /// For noise alone, `means` is about `grain` * `pixels`. Returns true if it is significantly
-    /// larger. This finds changes that are too weak to be found in one tile, such as a moving
-    /// smooth slope of brightness.
+    /// Returns true if the sum `means` is significantly larger than `grain` * `pixels`, its
+    /// expected value with noise alone. This finds changes that are too weak to be found in one
+    /// tile, such as a moving smooth slope of brightness.
     [[nodiscard]] bool drifted(double grain) const;
 };
 
 /// Marks all tiles of a block of 8x8 tiles as changed if TileEnergy::drifted() is true for the
 /// block. Marks all tiles if it is true for the whole picture. `tiles` is row-major with `columns`
-/// tiles per row. Returns the sums over the tiles that were not marked before the call.
+/// tiles per row. Returns the TileEnergy of the tiles that were not marked before the call.
 TileEnergy markDrifted(std::span<TileMeasure> tiles, int columns, double grain);
 
 /// Marks a tile as changed if, in an adjacent tile, a cell at the common border certainly changed.
@@ -33,9 +33,9 @@ void markBeside(std::span<TileMeasure> tiles, int columns);
 
 /// Chooses the tiles that are matched with the still. These are the tiles whose structure exceeds
 /// the noise, and the neighbours of such tiles. (The weight of a cell depends on pixels beyond its
-/// tile.) If there are more of them than `most`, the tiles with the most structure are chosen, and
-/// of tiles with about the same structure those that are nearest to the centre of the picture.
-/// Tiles of the last choice are preferred, so that noise does not make detail appear and vanish.
+/// tile.) If more than `most` tiles qualify, those with the most structure are chosen. Of tiles
+/// with about the same structure, those nearest to the centre of the picture are chosen. Tiles of
+/// the last choice are preferred, so that noise does not make detail appear and vanish.
 class StructuredTiles {
 public:
     /// A tile has structure if its TileMeasure::structure exceeds `none`, or if `none` is negative.

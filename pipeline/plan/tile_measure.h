@@ -10,10 +10,11 @@ namespace mfar {
 
 /// Measurements that decide whether a tile differs from the video with which it was last drawn.
 struct TileMeasure {
-    /// True if the tile certainly changed. This is so if the mean difference or the mean absolute
-    /// difference of one of its cells exceeds the noise, or if the mean and the slopes of the whole
-    /// tile's difference together exceed it. The colour channel with the largest difference counts.
-    /// markDrifted() and markBeside() can set `changed` later.
+    /// True if the tile's video certainly changed since the tile was last drawn. It changed if the
+    /// mean difference or the mean absolute difference of one of its cells exceeds the noise, or if
+    /// the mean and the slopes of the whole tile's difference together exceed the noise. The colour
+    /// channel with the largest difference counts. markDrifted() and markBeside() can set `changed`
+    /// later.
     bool changed = false;
     /// One bit for each cell, row-major: 1 if the cell certainly changed. Its mean absolute
     /// difference then exceeds ChangeBounds::absolute, or its mean difference exceeds
@@ -25,11 +26,11 @@ struct TileMeasure {
     /// result is the sum of squares of the rest, averaged over 9 positions in the tile [grey
     /// levels^2].
     float structure = 0;
-    /// Three mean squares, computed from the change of luma since the tile was last drawn. They are
-    /// scaled so that white noise makes them equal. `pixels`: of the twists of 2x2 pixels. `means`:
-    /// of the means of 2x2 pixels. `bends`: of the twists of 2x2 such means. Four values a b above
-    /// c d have the twist (a - b - c + d) / 2. Slopes do not change it (after Immerkaer, Fast noise
-    /// variance estimation, 1996).
+    /// Mean squares of three quantities that are computed from the change of luma since the tile
+    /// was last drawn. `pixels`: twists of 2x2 pixels. `means`: means of 2x2 pixels. `bends`:
+    /// twists of 2x2 such means. The twist of four values a b above c d is (a - b - c + d) / 2;
+    /// slopes do not change it (after Immerkaer, Fast noise variance estimation, 1996). The three
+    /// mean squares are scaled so that they are equal for white noise.
     float pixels = 0, means = 0, bends = 0;
 };
 

@@ -34,9 +34,10 @@ constexpr double kGrainFalls = 0.2, kGrainAtRest = 0.05, kGrainMoving = 1.0 / 25
 // The picture counts as at rest if more than this share of the tiles is unchanged. Noise may mark
 // some tiles as changed.
 constexpr double kRestingShare = 0.75;
+// Largest grain, see grain().
 constexpr double kMaxGrain = 8;
-// Largest grain that is accepted from one frame. The grain is a ratio. Without noise, its divisor
-// is almost 0.
+// Larger measured values of the grain are reduced to this. The grain is a quotient of two
+// variances, and in a picture without noise the divisor is almost 0.
 constexpr double kMostRatio = 64;
 constexpr int kNoiseBins = 64;  // number of bins of 1/16 grey level
 

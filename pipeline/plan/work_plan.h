@@ -16,7 +16,7 @@ namespace mfar {
 
 /// Decides what a frame has to compute. On the CPU, it compares each tile of the video with the
 /// video from which the tile was last drawn. For a frame without any changed tile, this comparison
-/// is the only work.
+/// is almost the only work.
 ///
 /// A tile is drawn again when noise does not explain its difference. In addition, the differences
 /// are summed over the unchanged tiles of each block of 8x8 tiles, and of the whole picture. If a

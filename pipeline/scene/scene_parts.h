@@ -7,7 +7,6 @@
 
 namespace mfar {
 
-/// The meshes that the object shows.
 [[nodiscard]] inline auto meshesOf(const SceneObject& object) {
     return object.model->meshes |
            std::views::filter([part = object.part](const Mesh& m) { return m.part == part; });
@@ -22,7 +21,6 @@ namespace mfar {
 /// Returns the objects' poses T_world_object at this time.
 [[nodiscard]] std::vector<RigidTransform> posesAt(const Scene& scene, Timestamp time);
 [[nodiscard]] Scene withPoses(const Scene& scene, const std::vector<RigidTransform>& poses);
-/// Returns the scene with its objects at their poses at this time.
 [[nodiscard]] Scene sceneAt(const Scene& scene, Timestamp time);
 
 }  // namespace mfar

@@ -48,16 +48,20 @@ struct PixelState {
 using PixelStates = std::function<PixelState(std::uint32_t)>;
 
 /// Divides the rendering of a picture into portions for several threads.
-/// Tiles have 8x8 pixels. Tiles, and the pixels in a tile, are in Morton order (G. M. Morton, "A
-/// computer oriented geodetic data base", 1966), so that rays traced together hit the same objects.
-/// The number of samples of a pixel depends only on the PixelStates in its tile, and not on the
-/// threads. It depends on the Slicing only because Slicing::Time can omit the first samples.
+///
+/// Tiles have 8x8 pixels. They are in Morton order (G. M. Morton, "A computer oriented geodetic
+/// data base", 1966), so that rays traced together hit the same objects. For the order of the
+/// pixels in a tile, see sampling_order.h. The number of samples of a pixel depends on the options
+/// and on the PixelStates in its tile, but not on the threads.
+///
 /// Slicing::Time begins with a turn that traces a ray through every pixel's centre. Pixels whose
 /// error is small after this turn get no samples. The next three turns take the first samples: in
-/// one pixel of 16, in one of 4, and in all pixels. The third of these turns omits tiles whose
-/// pixels are all untouched (see PixelState). With a threshold of 0, nothing is omitted.
-/// Only one thread at a time may call it. Only begin() allocates memory; with Slicing::Spatial,
-/// next() does, too.
+/// one pixel of 16, in one of 4, and in all pixels. If all pixels of a tile are untouched (see
+/// PixelState) after the second of these three turns, the tile gets no more samples. With a
+/// threshold of 0, no samples are omitted.
+///
+/// Only one thread at a time may call this class. With Slicing::Time, only begin() allocates
+/// memory. With Slicing::Spatial, begin() and next() allocate memory.
 class Slices {
 public:
     explicit Slices(const SliceOptions& options);
@@ -78,11 +82,12 @@ public:
 
     void done(const Slice& slice, const PixelStates& states);
 
-    /// True if no portion is being traced, and every pixel has samples() samples or needs no more.
-    /// The picture may then be shown. Also true before the first turn.
+    /// True after each turn (a pass over the pixels): no portion is being traced, and every pixel
+    /// has samples() samples or needs no more. The picture may then be shown. Also true before the
+    /// first turn.
     [[nodiscard]] bool turnComplete() const;
-    /// Samples per pixel after the last complete turn. Pixels that needed no more have fewer.
-    /// Slicing::Spatial has only one turn.
+    /// Samples per pixel after the last complete turn. Pixels that needed no more have fewer. A
+    /// turn is one pass over the picture; Slicing::Spatial has only one.
     [[nodiscard]] int samples() const { return samples_; }
     [[nodiscard]] int turns() const { return turnComplete() ? turn_ : std::max(turn_ - 1, 0); }
     [[nodiscard]] bool finished() const { return unfinished_ == 0; }
@@ -97,8 +102,9 @@ private:
         std::uint32_t first = 0, count = 0;
         /// Number of pixels that get more samples. They come first in the range.
         std::uint32_t active = 0;
-        /// Number of active pixels handed out in this round. A round gives each active pixel the
-        /// samples of one turn.
+        /// Number of active pixels handed out in this round. A round gives samplesPerTurn samples
+        /// to each active pixel. With Slicing::Time, the first round with samples takes three
+        /// turns.
         std::uint32_t handed = 0;
         std::uint32_t most = 0;  ///< value of `handed` at which the current turn is complete
         std::uint32_t out = 0;   ///< number of portions being traced

@@ -36,7 +36,8 @@ constexpr int kLookTurn = 1;
 // shadow is assumed to move as far as the object.
 constexpr double kShadowPixels = 1;
 // While an object moves, the next picture does not begin before the shown picture has this number
-// of complete turns. By then, a quarter of the pixels has a sample.
+// of complete turns (passes over the pixels, see Slices). By then, a quarter of the pixels has a
+// sample.
 constexpr int kMovingTurns = 3;
 // Light on the shadow catcher is traced again if moving objects may have changed it by more than
 // this share (see MovedLight::diffuseChange()).

@@ -34,18 +34,18 @@ enum class TracedStep : unsigned char {
 struct TracedPolicy {
     ViewLimits limits;
     /// Samples per pixel that the next picture needs to replace the shown picture. Fewer suffice if
-    /// the shown picture has other objects or a very different view, and as `soon` allows. If the
-    /// camera rests, the next picture also needs as many as the shown picture. Four filtered
-    /// samples were compared with 16 unfiltered samples. Their root mean square errors [grey levels
-    /// of 255] were 3.2 and 3.3 on one scene, 4.4 and 3.1 on another scene.
+    /// the shown picture has other objects or a very different view, or if `soon` permits it. If
+    /// the camera rests, the next picture also needs as many as the shown picture. Four filtered
+    /// samples gave root mean square errors of 3.2 grey levels (of 255) on one scene and 4.4 on
+    /// another; 16 unfiltered samples gave 3.3 and 3.1.
     int samplesToReplace = 4;
     bool filter = true;   ///< true: noise is filtered when a picture is converted to be shown
     bool history = true;  ///< true: a new picture begins with the light of the shown picture
     /// True: the next picture begins when viewChange() since the shown picture reaches kSoon, which
     /// is below 1. If it reuses the shown picture's light, `filter` is true and the camera moves,
     /// it can also be shown before every pixel has a sample. False: the next picture begins when
-    /// viewChange() reaches 1. Must be false if the caller shows the colours of the picture and not
-    /// just its light.
+    /// viewChange() reaches 1. A caller that shows the colours of the picture, and not just its
+    /// light, must set `soon` to false.
     bool soon = true;
     bool operator==(const TracedPolicy&) const = default;
 };

@@ -40,8 +40,7 @@ struct RenderCounters {
     double msPerSample = 0;
     double cpuMs = 0;  ///< processor time since the start, without work done once per scene
     BudgetKept budget;
-    /// Number of finished pictures. Each pixel of a finished picture has a small error or all its
-    /// samples.
+    /// Number of finished pictures, in which no pixel needs more samples.
     std::uint64_t pictures = 0;
     std::uint64_t shown = 0;  ///< number of published pictures, fetched or not
     std::uint64_t holePixels = 0;

@@ -23,8 +23,8 @@ class ViewPredictor {
 public:
     explicit ViewPredictor(const PredictionLimits& limits = {});
 
-    /// Adds the pose at `time`. The measurement restarts if `time` is not later than the last time,
-    /// or is half a second or more later.
+    /// Adds the pose at `time`. If `time` is not later than that of the last pose, or half a second
+    /// or more later, all earlier poses are forgotten.
     void add(const RigidTransform& T_world_camera, Timestamp time);
 
     /// Predicts the pose `seconds` after the last pose, within the limits. `distance` is the

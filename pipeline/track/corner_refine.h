@@ -15,8 +15,8 @@ namespace mfar {
 /// fitted to the positions of each edge. The corners are the intersections of these lines.
 ///
 /// Brightness is measured in linear light, because the blur of a lens is symmetric in light but not
-/// in grey levels. Edges measured in grey levels would be up to 0.25 px too far out or in, and all
-/// distances from tags would be wrong accordingly.
+/// in grey levels. Edges measured in grey levels would be up to 0.25 px too far out or in, and the
+/// computed distances of all tags would be wrong.
 class CornerRefiner {
 public:
     /// `gamma` describes the picture's encoding: grey level ~ light^(1 / gamma). For raw values, it

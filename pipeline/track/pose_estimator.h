@@ -57,8 +57,8 @@ public:
     [[nodiscard]] const std::optional<Pose>& raw() const { return raw_; }
     [[nodiscard]] std::optional<Pose> predict(Timestamp t) const { return filter_.predict(t); }
     /// Measures the pose of the video camera at the time of a picture that is not a video frame.
-    /// The filter's prediction helps to choose one of the two solutions. The result is not
-    /// filtered, and does not change the filter.
+    /// The filter's prediction helps to choose one of the two poses from which the tags look nearly
+    /// the same. The result is not filtered, and does not change the filter.
     [[nodiscard]] std::optional<Pose> measure(std::span<const TagObservation> tags,
                                               const CameraModel& camera,
                                               const RigidTransform& T_camera_video,

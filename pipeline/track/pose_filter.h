@@ -37,11 +37,11 @@ public:
     explicit PoseFilter(const PoseFilterOptions& options = {});
 
     enum class Outcome {
-        /// The filter (re)started: no earlier pose, a long gap, or a time that is not later than
-        /// the last one.
+        /// The filter (re)started with this pose, because there was no earlier pose, predictions
+        /// had ended (see PoseFilterOptions::bridge), or this pose is not later than the last one.
         Started,
         Accepted,
-        Rejected,  ///< the pose is an outlier, or it, its covariance or its distance is invalid
+        Rejected,  ///< an outlier, or the pose, its covariance or `distance` is invalid
         Jumped     ///< the filter restarted, because several outliers agreed with each other
     };
     /// Adds a measured pose. `distance` is the distance of the camera from the measured tags, in

@@ -25,8 +25,8 @@ struct Estimate {
     double edgeShift = 0;
 };
 
-// True unless the point is behind the camera or beside it, at almost 90 degrees from the optical
-// axis, where no lens sees it.
+// False if the point is behind the camera, or so far beside it (almost 90 degrees from the optical
+// axis) that no lens sees it.
 bool inFront(const Eigen::Vector3d& p) {
     return p.z() > 1e-3 * p.norm();
 }
@@ -85,8 +85,8 @@ std::array<Eigen::Vector2d, 4> outwardsOf(const std::array<Eigen::Vector2d, 4>& 
         const Eigen::Vector2d a = outwardNormal(corners[k] - corners[(k + 3) % 4]);
         const Eigen::Vector2d b = outwardNormal(corners[(k + 1) % 4] - corners[k]);
         // If the two edges at a corner move outwards by 1 px, the corner moves to their new
-        // intersection. At a very flat corner, the intersection is unstable, and the corner does
-        // not move.
+        // intersection. At a corner with a small angle (below 26 degrees), the intersection is
+        // unstable, and the corner does not move.
         const double flat = 1 + a.dot(b);
         out[k] = flat > 0.1 ? Eigen::Vector2d((a + b) / flat) : Eigen::Vector2d::Zero();
     }

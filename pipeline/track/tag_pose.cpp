@@ -33,8 +33,8 @@ double cross(const Vector2d& a, const Vector2d& b) {
     return a.x() * b.y() - a.y() * b.x();
 }
 
-/// Returns the area of a tag's quad [px^2]. Returns 0 if the quad is too small, or cannot be a tag
-/// seen from its front.
+/// Returns the area of a tag's quad [px^2]. Returns 0 if the quad is too small, is partly outside
+/// the picture, or cannot be a tag seen from its front.
 double usableArea(const TagObservation& tag, const CameraModel& camera, double smallestEdge) {
     const auto& c = tag.corners;
     double area = 0;

@@ -62,10 +62,10 @@ struct TagPoseOptions {
 /// fits all tags best is chosen. Then, tags that contradict it are ignored, and the reprojection
 /// error in distorted pixels is minimised by Levenberg-Marquardt.
 ///
-/// Returns nothing if no tag is usable, or if no pose fits the corners to farthestCorner. A tag is
-/// unusable if a corner is NaN, infinite or outside the picture, if its quad is tiny, not convex,
-/// seen at a grazing angle or seen from behind, or if its size or T_world_tag is invalid. Results
-/// are never NaN. Lengths may have any unit.
+/// Returns nothing if no tag is usable, or if no pose was found whose rms error is at most
+/// farthestCorner. A tag is unusable if a corner is NaN, infinite or outside the picture, if its
+/// quad is tiny, not convex, seen at a grazing angle or seen from behind, or if its size or
+/// T_world_tag is invalid. Results are never NaN. Lengths may have any unit.
 [[nodiscard]] std::optional<CameraPoses> solveTagPose(std::span<const TagObservation> tags,
                                                       const CameraModel& camera,
                                                       const TagPoseOptions& options = {});

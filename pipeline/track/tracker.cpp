@@ -17,8 +17,8 @@ namespace {
 // If the regions around the expected tags cover a larger share of the picture than this, the whole
 // picture is searched instead, which is then as fast.
 constexpr double kWorthwhile = 0.6;
-// Number of frames whose pose the filter must accept before a tag that became the world is kept for
-// ever. A false detection does not stay that long.
+// Without a tag map, the first usable tag becomes the world. If the filter accepts the pose of this
+// number of frames, the tag stays the world for ever. A false detection does not last that long.
 constexpr int kProven = 5;
 
 PixelRect wholeOf(Size size) {

@@ -45,6 +45,7 @@ struct TrackStats {
     int flips = 0;
     int rejected = 0;
     int jumps = 0;
+    // Durations of track(): of the last call, mean and largest.
     double lastMs = 0;
     double meanMs = 0;
     double worstMs = 0;

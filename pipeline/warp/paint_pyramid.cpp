@@ -80,8 +80,8 @@ struct Taps {
     std::array<float, 3> weights;
 };
 
-/// Returns the texels along a side of `side` texels whose weighted mean is texel `i` of a side of
-/// `halfSide` texels.
+/// A row (or column) of `side` texels is reduced to `halfSide` texels. Returns the texels and
+/// weights of the mean that becomes texel `i` of the reduced row.
 Taps tapsOf(int i, int side, int halfSide) {
     const float step = static_cast<float>(side) / static_cast<float>(halfSide);
     const float begin = static_cast<float>(i) * step, end = begin + step;

@@ -9,8 +9,8 @@
 // gles_shaders/params_to_glsl.cmake converts this header to GLSL.
 namespace mfar::params {
 
-/// Special object numbers in packed surfaces (see warp_surface.glsl). kCatcherNumber is the shadow
-/// catcher. kAnyObjectNumber stands for all objects together.
+/// Special object numbers. kCatcherNumber is the shadow catcher in packed surfaces (see
+/// warp_surface.glsl). kAnyObjectNumber selects the colours of all objects when pixels are filled.
 inline constexpr std::uint32_t kCatcherNumber = 255U;
 inline constexpr std::uint32_t kAnyObjectNumber = 254U;
 inline constexpr int kSurfaceNumbers = 256;
@@ -96,17 +96,22 @@ struct alignas(16) FillHoles {
     std::int32_t level;
     std::int32_t levelCount;
     std::int32_t rows, rowsBelow;  ///< rows of this pyramid level and of the next finer level
-    std::int32_t texels;
+    std::int32_t texels;           ///< number of texels of all levels together
 };
 
+/// Parameters of warp_edges.comp and warp_sharpen.comp. The first lists the edge pixels that the
+/// path tracer will render: those that differ most from their neighbours, in kContrastLevels
+/// levels.
 struct alignas(16) RefineEdges {
     PixelBounds bounds;
     std::int32_t width;
     std::int32_t shown;          ///< number of edge pixels with a rendered colour
-    std::int32_t leastContrast;  ///< lower limit of the contrast level of listed pixels
-    std::int32_t mostListed;     ///< upper limit of the number of listed pixels
-    float renderedShare;
-    float listedShare;  ///< upper limit of (listed pixels / object pixels)
+    std::int32_t leastContrast;  ///< pixels with a lower contrast level are never listed
+    /// At most `mostListed` pixels are listed, and at most listedShare * (number of object pixels).
+    /// But all pixels of the highest contrast level are listed, even beyond both limits.
+    std::int32_t mostListed;
+    float renderedShare;  ///< opacity of the rendered colours over the warped ones, [0, 1]
+    float listedShare;
 };
 
 }  // namespace mfar::params

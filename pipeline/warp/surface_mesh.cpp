@@ -69,7 +69,7 @@ bool cut(SurfaceMesh& mesh, float longest, std::size_t most) {
 }
 
 /// A grid cell whose vertices are replaced by one point. Coordinates are relative to the centre of
-/// the mesh's bounding box, so that their differences are exact.
+/// the mesh's bounding box. This keeps rounding errors small, even far from the model's origin.
 class Cell {
 public:
     void add(const Eigen::Vector3f& vertex) {

@@ -12,7 +12,8 @@ namespace mfar {
 
 inline constexpr float kFarthestSurface = 1e6F;  ///< [m]; surfaces farther away are ignored
 
-/// Value of TracedPicture::packed for a pixel with an unknown surface. No object has this number.
+/// Value of TracedPicture::packed for a pixel with an unknown colour (WarpSurface::known is 0). No
+/// object has this number.
 inline constexpr std::uint32_t kUnknownId = 254;
 
 /// The surface shown by a pixel. Shaders read it as a texel.
@@ -54,8 +55,8 @@ struct TracedPicture {
     std::vector<WarpSurface> surface;
     /// z and object number in one word, in the format of warp_surface.glsl.
     std::vector<std::uint32_t> packed;
-    /// A square part of the picture that shows a surface. When the view changes, the tile's point
-    /// that moves farthest in the picture is one of its corners, at the depth `nearest` or
+    /// A part of the picture that shows a surface, at most 16x16 pixels. When the view changes, the
+    /// point that moves farthest in the picture is a corner of the tile, at the depth `nearest` or
     /// `farthest`.
     struct Tile {
         PixelRect pixels;
@@ -67,8 +68,8 @@ struct TracedPicture {
 };
 
 /// Throws std::invalid_argument if the camera or the pose is not finite, a focal length is not
-/// above 0, a side is not from 1 to 16384 px, or an array has the wrong size. Pixels have no
-/// surface if z is not finite, not beyond the near plane, or not below 1000 km.
+/// above 0, a side is not from 1 to 16384 px, or an array has the wrong size. A pixel
+/// has a surface only if its id is not 0, and its z is beyond the near plane and below 1000 km.
 [[nodiscard]] TracedPicture tracedPicture(const RenderedPicture& picture);
 
 /// Divides a partly covered pixel's colour by its coverage and makes it opaque.
@@ -80,8 +81,8 @@ struct TracedPicture {
 
 /// Motion of a traced picture's points from the picture's own view to another view of the layer.
 struct WarpMotion {
-    /// Largest motion of a point [px]. Infinite if a point moves in front of the near plane, or if
-    /// the picture shows a surface and its size differs from the layer's.
+    /// Largest motion of a point [px]. Infinite if a point comes nearer to the camera than the near
+    /// plane, or if the picture shows a surface and its size differs from the layer's.
     double greatest = 0;
     PixelRect bounds;  ///< bounds of the points in the other view
 };

@@ -3,8 +3,9 @@
 namespace mfar {
 
 /// Method to fill pixels of a model that no picture shows (holes). Holes at edges and cracks of one
-/// pixel are always interpolated. Other holes in the shadow catcher are interpolated, except with
-/// None: a shadow is smooth, and a few samples of it would be noisy.
+/// pixel are always interpolated. Holes in the shadow catcher are never rendered, because a shadow
+/// is smooth and a few samples of it would be noisy. They stay empty with None and are interpolated
+/// with every other method.
 enum class HoleFilling {
     None,      ///< leave the pixels empty
     PushPull,  ///< interpolate the pixels from their surroundings
@@ -19,7 +20,8 @@ struct WarpOptions {
     int holeSamples = 4;  ///< samples per pixel, [1, 256]
     /// The warp blurs edges. While the camera rests, edge pixels are rendered individually and
     /// replace the warped ones. This is the upper limit of their number, as a share of the objects'
-    /// pixels, [0, 1]. With 0, or unless rerenders(filling), edge pixels are not rendered.
+    /// pixels, [0, 1]. If it is 0 or rerenders(filling) is false, no edge pixels are
+    /// rendered.
     double sharpenShare = 0.4;
     int sharpenSamples = 40;  ///< samples per edge pixel, [1, 256]
     /// Number of frames over which rendered pixels fade in, [0, 100]. Used only with

@@ -63,9 +63,9 @@ public:
     virtual void dropEdges() = 0;
 
     /// State of each pixel as RGBA8, for tests. R: number of the surface whose colour is unknown.
-    /// G: share of the pixel whose colour is unknown. B: 255 if the surface in R is an object, it
-    /// fills the pixel, and no picture shows it. A: number of the surface that fills the pixel, if
-    /// the whole colour is known.
+    /// G: share of the pixel whose colour is unknown. B: 255 if an object fills the pixel, and no
+    /// picture shows this point of the object; R is then the object's number. A: number of the
+    /// surface that fills the pixel, if the whole colour is known.
     [[nodiscard]] virtual const Field<std::uint32_t>& state() const = 0;
 };
 
