@@ -3,8 +3,8 @@
 // pipeline/enlarge/filter_layout.h. Needs pipeline/engine/params/enlarge.h.
 
 // Returns the bin of an angle a; see Symmetry in pipeline/enlarge/filter_layout.h. `cosine`,
-// `sine`: cosine and sine of 2a, times the same positive factor. `inQuadrant`: number of whole bins
-// between 2a = 0 and the angle that has the cosine |cosine| and the sine |sine|.
+// `sine`: cosine and sine of 2a, times the same positive factor. `inQuadrant`: number of the bin,
+// counted from 2a = 0, in which 2a would be if cosine and sine were both positive.
 int angleBin(float cosine, float sine, int inQuadrant, int bins) {
     bool left = cosine < 0.0, lower = sine < 0.0;
     int bin = left != lower ? bins / 2 - 1 - inQuadrant : inQuadrant;

@@ -13,9 +13,10 @@ vec4 floatsOf(uvec2 v) {
     return vec4(unpackHalf2x16(v.x), unpackHalf2x16(v.y));
 }
 
-// Returns the contribution of a pair of taps to the four sub-pixels of a row: the mean over the
-// filters of both classes, because the stored weights are divided by two. `at`: index of the pair's
-// texel for this row. `taps`: luma differences of the two taps.
+// Returns the contribution of a pair of taps to the four sub-pixels of a row. It is the mean of the
+// contributions by the filters of both classes: they are added, and the stored weights are already
+// divided by two. `at`: index of the pair's texel for this row. `taps`: luma differences of the two
+// taps.
 vec4 pairOf(ivec2 classes, int at, uint taps) {
     uvec4 a = texelFetch(filters, ivec2(at, classes.x), 0), b = texelFetch(filters, ivec2(at, classes.y), 0);
     vec2 steps = unpackHalf2x16(taps);

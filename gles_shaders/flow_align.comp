@@ -41,8 +41,8 @@ uvec2 fetchShort(LumaLevel l, int wx, int y, uint shift) {
 }
 
 // Returns four pixels of the deformed patch, beginning at `first`. The flow changes by dx and dy
-// per pixel. The words are read once for all four pixels, because the deformation moves each of
-// them by less than half a pixel.
+// per pixel. The deformation moves each of the four pixels by less than half a pixel, so the same
+// words of the pyramid (see luma.glsl) suffice for all four.
 vec4 bentRow(LumaLevel l, ivec2 cell, vec2 u, vec2 dx, vec2 dy, vec2 first) {
     const vec4 along = vec4(-1.5, -0.5, 0.5, 1.5);
     vec2 origin = vec2(patchStart(cell, sizeOf(l))) + first;

@@ -4,8 +4,8 @@
 // around each cell. A tile with at least two flagged neighbours (beside, above and below it) counts
 // as flagged too: it may be a part of a moving object without texture, which flow_flag.comp cannot
 // flag.
-// In: flags[] of flow_flag.comp. Out: lists[] = packed positions of the groups of the pyramid
-// level; commands[] = the dispatch command of the pyramid level, initially (0, 1, 1, 0).
+// In: flags[] of flow_flag.comp. Out: lists[] = packed positions of the listed groups; commands[] =
+// the dispatch command of the pyramid level, initially (0, 1, 1, 0).
 #include "tiles.glsl"
 #include "pipeline/engine/params/flow.h"
 

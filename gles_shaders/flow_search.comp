@@ -6,9 +6,9 @@
 // deviations of the patch from its mean). One invocation per cell.
 // Source: Kroeger et al., Fast optical flow using dense inverse search, ECCV 2016, section 2.
 // LISTED: processes only the groups of 4x4 cells in lists[]. The flow along epipolar lines takes
-// the place of the last frame's vector. At the finest pyramid level, a vector off the cell's
-// epipolar line is used only if it fits clearly better (kClearlyLess). The cell's two-way error is
-// then derived from the cost of the match.
+// the place of the last frame's vector. At the finest pyramid level, a vector that is more than
+// kOnLine away from the flow along the epipolar line is used only if it fits clearly better
+// (kClearlyLess). The cell's two-way error is then derived from the cost of the match.
 // Variant: #define LISTED
 // Range: cells -2e4..2e4, -2e4..2e4, 0..2.02, 0..4.2e6
 #include "luma.glsl"

@@ -5,7 +5,7 @@
 
 layout(binding = 0) uniform isampler2D columns;
 layout(binding = 3) uniform isampler2D residuals;
-// One texel per tile, above 0 for tiles with learned filters.
+// One texel per tile: above 0 if learned filters enlarge the tile, else 0.
 layout(binding = 4) uniform sampler2D learnedTiles;
 
 vec4 columnAt(ivec2 p) {

@@ -1,14 +1,14 @@
-// Looks up this output pixel in the still. In a plain tile, position and weight are interpolated
-// between the tile's corners; in other tiles, between the cells. Needs tile_params.glsl.
+// Looks up this output pixel in the still. Position and weight are interpolated between the cells.
+// PLAIN_TILE: the tile is drawn as one rectangle, and they are interpolated between its corners.
+// Needs tile_params.glsl.
 #ifdef PLAIN_TILE
 in vec4 plainLookUp;
 #else
 layout(binding = 2) uniform sampler2D lookupField;
 #endif
 
-// Returns a look-up as superres_weigh.comp defines it: offset (x, y) [still px], weight of the
-// detail, and confidence (eq. 2 of the paper). `uv` becomes the position in the still, in
-// texture coordinates.
+// Returns a LookUpCell: offset (x, y) [still px], weight of the detail, and confidence (eq. 2 of
+// the paper). `uv` becomes the position in the still, in texture coordinates.
 vec4 lookUp(out vec2 uv) {
 #ifdef PLAIN_TILE
     vec4 l = plainLookUp;

@@ -1,6 +1,6 @@
 // Computes the finest pyramid level of the still, in the geometry and resolution of the video. The
-// tone curve is applied to the still's luma, which is then averaged over the area of each video
-// pixel; see kSeen for the mean.
+// tone curve is applied to the still's luma. Each video pixel gets the mean of this luma over a
+// square that is wider than the pixel (params.footprint); see kSeen for the kind of mean.
 // In: still, RGBA8; tone curve. Out: words of luma. One invocation per word.
 #include "luma.glsl"
 #include "rig.glsl"

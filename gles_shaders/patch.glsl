@@ -52,7 +52,7 @@ uvec3 fetchPixels(LumaLevel l, Window w) {
 
 // Starts reading a patch, displaced by u pixels. `start` is its first pixel without displacement.
 // The patch's position is limited so that the patch overlaps the pyramid level. Pixels of the patch
-// outside the level are those of its border.
+// outside the level repeat the level's border.
 Window windowAt(LumaLevel l, vec2 start, vec2 u) {
     vec2 origin = clamp(start + u, vec2(-7.0), vec2(l.width - 2, l.height - 2));
     vec2 whole = floor(origin);

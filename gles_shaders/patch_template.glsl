@@ -77,8 +77,8 @@ vec2 loadTemplate(LumaLevel l, ivec2 cell) {
     return vec2(mean, variance);
 }
 
-// Stores in templateWords[] the other floats of the template, which a Gauss-Newton step needs.
-// `known` is the template's mean and variance.
+// Stores in templateWords[] those floats of the template that only a Gauss-Newton step needs: the
+// sums with the gradient and the inverse Hessian. `known` is the template's mean and variance.
 void prepareSteps(vec2 known, ivec2 cell) {
     vec2 sum = vec2(0.0), sumA = vec2(0.0);
     vec3 h = vec3(0.0);

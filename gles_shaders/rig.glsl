@@ -3,9 +3,8 @@
 #include "camera.glsl"
 #include "pipeline/engine/params/luma.h"
 
-// Returns the position in the still [px] of an infinitely distant point that the video shows at
-// `videoPixel`. It does not depend on the distance between the cameras. The result is far outside
-// the still if the point is not in front of the still camera.
+// Returns the position [still px] of the point that the video shows at `videoPixel`. It is far
+// outside the still if the point is not in front of the still camera.
 vec2 stillPixel(Rig r, vec2 videoPixel) {
     vec3 p = vec3(unprojectPixel(r.video, videoPixel), 1.0);
     vec3 s;

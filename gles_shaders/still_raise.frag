@@ -1,5 +1,5 @@
-// Computes the luma of the still with its tone curve and amplifies its finest detail, because
-// linear look-ups lose some of it.
+// Applies the tone curve to the still's luma and amplifies its finest detail, because linear
+// look-ups lose some of this detail.
 // In: still, RGBA8; tone curve. Out: luma, clamped to 8 bits.
 // LUMA: the still is already luma, R8.
 // Variant: #define LUMA
@@ -27,7 +27,7 @@ float stillAt(ivec2 p) {
 // frequencies that the video lacks gives 0.11 for the power spectrum of natural pictures (f^-2 to
 // f^-3). A smaller weight is used, because it amplifies the errors of slightly wrong matches less.
 // Compared with no amplification, a weight of 0.08 gains 0.5 dB on synthetic scenes, loses 0.1 dB
-// on photographs, and recovers half of the missing sharpness (measured as LPC-SI).
+// on photographs, and recovers half of the missing sharpness (sharpness index LPC-SI).
 // A reduced still is not amplified (weight 0), because its highest frequencies are strong enough.
 // On a photograph reduced from 2304 to 1067 pixels across, a weight of 0 is 2.5 dB better than
 // 0.08.

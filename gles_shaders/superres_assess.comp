@@ -1,11 +1,10 @@
 // Computes statistics of the match between still and video in each cell, for superres_weigh.comp.
 // In: luma[]: the finest pyramid level of both pictures. cells[]: the forward field (from video to
 // still), and either ErrorCells or the backward field, which may be of a coarser pyramid level.
-// Out: displacement image = flow (x, y) [video px], and the end of the flow vector in the still
-// minus the scaled cell centre (x, y) [still px]. Statistics image = covariance, variance of the
-// video, variance of the still, confidence. The first three are sums over the patch. If the
-// covariance in the cell's ErrorCell is above 0, they are copied from there. Otherwise, they are 0
-// in tiles that are not matched.
+// Out: displacement image = flow (x, y) [video px], and offset (x, y) of LookUpCell [still px].
+// Statistics image = covariance, variance of the video, variance of the still, confidence. The
+// first three are sums over the patch. If the covariance in the cell's ErrorCell is above 0, they
+// are copied from there. Otherwise, they are computed if the tile is matched, and 0 if it is not.
 // Source: eq. 2 of the paper (docs/paper.md), with lambda(x) = min(x, 1).
 // Range: displacement -2e4..2e4, -2e4..2e4, -4e3..4e3, -4e3..4e3
 // Range: statistics -4.2e6..4.2e6, 0..4.2e6, 0..4.2e6, 0..1

@@ -1,10 +1,11 @@
 // Finds the class of every tile and makes the frame's draw lists. One invocation per tile.
 // In: change flags; cell fields of one or two stills.
-// Out: lists[] = five lists of drawn tiles (changed tiles, or all if header.x is not 0): 0 all, 1
-// enlarged only, 2 trusted, 3 blended, 4 tiles that show some of the second still. If
-// header.x is 1, lists 0 to 3 are left empty. If header.x is 2, lists 0 and 1 are left empty.
-// Otherwise, list 0 also contains unchanged neighbours of tiles that show detail or are enlarged by
-// filters, because such tiles read their neighbours.
+// Out: lists[] = five lists of tiles: 0 every drawn tile, 1 tiles that are only enlarged, 2 trusted
+// tiles, 3 blended tiles, 4 tiles that show some of the second still. A tile is drawn if it changed
+// or if the whole frame is drawn (header.x is not 0, see below). Lists 0 and 1 are filled only if
+// header.x is 0, lists 2 and 3 only if it is 0 or 2. List 0 also contains unchanged neighbours of
+// tiles that show detail or are enlarged by learned filters, because such tiles read their
+// neighbours.
 // draws[] = indirect draw commands, one per list; before this shader runs, only the number of
 // vertices in each is set. counts[] = counters of the frame, initially 0. classes[] = class of each
 // tile.
@@ -35,8 +36,8 @@ layout(std430, binding = 2) buffer Draws {
     uint counts[8];
 };
 layout(std430, binding = 3) buffer Lists {
-    // The five lists. After them, one entry per tile: the number of the frame in which the tile was
-    // last listed as a neighbour.
+    // The five lists of tiles (see Out). After them, one entry per tile: the number of the frame in
+    // which the tile was last listed as a neighbour.
     uint lists[];
 };
 layout(binding = 0) uniform sampler2D cellField;

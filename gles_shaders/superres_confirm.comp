@@ -1,5 +1,6 @@
-// Raises weights below 1, and then lowers the weights of cells in which the still does not show the
-// video's finest detail; see kFineRoom.
+// Corrects the weights, which are too cautious because they were computed without the finest
+// detail. Raises all weights below 1. Then lowers the weights of cells in which the still does not
+// show the video's finest detail. See kFineRoom.
 // In: image of superres_fine.comp, images of superres_weigh.comp. Out: the images of
 // superres_weigh.comp with the new weights.
 // Range: newCells -2e4..2e4, -2e4..2e4, 0..2.31, 0..1

@@ -2,7 +2,7 @@
 // pixel. A pixel has two classes with a filter each; the result is the mean of both residuals,
 // limited as kOvershoot describes. A residual is the weighted sum of the differences between the
 // pixel's neighbours and the pixel.
-// Only drawn tiles with learned filters and the pixels around these tiles are computed.
+// Computes only the tiles that are drawn with learned filters, and the pixels around these tiles.
 // In: video, states of the tiles, filters of all classes. Out: residual image [1/32 grey level]. A
 // pixel has four texels, one below the other, with a row of four sub-pixels each.
 // Method: see pipeline/enlarge/filter_layout.h. One workgroup per upper or lower half of a tile.

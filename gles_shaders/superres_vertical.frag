@@ -1,7 +1,7 @@
-// First half of the enlargement: along columns, all four channels. composite_*.frag enlarge along
-// rows.
-// In: the video, which superres_sharpen.frag may have sharpened. Out: a picture with the video's
-// width and the output's height.
+// First half of the enlargement: along columns, all four channels, by Keys' cubic. composite_*.frag
+// enlarge along rows. LINEAR: enlarges by linear interpolation instead.
+// In: the video, or the result of superres_sharpen.frag, whose alpha is the mean luma of the still.
+// Out: a picture with the video's width and the output's height.
 // LEARNED: the inputs are the video (not sharpened), the mean of the still over each video pixel,
 // and the residual of superres_enlarge.comp. The outputs are integers [1/64 grey level]. The first
 // output is the enlarged video and, in alpha, the enlarged mean of the still. The second output is

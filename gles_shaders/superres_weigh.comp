@@ -1,16 +1,16 @@
 // Computes the weight of the still in each cell, from the statistics of 3x3 cells.
 // In: images of superres_assess.comp, image of superres_gain.comp.
 // Out: cells image = flow (x, y) [video px], weight of the detail, confidence (eq. 2 of
-// the paper). Look-up image = end of the flow vector in the still minus the scaled cell centre
-// (x, y) [still px], weight, confidence. Weights image = weight / 2, confidence, share of the
-// video's variance that is not noise (for the sharpening), TrustCell::unexplained.
+// the paper). Look-up image = LookUpCell: offset (x, y) [still px], weight, confidence. Weights
+// image = weight / 2, confidence, share of the video's variance that is not noise (for the
+// sharpening), TrustCell::unexplained.
 // The weight of the detail is the product of the photometric gain between the sensors, the trust in
 // the match and the confidence. The gain is covariance / (variance of the still + noise). It is
 // also measured at half resolution. The more contrast the still has at half resolution, the more
 // the larger of the two gains counts.
-// Where the flow is uniform, both sensors see the surface from the same direction. Their
-// correlation at the video's resolution says little about detail that aliases in the video. A match
-// that is probably correct is therefore trusted fully: its trust is 1, times kLookUpLoss.
+// Where the flow is uniform, both sensors see the surface from the same direction. The correlation
+// of video and still at the video's resolution says little about detail that aliases in the video.
+// A match that is probably correct is therefore trusted fully: its trust is kLookUpLoss (above 1).
 // Where the flow varies, the still shows the surface from another direction. The trust is then the
 // square of the share of the video's variance that the still explains. Where the flow is
 // discontinuous, look-ups between cells are invalid, and the trust is 0.

@@ -4,7 +4,7 @@
 
 struct Solid {
     // Transform from camera to scaled coordinates, one row per component. xyz of a row multiply a
-    // direction; w is the camera's position in scaled coordinates.
+    // direction; w is one component of the camera's position in scaled coordinates.
     vec4 x, y, z;
 };
 struct Surface {

@@ -56,7 +56,7 @@ float fresnel(float facing, float cosine) {
 }
 
 // A pixel's surface as a mirror. `facing`: reflectance for light along the normal. `full`:
-// SpecularAlbedo::full(). `first`, `second`: the two texels of its row in `looks`.
+// SpecularAlbedo::full(). `first`, `second`: the texels of the row of `looks` for its roughness.
 struct Mirror {
     vec3 normal;
     float facing, full;

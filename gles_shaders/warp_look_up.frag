@@ -3,7 +3,7 @@
 // depth. The shadow catcher is simple also where these texels show no surface. All other pixels
 // with a surface are left to warp_rest.comp. An object's colour is its paint in the traced light,
 // or the traced colour if the picture has no light.
-// In: silhouette and paint at twice the resolution.
+// In: silhouette and paint at twice the layer's resolution; the traced picture.
 // Out: colour, RGBA8 premultiplied; z [m], 0 if the colour is empty; state = (0, 1 if the pixel is
 // left to warp_rest.comp, 0, number of the surface that fills a simple pixel).
 // Source: eq. 5 of the paper (docs/paper.md).

@@ -19,8 +19,8 @@ uvec4 packArea(Area a) {
 }
 
 // Merges four texels of the next finer pyramid level. An area gets the full weight if the colour of
-// at least half of it is known. The texels stay packed until the object is selected, so that all
-// values fit in the registers of a Mali.
+// at least half of it is known. The texels stay packed until `best.id` is known, so that all values
+// fit in the registers of a Mali.
 Area merged(uvec4 parts[4]) {
     Area best = Area(vec4(0.0), vec4(0.0), 0u, vec2(0.0));
     for (int i = 0; i < 4; ++i) {
