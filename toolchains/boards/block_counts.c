@@ -1,7 +1,7 @@
 /* A plugin of QEMU's user mode that counts how often each translated block of a program runs. The argument
  * out=FILE names the output file. It has a line "OFFSET BYTES INSTRUCTIONS COUNT" for each block of the
- * program itself; OFFSET counts from the start of the program's code. The last line is "other INSTRUCTIONS",
- * the number of instructions that ran in libraries.
+ * program itself that ran; OFFSET (hexadecimal) counts from the start of the program's code. The last line is
+ * "other INSTRUCTIONS", the number of instructions that ran in libraries.
  *
  * Debian has no header for plugins; so the necessary part of QEMU's API is declared here. This part is the
  * same in versions 1 (QEMU 7) to 4 (QEMU 10). API_VERSION is a version that the installed QEMU accepts. */

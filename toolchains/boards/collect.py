@@ -10,8 +10,9 @@ import cpu_model
 
 CASES = ('moving', 'rest')
 TIMED = 20  # number of timed frames
-# For each case, the numbers of frames of two runs. The difference of the two runs' counts is the work of one
-# frame, without the work at the program's start. At rest, frames are typical only after the first few.
+# For each case, the numbers of frames of two runs, which differ by one. frame_counts() counts the executed blocks of
+# instructions in both runs and subtracts the counts. The result is the work of one frame, without the work at the
+# program's start. At rest, frames are typical only after the first few.
 FRAMES = {'moving': (2, 3), 'rest': (5, 6)}
 
 

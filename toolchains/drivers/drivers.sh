@@ -16,9 +16,10 @@ complaints() {
 
 # testDriver DRIVER [CTEST-OPTION...]: runs tests on this Mesa driver: on zink those with the label
 # "driver", on softpipe those with the label "softpipe". The label "driver" is for tests that draw
-# with GL. Tests in which mfard reads pixels into a buffer object for a display do not have it: for
-# such reads, Mesa 22.3 draws into a framebuffer without attachments, and zink then does not call
-# vkCmdSetColorBlendEnableEXT, which the validation layer reports as an error.
+# with GL. Tests in which mfard reads pixels into a buffer object for a display lack this label,
+# because they would fail on zink: for such reads, Mesa 22.3 draws into a framebuffer without
+# attachments. With this framebuffer, zink omits the call vkCmdSetColorBlendEnableEXT, and the
+# validation layer reports this as an error.
 testDriver() {
     local driver=$1 icd log=.build/host/Testing/Temporary/LastTest.log label=driver said
     shift

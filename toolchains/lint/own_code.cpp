@@ -23,7 +23,7 @@ public:
         std::vector<clang::Decl*> own;
         // noload: decls() would load all declarations of the precompiled headers.
         for (clang::Decl* declaration : found.Context->getTranslationUnitDecl()->noload_decls()) {
-            // This is also true for declarations from macros such as TEST that our files expand.
+            // Declarations that our files make with macros such as TEST are also kept.
             if (!found.SourceManager->isInSystemHeader(declaration->getLocation())) {
                 own.push_back(declaration);
             }

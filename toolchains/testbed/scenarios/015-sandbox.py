@@ -1,4 +1,4 @@
-"""The service can open its devices and nothing else on the machine."""
+"""The service can open its devices and write to its own folder, but cannot open other devices and files."""
 
 ALLOWED = ('/dev/video0', '/dev/media0', '/dev/dri/card0', '/dev/fb0', '/dev/gpiochip0')
 DENIED = ('/dev/vda', '/dev/mem', '/etc/passwd', '/etc/mfar/mfard.toml', '/root/x',

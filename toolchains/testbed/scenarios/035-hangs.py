@@ -1,7 +1,7 @@
 """If the service stops making pictures, the watchdog ends it and systemd restarts it. Its trigger line is
 released."""
 
-WATCHDOG = 20  # watchdog's limit [s]; six times as long for the first pictures
+WATCHDOG = 20  # systemd's watchdog timeout [s]; mfard makes it six times as long until ten pictures are shown
 LIMIT = WATCHDOG + 10  # largest time until the restart [s]; systemd first sends SIGABRT, then SIGKILL
 
 

@@ -68,7 +68,7 @@ def back_after(bed, event, role):
 
 
 def differ(a, b):
-    """True if at least a thousandth of the bytes differ."""
+    """True if more than a thousandth of the bytes differ, judged by every 97th byte."""
     return a != b and sum(x != y for x, y in zip(a[::97], b[::97])) > len(a) / 97 / 1000
 
 
