@@ -234,7 +234,7 @@ TEST_F(AutoDisplay, TriesTheNextDeviceWhenTheThirdPictureIsRefused) {
     EXPECT_EQ(kms_.shown, 2);
 }
 
-TEST_F(AutoDisplay, TriesTheFirstDeviceAgainWhenThereIsNoNext) {
+TEST_F(AutoDisplay, TriesTheFirstDeviceAgainIfThereIsNoOther) {
     kms_.presence = Presence::Ready;
     kms_.refuses = true;
     EXPECT_EQ(run(kSecond), 0);

@@ -1,9 +1,9 @@
-// Shows a test picture on a real screen and prints which screen shows it from what time on. This
-// program runs on boards, and in a virtual machine whose host takes a screenshot. Usage:
+// Shows test pictures on a real screen. This program runs on boards, and in a virtual machine whose
+// host takes a screenshot. Usage:
 //   mfar-display-probe SCREEN PICTURES PPM SECONDS
 // SCREEN is as in openScreen(). The program waits for a screen, shows PICTURES pictures with a
 // moving bar, writes the last one to the file PPM as lastShown() returns it, and keeps it on the
-// screen for SECONDS. It prints every change of name().
+// screen for SECONDS. It prints every change of name() with its time [s].
 
 #include "hal/device/display_auto.h"
 #include "hal/gl_context.h"

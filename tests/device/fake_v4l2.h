@@ -69,7 +69,8 @@ public:
     void unplug();
     /// From now on, poll() reports POLLHUP. Calls to the driver still succeed.
     void hangUp();
-    /// While `wanted` is true, driver calls that queue or dequeue buffers or stop the stream block.
+    /// After hang(true), VIDIOC_QBUF, VIDIOC_DQBUF and VIDIOC_STREAMOFF do not return until
+    /// hang(false).
     void hang(bool wanted);
     [[nodiscard]] bool hangs();
     [[nodiscard]] int queued();

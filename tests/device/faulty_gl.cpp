@@ -167,8 +167,8 @@ GLenum getError() {
     return isLost() ? kContextLost : real<decltype(&glGetError)>("glGetError")();
 }
 
-// Reports the name of a hardware GPU. Programs call this first on a new context. Its call of
-// isLost() recognises the new context and connects the working functions again.
+// Reports the name of a hardware GPU. Programs call this function first on a new context. The call
+// of isLost() below recognises the new context and connects the working functions again.
 const GLubyte* getString(GLenum name) {
     if (isLost()) return nullptr;
     constexpr const char* kRenderer = "pretended GPU";

@@ -20,8 +20,8 @@ struct PretendedDrm {
     int modeSets = 0, flipped = 0, buffers = 0, framebuffers = 0;
     int blockingFlips = 0;  ///< number of flips for which the caller had to wait
     std::uint32_t shown = 0;
-    /// A second connector exists, and its screen shows the first CRTC. The first connector has
-    /// no CRTC.
+    /// True: a second connector exists. The first CRTC drives the second connector, and no CRTC
+    /// drives the first connector.
     bool secondScreen = false;
     bool console = false;  ///< true while the console's picture is on the screen
 };
