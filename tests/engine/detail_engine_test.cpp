@@ -172,7 +172,8 @@ TEST_P(DetailEngineTest, OnlyChangedTilesShowASecondStill) {
 
 using DetailEngines = GlTest;
 
-/// `most`: limit of the difference of any channel. `rms`: limit of its root mean square.
+/// `most`: limit of the difference of any channel. `rms`: limit of the root mean square of all
+/// differences. Both in grey levels.
 void expectNear(Rows<const std::uint32_t> a, Rows<const std::uint32_t> b, double most, double rms) {
     double squares = 0;
     for (int y = 0; y < a.size.height; ++y)

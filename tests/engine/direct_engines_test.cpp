@@ -167,7 +167,7 @@ TEST_F(DirectEngines, GlesComparisonWithTheStillMatchesTheOracle) {
 }
 
 // The reduced still cannot show which flow is right, because the print aliases.
-TEST_F(DirectEngines, FinePrintGetsTheFlowAlongEpipolarLinesAndAHighCorrelation) {
+TEST_F(DirectEngines, FinePrintGetsTheFlowAlongEpipolarLinesAndAHigherCorrelation) {
     const Print in;
     const Matched got = matchedOnHost(in);
     int right = 0, doubtful = 0;

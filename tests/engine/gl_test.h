@@ -36,7 +36,7 @@ inline double roundingFactor() {
     return kSharedContext->context().isSoftware() ? 1 : 1 + 2 * 255.0 / 4096;
 }
 
-/// A test in which the shared context is current. TearDown() expects that GL has no error.
+/// A test in which the shared context is current.
 class GlTest : public testing::Test {
 protected:
     static GlContext& context() { return kSharedContext->context(); }

@@ -16,8 +16,8 @@ namespace mfar {
 /// A still, and a video that shows the same surface with a given flow.
 struct SeenStill {
     /// `luma`: grey level at a position in the still. `flow`: true flow at a position in the video.
-    /// Pixels of the video are means over their area, so that fine structure aliases. `light`: how
-    /// they average, see Guidance::light.
+    /// A pixel of the video is the mean over its area, so that fine structure aliases. `light`
+    /// selects the kind of mean: 0 of grey levels, 1 of their squares, see Guidance::light.
     SeenStill(const StereoRig& cameras, const std::function<double(const Eigen::Vector2d&)>& luma,
               const std::function<Eigen::Vector2d(const Eigen::Vector2d&)>& flow, double light = 0);
 

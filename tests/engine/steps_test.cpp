@@ -157,7 +157,7 @@ TEST_P(StepsTest, LumaOfAStillIsCorrectInEveryPixelFormat) {
     }
 }
 
-TEST_P(StepsTest, TheToneCurveIsAppliedToTheStillsLumaPyramidAndDetail) {
+TEST_P(StepsTest, TheToneCurveIsAppliedToTheLumaThePyramidAndTheDetailOfAStill) {
     StillTone tone;
     for (std::size_t i = 0; i < tone.levels.size(); ++i)
         tone.levels[i] = static_cast<std::uint8_t>(40 + i * i / 400);
@@ -218,8 +218,8 @@ TEST_P(StepsTest, WithoutAStillTheVideoIsEnlarged) {
         for (const bool cubic : {true, false}) {
             const auto engine = engineFor(plainRig(video, output), output);
             // Tolerance [grey levels]: shaders first enlarge along columns and round the result to
-            // 8 bits. Kernels first enlarge along rows and round the result to 1/64 grey level,
-            // later products to 1/32 grey level.
+            // 8 bits. Kernels first enlarge along rows and round the result to 1/64 grey level.
+            // Then they enlarge along columns and round products to 1/32 grey level.
             const double gain = cubic ? twin::kCubicGain : 1;
             const double most = isGles() ? 0.51 * (1 + gain) * roundingFactor() : 0.65;
             expectEnlarged(*engine, Waves(1, 3, 40, 20).shoot(video, {}), output, cubic, most);

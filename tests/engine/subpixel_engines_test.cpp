@@ -22,7 +22,7 @@ namespace {
 constexpr Size kVideo{158, 94};
 constexpr double kNoise = 1;
 
-/// A still with 3.6 pixels per video pixel.
+/// Size of a still with 3.6 pixels per video pixel along each axis.
 Size stillOf(Size video) {
     return {video.width * 18 / 5, video.height * 18 / 5};
 }
@@ -128,7 +128,8 @@ twin::SubpixelCase oracleOf(const Surfaces& in, bool usesErrors, float light) {
     return out;
 }
 
-/// Returns the number of cells whose flow changes by more than 0.02 px.
+/// Compares the corrected flow with the oracle's. Returns the number of cells whose flow changes by
+/// more than 0.02 px.
 int expectTheOraclesFlow(const Surfaces& in, const std::vector<FlowCell>& got, bool usesErrors,
                          float light = 0) {
     const twin::SubpixelCase oracle = oracleOf(in, usesErrors, light);

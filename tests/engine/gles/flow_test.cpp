@@ -16,7 +16,7 @@ using Eigen::Vector2d;
 // Absolute tolerance of a cell's cost, and relative tolerance of its texture. The shader computes
 // cost and texture in single precision from sums of 64 squared differences.
 constexpr double kTolerance = 2e-3;
-constexpr Size kSize{61, 45};  // has one pyramid level; the border cuts the last cells
+constexpr Size kSize{61, 45};  // the border cuts the last cells
 constexpr Size kCells{16, 12};
 constexpr int kArea = 16 * 12;
 
@@ -32,7 +32,7 @@ params::RefineFlow refineParams(const LevelPair& pair, int steps) {
             .steps = steps};
 }
 
-/// Random flow vectors, of which every eighth leads far outside the picture.
+/// Random flow vectors of up to `reach` px along each axis. Every eighth is 40 times as long.
 std::vector<Cell> randomField(unsigned seed, float reach) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> flow(-reach, reach);
@@ -178,9 +178,10 @@ TEST_F(FlowPasses, CostsOfBentPatchesMatchTheOracle) {
     const auto out = align(pair, in, 0);
     for (int i = 0; i < kArea; ++i) {
         const int x = i % 16, y = i / 16;
-        // Along each axis, the shader computes two slopes of the flow: from the cell two before,
-        // and to the cell two behind. It uses the smaller slope, or 0 if the signs differ. A cell
-        // at the border has the slope of the nearest cell for which both exist.
+        // Along each axis, the shader computes two slopes of the flow: one between the cell and the
+        // second cell before it, one between the cell and the second cell after it. It uses the
+        // smaller slope, or 0 if the signs differ. A cell at the border has the slope of the
+        // nearest cell for which both slopes exist.
         const Vector2d alongY = std::abs(y - 6) <= 1 ? Vector2d(0, 0) : y < 6 ? dy : Vector2d(-dy);
         const auto m = twin::compareBentPatch(a, b, x, y, {in[i][0], in[i][1]}, dx, alongY);
         EXPECT_EQ(out[i][0], in[i][0]);

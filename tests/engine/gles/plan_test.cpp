@@ -11,9 +11,8 @@ namespace {
 using Plan = GlTest;
 
 constexpr Size kSize{100, 60};  // 7x4 tiles, the last ones cut off
-// A cell counts as changed above these values of TileChange::mean and TileChange::absolute [grey
-// levels]. These limits belong to noise of 0.29 grey levels, which is assumed until the noise is
-// measured.
+// Limits of TileChange::mean and TileChange::absolute [grey levels]; see twin::ChangeBounds. They
+// belong to noise of 0.29 grey levels, which is assumed until the noise is measured.
 constexpr double kMeanThreshold = 1.58, kAbsoluteThreshold = 2.66;
 
 struct TileState {

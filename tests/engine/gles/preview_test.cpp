@@ -106,8 +106,9 @@ TEST_F(Preview, SurfacesAroundAndBehindTheCameraAreDrawnCorrectly) {
     folding.fx = folding.fy = 130;
     folding.distortion = {-0.17, 0, 0, 0, 0};
     // The surfaces are a wall beside the camera, a wall 13 mm from the camera, and a floor that
-    // begins behind the camera. The tolerance is 5 %, because surfaces are drawn as flat cells. The
-    // lens would bend a cell, near the camera by a few percent.
+    // begins behind the camera. The tolerance is 5 %, because a surface is drawn as flat cells. The
+    // lens shows straight edges as curves, and the cells do not follow these. Near the camera, this
+    // changes depth by a few percent.
     for (const CameraModel& camera : {lens(), folding}) {
         PreviewRenderer renderer(camera, kOutput);
         for (const VirtualObject& o : inWorld({

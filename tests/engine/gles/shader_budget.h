@@ -18,8 +18,8 @@ struct ShaderBudget {
     static constexpr int kFileLines = 150;  ///< lines of a file; a limit of this project
 };
 
-/// Faults of a file in gles_shaders/ whose includes are not resolved: in its name, header comment,
-/// length, or number of main functions. One line per fault.
+/// Returns the faults of a file in gles_shaders/: in its name, header comment, length, or number of
+/// main functions. `text` is the file as it is, before includes are resolved. One line per fault.
 [[nodiscard]] std::vector<std::string> shaderFileFaults(std::string_view name,
                                                         std::string_view text);
 

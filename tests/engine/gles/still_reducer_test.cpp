@@ -66,7 +66,7 @@ TEST_F(StillReducerTest, ReducedPicturesMatchTheOracle) {
     }
 }
 
-TEST_F(StillReducerTest, StillsAreNotReducedIfTheOutputResolvesThem) {
+TEST_F(StillReducerTest, StillsAreReducedOnlyForAMuchSmallerOutput) {
     const StereoRig rig = plainRig({50, 35}, {200, 140});
     EXPECT_EQ(stillFor({200, 140}, rig).still.size, (Size{200, 140}));
     EXPECT_EQ(stillFor({400, 280}, rig).still.size, (Size{200, 140}));

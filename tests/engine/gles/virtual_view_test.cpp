@@ -31,7 +31,8 @@ std::shared_ptr<const Scene> hovering() {
     return scene;
 }
 
-/// Depth of the table. `share`: its standard deviation, divided by the inverse depth.
+/// Depth of the table. `share`: standard deviation of the inverse depth, divided by the inverse
+/// depth.
 InverseDepthField tableField(double share) {
     InverseDepthField field(kSeen);
     for (std::size_t i = 0; i < field.inverseDepth.size(); ++i) {

@@ -56,8 +56,8 @@ Weighed weigh(const twin::Cells& displacement, const twin::Cells& statistics,
 }
 
 TEST_F(Weigh, WeightsMatchTheOracle) {
-    // The flow is uniform on the left and changes along x on the right. It is slightly
-    // discontinuous at the bottom.
+    // The flow's x component is nearly uniform on the left and changes more and more to the right.
+    // The y component jumps from row to row, by 0.3 px in the upper half and 0.9 px in the lower.
     twin::Cells displacement{kWhole, {}};
     for (int y = 0; y < kWhole.height; ++y)
         for (int x = 0; x < kWhole.width; ++x)
@@ -199,8 +199,9 @@ twin::Cells mixedField() {
     return out;
 }
 
-/// Content of the buffer of tile flags: `whole`, the number of changed tiles, then the flags
-/// `changed` and `matched` of each tile. Every third tile is unchanged; every fifth is not matched.
+/// Content of the buffer of tile flags: `whole`, an entry that the shader does not read, then the
+/// flags `changed` and `matched` of each tile. Every third tile is unchanged; every fifth is not
+/// matched.
 std::vector<std::uint32_t> changes(std::uint32_t whole) {
     std::vector<std::uint32_t> out{whole, 0};
     for (unsigned i = 0; i < kTileCount; ++i)

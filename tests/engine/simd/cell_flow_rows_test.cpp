@@ -61,7 +61,7 @@ TEST(CellFlow, FlowOfACellEndsWhereTheStillShowsItsPoint) {
     }
 }
 
-TEST(CellFlow, PointsBehindTheCameraAndNanHaveNoFlow) {
+TEST(CellFlow, FlowOfPointsBehindTheCameraAndOfNanDepthsEndsFarOutside) {
     Cells cells(20);
     cells.ends.motion.turn = {1, 0, 0, 0, 1, 0, 0, 0, -1};
     for (const auto& v : cells.flow(cells.s))
@@ -89,7 +89,7 @@ TEST(AlignCells, InverseDepthOfCellsFollowsTheirFlowAlongTheEpipolarLine) {
     }
 }
 
-TEST(CellLandings, FlowEndsInTheNearestCell) {
+TEST(CellLandings, ALandingIsTheCellNearestToTheEndOfTheFlow) {
     const Size cells{37, 20};
     const Row x = test::randomValues<float>(37, -60, 60, 1),
               y = test::randomValues<float>(37, -60, 60, 2);

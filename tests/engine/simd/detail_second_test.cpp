@@ -66,7 +66,7 @@ void expectAlike(const AlignedRows<std::uint32_t>& a, const AlignedRows<std::uin
             ASSERT_EQ(a.rows()[y][x], b.rows()[y][x]) << x << " " << y;
 }
 
-TEST(DetailStepSecond, ASecondStillIsShownOnlyWhereItsWeightIsHigher) {
+TEST(DetailStepSecond, ASecondStillIsShownOnlyWhereItsWeightIsClearlyHigher) {
     for (const float more : {-0.3F, 0.0F, 0.9F * params::kSecondFrom}) {
         const TwoStills stills(more);
         const DrawnWithBoth both(stills);

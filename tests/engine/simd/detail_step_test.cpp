@@ -23,7 +23,7 @@ TEST(DetailStep, WholeFrameMatchesTheOracleAtAnySize) {
     }
 }
 
-TEST(DetailStep, WithoutAStillTheVideoIsEnlargedCubiclyOrLinearly) {
+TEST(DetailStep, WithoutAStillTheVideoIsEnlargedCubicallyOrLinearly) {
     for (const auto& [video, stillSize, output] : kSizes)
         for (const bool cubic : {true, false}) {
             const DetailCase frame(video, stillSize);

@@ -90,7 +90,6 @@ inline RgbPlanes planesOf(const FlowPicture& p) {
     return shared;
 }
 
-/// Work in which every tile is changed and matched.
 inline TileWork wholeWork(Size video) {
     TileWork work;
     work.tiles = tilesOf(video);

@@ -31,7 +31,7 @@ inline simd::Lens barrel() {
     return {100, 102, 49, 38, -0.1F, 0.02F, 0.001F, -0.002F, 0.003F, 4};
 }
 
-/// Projects with the Brown-Conrady model in double precision, for rays inside the valid circle.
+/// Projects with the Brown-Conrady model in double precision. Valid for rays within Lens::rim2.
 inline Ray project(const simd::Lens& lens, double x, double y) {
     const double q = x * x + y * y;
     const double radial = 1 + lens.k1 * q + lens.k2 * q * q + lens.k3 * q * q * q;
@@ -53,8 +53,8 @@ inline Point3 turned(const std::array<float, 9>& r, const Point3& p) {
             r[6] * p.x + r[7] * p.y + r[8] * p.z};
 }
 
-/// True if a coordinate is so near the border between two pixels that rounding decides to which one
-/// it belongs.
+/// True if a coordinate is so near the border between two pixels that rounding errors can
+/// decide to which one it belongs.
 inline bool isBetween(double v) {
     const double part = v + 0.5 - std::floor(v + 0.5);
     return part < 0.01 || part > 0.99;

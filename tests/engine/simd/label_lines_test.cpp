@@ -114,8 +114,8 @@ double placeOf(const Problem& p, std::size_t x, const Valley& valley) {
             rise[side] = valley.rise[k < 0 ? k + 2 : k + 1];
         }
     if (rise[0] == Valley::kUnknown || rise[1] == Valley::kUnknown) return own.label;
-    // The minimum is where a falling and a rising line meet. Both have the slope of the steeper
-    // side.
+    // The minimum is where a falling and a rising line meet. Both are as steep as the steeper of
+    // the two sides.
     const double left = rise[0] / (own.label - foot[0]), right = rise[1] / (foot[1] - own.label);
     if (!(std::max(left, right) > 0)) return own.label;
     return right > left ? 0.5 * (foot[0] + own.label + rise[0] / right)

@@ -50,7 +50,8 @@ void fillPart(Arrays& arrays, const std::string& name, unsigned seed) {
 }
 
 /// Fills a picture with three surfaces at two depths, whose normals are up to 37 degrees from the
-/// axis. A twentieth of the pixels has no surface, and a twentieth must stay unfiltered (`fixed`).
+/// optical axis. A twentieth of the pixels has no surface, and a twentieth must stay unfiltered
+/// (`fixed`).
 void fillSurfaces(Arrays& arrays) {
     const auto at = test::randomValues<float>(kPixels, 0, 1, 91);
     const auto x = test::randomValues<float>(kPixels, -0.6, 0.6, 92);
@@ -73,8 +74,8 @@ struct Filtered {
     double variance = 0, weights = 0;
 };
 
-/// Factor of the weight of pixel `j` in the mean around pixel `i`: 1 for the same surface, 0 for
-/// unrelated ones.
+/// Factor of the weight of pixel `j` in the mean around pixel `i`: 1 if they show one surface with
+/// equal normals, 0 if they show unrelated surfaces.
 double surfaceWeight(Arrays& a, std::size_t i, std::size_t j, const NoiseRule& rule) {
     if (i == j) return 1;
     if (a.of("id")[i] != a.of("id")[j]) return 0;

@@ -33,7 +33,8 @@ private:
     Size size_;
 };
 
-/// Random vectors, four floats per cell. Every eighth vector leads far outside the picture.
+/// Random vectors of up to `reach` px along each axis, four floats per cell. Every eighth vector is
+/// 40 times as long.
 std::vector<float> randomVectors(unsigned seed, float reach) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> flow(-reach, reach);

@@ -116,13 +116,14 @@ TEST(StillPreparation, PairsAreWithoutNoiseButLumaIsUnchanged) {
     }
 }
 
-TEST(QuietVariance, IsFourVariancesOfTheNoiseThatTheReductionLeaves) {
+TEST(QuietVariance, IsFourTimesTheVarianceOfTheNoiseThatTheReductionLeaves) {
     EXPECT_EQ(quietVariance(0, {400, 300}, {400, 300}), 0);
     EXPECT_EQ(quietVariance(0.7, {400, 300}, {400, 300}), 0) << "so little noise is not visible";
     EXPECT_EQ(quietVariance(std::nan(""), {400, 300}, {400, 300}), 0);
     EXPECT_FLOAT_EQ(quietVariance(3, {400, 300}, {400, 300}), 36);
     EXPECT_FLOAT_EQ(quietVariance(3, {400, 300}, {200, 150}), 4);
-    EXPECT_FLOAT_EQ(quietVariance(50, {400, 300}, {400, 300}), 576) << "noise above 12 is texture";
+    EXPECT_FLOAT_EQ(quietVariance(50, {400, 300}, {400, 300}), 576)
+        << "noise above 12 grey levels must count as texture";
 }
 
 TEST(StillPreparation, TheToneCurveChangesLumaAndPairsButNotThePicture) {

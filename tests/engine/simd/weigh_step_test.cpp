@@ -161,9 +161,9 @@ void expectOracle(const WeighCase& c, bool givenErrors) {
             EXPECT_EQ(w.x, c.forward[y][x].x);
             EXPECT_EQ(w.y, c.forward[y][x].y);
             // Tolerance: the kernels round pixels to 1/64 grey level, which changes the covariance
-            // by up to 0.1 %. At low contrast a weight grows with the covariance's fifth power. A
-            // weight below kSmallestWeight is set to 0. So near this limit, the kernel's or the
-            // oracle's weight alone may be 0.
+            // by up to 0.1 %. At low contrast, a weight grows with the covariance's fifth power. A
+            // weight below kSmallestWeight is set to 0. So near this limit, one of the two weights
+            // can be 0 and the other not.
             EXPECT_NEAR(w.weight, t.weight,
                         w.weight == 0 || t.weight == 0 ? 1.001 * params::kSmallestWeight
                                                        : 2e-3 * t.weight + 1e-4);
@@ -299,8 +299,8 @@ TEST(WeighStep, WithoutChangedTilesNothingIsComputed) {
     EXPECT_TRUE(same(c.step.weighed(), before));
 }
 
-// The weight of a patch of low contrast uses the photometric gain between the sensors, measured at
-// half resolution. This gain must not change if no changed tile is matched, even if the flow
+// Weights also depend on the photometric gain between the sensors at half resolution, see
+// params::kLowContrast. This gain must not change if no changed tile is matched, even if the flow
 // changes.
 TEST(WeighStep, TheGainStaysIfNoChangedTileIsMatched) {
     WeighCase kept = plainCase(), renewed = plainCase(), first = plainCase();
