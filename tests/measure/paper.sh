@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Measures what the paper claims, and writes a page with numbers and figures: paper.md.
-# Usage: paper.sh BUILD-FOLDER OUTPUT-FOLDER [--quick]. --quick only checks this script: it measures tiny pictures, and leaves out slow measurements.
+# Usage: paper.sh BUILD-FOLDER OUTPUT-FOLDER [--quick]. --quick only checks this script: it measures
+# tiny pictures, and leaves out slow measurements.
 set -euo pipefail
 build=$1
 out=$2
@@ -36,7 +37,7 @@ measured() {
     fi
 }
 
-# median LINE [N]: prints the median [ms] in the N-th row (default: the first) with the name LINE of mfar-bench's table.
+# median LINE [N]: prints the median [ms] from mfar-bench's table: that of the N-th row (default: the first) named LINE.
 median() {
     awk -v line="$1" -v n="${2:-1}" \
         'index($0, line " ") == 1 && --n == 0 { sub(line, ""); print $1; exit }' "$out/times.txt"

@@ -17,8 +17,9 @@ struct CurveSample {
     [[nodiscard]] bool hasPoses() const { return frame.pose && still.pose; }
 };
 
-/// Loads at most `most` samples from each folder. A folder is a recording or holds pairs, as for
-/// `mfar-eval flow`. Throws EvalError, RecordingError and ImageFileError.
+/// Loads at most `most` samples from each folder. A folder is a recording or contains pairs of
+/// frames with their flow, see eval::flowSamplesOf(). Throws EvalError, RecordingError and
+/// ImageFileError.
 [[nodiscard]] std::vector<CurveSample>
 curveSamplesOf(const std::vector<std::filesystem::path>& folders, std::size_t most);
 

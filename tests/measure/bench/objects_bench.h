@@ -14,9 +14,10 @@ struct ObjectTimes {
     Summary waiting;  ///< the picture is finished, and the path tracer has no work
 };
 
-/// Measures the two kinds of frames in turn, so that both see the same load of the machine. Places
-/// the model showpiece() in front of the first frame's camera. Returns empty summaries if the build
-/// has no path tracer, or if `posed` has no frames or no pose of the first frame.
+/// Measures both kinds of frames (ObjectTimes::tracing and ObjectTimes::waiting) in turn, so that
+/// both see the same load of the machine. Places the model showpiece() in front of the first
+/// frame's camera. Returns empty summaries if the build has no path tracer, or if `posed` has no
+/// frames or no pose of the first frame.
 [[nodiscard]] ObjectTimes measureObjects(const Workload& posed, EngineKind engine,
                                          const ProgressPart& progress);
 

@@ -72,7 +72,7 @@ ParetoStage warpStage(bool quick) {
 
 ParetoStage slicingStage(bool quick) {
     eval::SlicingRequest request;
-    request.frames = 8;  // Only the rows `budget` need more frames; they are not used below.
+    request.frames = 8;  // only the rows `budget`, which are not used below, need more
     if (quick) {
         request.size = {48, 36};
         request.samples = 8;

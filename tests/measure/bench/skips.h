@@ -17,8 +17,8 @@ struct SkipResult {
     /// Loss of PSNR by the skip [dB], outside virtual objects. This value and the next two are
     /// empty if they cannot be measured.
     std::optional<double> psnrLost;
-    /// Increase of the share of wrong depths by the skip [percentage points]. Counts only pixels
-    /// whose depth decides if an object is visible.
+    /// Increase of DepthError::bad1, the share of wrong depths, by the skip [percentage points].
+    /// Counts only pixels whose depth decides if an object is visible.
     std::optional<double> bad1Added;
     /// Loss of overlap between the shown and the true object by the skip [percentage points].
     std::optional<double> overlapLost;
@@ -48,9 +48,10 @@ struct SkipRequest {
 [[nodiscard]] std::vector<std::string> skipNames();
 [[nodiscard]] std::vector<std::string> skipCaseNames();
 
-/// Measures every case in several variants: one with all skips enabled, and one for each skip, in
-/// which only that skip is disabled. Each frame is processed by all variants, one after the other.
-/// Needs a current GL context.
+/// Measures every case in several variants. One variant has all skips enabled (a skip is a type of
+/// work that the pipeline leaves out). For each skip, there is a variant in which only this skip is
+/// disabled. Each frame is processed by all variants, one after the other. Needs a current GL
+/// context.
 [[nodiscard]] SkipReport measureSkips(const SkipRequest& request);
 
 /// Table of the cases and of the skips. Skips that lose more than 0.1 dB or 0.1 percentage points

@@ -48,8 +48,8 @@ inline constexpr int kLessons = 4;
 [[nodiscard]] Workload syntheticWorkload(Size video, Size still, int frames, int lessons = 0);
 
 /// The synthetic board's office seen by a hand-held camera, with exact poses: one still, then
-/// frames, resized to the given sizes. Needs no current GL context. Repeated calls give equal
-/// pictures.
+/// frames, resized to the given sizes. `lessons`: number of entries of Workload::lessons. Needs no
+/// current GL context. Repeated calls give equal pictures.
 [[nodiscard]] Workload handheldWorkload(Size video, Size still, int frames, int lessons = 0);
 /// Gets the pictures from `board`, which must have Pace::Consumer and must not have been started.
 [[nodiscard]] Workload handheldWorkload(SyntheticBoard& board, Size video, Size still, int frames,

@@ -18,7 +18,7 @@ void addRow(Report& report, const SampleRow& row, const FlowMethod::Result& resu
     if (error.known == 0)
         throw EvalError(fmt::format("{}: the ground truth has no pixel with a known flow vector",
                                     row.sample.truth.string()));
-    // If a method has no result at any pixel, its time is left out too.
+    // If a method has no result at any pixel, its time and its mean errors are left out.
     const bool answered = error.coverage > 0;
     const auto ofAnswers = [&](double value) {
         return answered && std::isfinite(value) ? std::optional(value) : std::nullopt;

@@ -12,7 +12,7 @@
 namespace mfar::eval {
 namespace {
 
-/// Replaces the HDR-VDP-2 score of the luma by that of the colours on an sRGB display.
+/// Sets the HDR-VDP-2 scores in `out` to those of the colours on an sRGB display.
 void scoreColours(const cv::Mat& test, const cv::Mat& reference, const HdrVdpDisplay& display,
                   PictureScores& out) {
     const auto light = [&](const cv::Mat& picture) {

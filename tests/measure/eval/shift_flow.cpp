@@ -19,7 +19,7 @@ class ShiftFlow final : public FlowMethod {
 public:
     explicit ShiftFlow(const StereoRig& rig) : rig_(rig) {}
 
-    // Resamples the still to the video's geometry: to its size and its lens.
+    // Resamples the still to the video's size, lens and orientation.
     void setStill(const Shot& still) override {
         still_ = greyFloats(resampleStill(still.picture, rig_));
         cv::createHanningWindow(window_, still_.size(), CV_32F);

@@ -35,7 +35,8 @@ public:
 };
 
 [[nodiscard]] const std::vector<std::string>& superResMethodNames();
-/// True if this method, without a still, gives no result or only a plain enlargement.
+/// True if measuring this method without a still is useless, because it then has no result, or the
+/// result is a plain enlargement or equal to that of `detail`.
 [[nodiscard]] bool needsStill(const std::string& method);
 
 /// Makes methods. For the first of mfar's own methods, the factory creates a GL context, which

@@ -50,8 +50,9 @@ Eigen::Vector2d middle(const std::array<Eigen::Vector2d, 4>& c) {
     return (c[0] + c[1] + c[2] + c[3]) / 4;
 }
 
-/// Sum of the squared distances between two sets of corners: the smallest of all cyclic orders in
-/// either direction, because the file does not tell which corner is the tag's first.
+/// Sum of the squared distances between the corners of two quadrilaterals. The file does not tell
+/// which corner is the tag's first, nor the direction. So all eight assignments of the corners are
+/// tried, and the smallest sum is returned.
 double cornerError(const std::array<Eigen::Vector2d, 4>& a,
                    const std::array<Eigen::Vector2d, 4>& b) {
     double least = INFINITY;

@@ -18,7 +18,9 @@ struct TracedRequest {
     Size size{640, 480};
     double budgetMs = 8;  ///< processor time of the path tracer per frame
     int frames = 90;      ///< frames per path, at 30 per second
-    int every = 10;  ///< frames between comparisons; flicker: from a compared frame to the next
+    /// One of this many frames is compared. Flicker is measured from a compared frame to the next
+    /// compared frame.
+    int every = 10;
     int truthSamples = 256;
     bool hdrVdp = false;
     std::filesystem::path truth;  ///< folder that keeps the truth for later runs; empty: not kept
@@ -31,8 +33,8 @@ struct TracedRequest {
 
 /// Measures how mfard shows path-traced objects while the camera moves. In compared frames,
 /// the layer that was made within the budget is compared with a picture traced for the same view,
-/// both over grey paper. Rows are SCENE/PATH, frame and method. Means leave out the first half
-/// second.
+/// both over grey paper. Rows are SCENE/PATH, frame and method. Frames of the first half
+/// second have no rows.
 ///
 /// Columns: psnr_db, of pixels where the truth shows an object; shadow_psnr_db, of pixels where the
 /// truth shows a shadow or light of an object on the real surface; flicker of the luma error of

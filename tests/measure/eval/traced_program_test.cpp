@@ -46,8 +46,8 @@ TEST(MfarEvalTraced, ComparesFramesOfEachMethodAndKeepsTheTruth) {
         const std::vector<std::string> row = cells(line);
         if (row[0] != "still-life/orbit" || row[1] != "20") continue;
         ++compared;
-        // Grey paper alone would give 11 dB. The truth has only 4 samples per pixel, which limits
-        // PSNR to 35 dB.
+        // psnr_db: the grey background without objects would give 11 dB. The truth has only 4
+        // samples per pixel, which limits PSNR to 35 dB.
         EXPECT_GT(std::stod(row[3]), 15) << line;
         EXPECT_LT(std::stod(row[3]), 60) << line;
         EXPECT_GT(std::stod(row[8]), 20) << line;

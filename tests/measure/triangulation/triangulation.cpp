@@ -136,8 +136,9 @@ private:
     }
 
     /// Inverse depth of the midpoint of the shortest line between both rays, as in the paper. The
-    /// ends of the line follow from the common normal of the rays, which `u` gives without
-    /// cancellation. Returns 0 if an end or the midpoint is behind its camera.
+    /// ends of the line are computed from the common normal n of the rays. n is computed from
+    /// Parallax::u, because u is small: the product of two nearly parallel rays would be
+    /// inaccurate. Returns 0 if an end or the midpoint is behind its camera.
     [[nodiscard]] static float fromMidpoint(const Parallax& s) {
         const Vector3f n(-s.u.y(), s.u.x(), crossOf(s.ray, s.u));
         const Vector3f first = s.ray.homogeneous();
@@ -155,8 +156,9 @@ private:
         return focal_ * (along > kNoAngle ? crossOf(s.e, s.u) / along : s.u.norm());
     }
 
-    /// Distance between the two rays: |b . n| / |n| with their normal n = ray x (u, 0). For
-    /// parallel rays: |b x ray| / |ray|.
+    /// Distance between the two rays [m]: the length of the baseline times |b . n| / |n|, where
+    /// n = ray x (u, 0) is normal to both rays. For parallel rays: times |b x ray| / |ray|. For
+    /// b, ray and u, see Parallax.
     [[nodiscard]] float rayDistance(const Parallax& s) const {
         const float n2 = squaredNormal(s.ray, s.u), apart = crossOf(s.u, s.e);
         const float square = n2 > kNoAngle * kNoAngle

@@ -164,8 +164,8 @@ private:
         return std::max(0.0, (a * b * b * b * c * c).real());
     }
 
-    /// Adds one orientation to the numerator and the denominator of eq. 33 at every pixel. Returns
-    /// the sum of the orientation's weights over all pixels.
+    /// Adds one orientation to the numerator and the denominator of eq. 33 (Hassen, Wang, Salama
+    /// 2013) at every pixel. Returns the sum of the orientation's weights over all pixels.
     double accumulate(const cv::Mat& amplitude, double threshold) {
         return sumOf(amplitude.size(), [&](int y, int x) {
             const double energy = amplitude.at<double>(y, x) - threshold;

@@ -32,8 +32,9 @@ private:
 /// Picture from the reference folder in grey levels: CV_64F or CV_64FC3 (B G R).
 [[nodiscard]] cv::Mat referencePicture(const std::string& name);
 
-/// The scene of the reference pictures, CV_8U. referenceScene() draws it at `scale` times their
-/// size. bilinearFromLow() reduces it by a factor of 3.6 and enlarges it bilinearly.
+/// The scene of the reference pictures, CV_8U. referenceScene() draws it at `scale` times the size
+/// of these pictures. bilinearFromLow() reduces `scene` by a factor of 3.6, and enlarges the result
+/// bilinearly to the size of `scene`.
 [[nodiscard]] cv::Mat referenceScene(int scale);
 [[nodiscard]] cv::Mat bilinearFromLow(const cv::Mat& scene);
 [[nodiscard]] cv::Mat blurred(const cv::Mat& scene, double sigma);

@@ -17,9 +17,9 @@ struct SteerableFilters {
 
 [[nodiscard]] SteerableFilters steerableFilters();
 
-/// Correlates at every `step`-th sample of both axes, starting with the first, which gives ceil(n /
-/// step) samples per axis. The border is mirrored without repeating the edge. `picture`: CV_64F;
-/// `taps`: odd size; `step`: 1 or 2.
+/// Correlates at every `step`-th sample of both axes, starting with the first. An axis of n samples
+/// gives ceil(n / step) results. The border is mirrored without repeating the edge. `picture`:
+/// CV_64F; `taps`: odd size; `step`: 1 or 2.
 [[nodiscard]] cv::Mat correlate(const cv::Mat& picture, const cv::Mat& taps, int step = 1);
 
 }  // namespace mfar::eval
