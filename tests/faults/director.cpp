@@ -86,7 +86,7 @@ void request(nlohmann::json what) {  // NOLINT(performance-unnecessary-value-par
     }
 }
 
-// Faults of the disk begin while a recording runs.
+// Before a fault of the disk begins, this starts a recording, if mfard is ready.
 void apply(const Step& step) {
     static int recordings = 0;
     const bool ofDisk = step.fault->kind->where == Where::Disk;

@@ -180,12 +180,12 @@ void Judge::judgeState(const ordered_json& said, Ns asked) {
     const bool repeats = calm_[Video].active > calm_[VideoDevice].active;
     const bool isKnown = (calm_[Screen].active == 0 || stalled > kWriter) &&
                          (!repeats || calm_[VideoDevice].lasts(kRepeats, asked));
-    // After the video camera has returned, the screen shows the old picture until the first new one
-    // is due. This is not a fault. Later, judgeBlame() expects new pictures.
+    // For kBack after the video camera has returned, the screen may still show the old picture.
+    // This is not a fault. Later, judgeBlame() expects new pictures.
     const bool isDue = calm_[Video].active > 0 || calm_[Video].lasts(kBack, asked);
     if (age(asked) > kStale + kSlack && isFine && isKnown && isDue)
         fail("the screen's picture is " + seconds(age(asked)) + " old, but status says ok");
-    // mfard checks cameras only between pictures.
+    // While drawing hangs, mfard does not check its cameras: it checks them between pictures.
     if (missing(asked) > kMarked + kSlack && isFine && calm_[Drawing].lasts(kMarked, asked))
         fail("the video camera has sent nothing for " + seconds(missing(asked)) +
              ", but status says ok");

@@ -37,9 +37,9 @@ public:
     /// with those that the cameras sent.
     void stats(const nlohmann::ordered_json& said);
     void recording(const std::string& folder);
-    /// Checks memory, descriptors and threads while there are no faults. The first call sets the
-    /// reference. Returns false if the process now uses more than that; for memory, `moreBytes`
-    /// more are allowed. The caller can retry, because running requests can still end.
+    /// Checks memory, descriptors and threads while there are no faults. Returns false if the
+    /// process uses more of them than at the first call; for memory, `moreBytes` more are allowed.
+    /// The caller can then retry, because requests in progress may still use some of them.
     [[nodiscard]] bool holdsNoMore(std::uint64_t moreBytes = 8U << 20U);
 
     void note(const std::string& text);
@@ -51,8 +51,8 @@ public:
     [[nodiscard]] std::uint64_t frames() const { return frames_; }
 
 private:
-    /// Number of active faults of one group (see Watched), and time at which this number last
-    /// changed.
+    /// Number of active faults of one group (see Watched). `since`: time of the last change of this
+    /// number, or time of the service's READY if that is later.
     struct Calm {
         int active = 0;
         Ns since = 0;

@@ -39,7 +39,9 @@ struct Kind {
     std::string_view name;
     Where where;
     Effect effect;
-    std::string_view words;  ///< text for the file of the device; Fault::number replaces *
+    /// Text for the file that controls the pretended device (see Board::writeDevice());
+    /// Fault::number replaces *. Empty: no camera, trigger line or GPU has this fault.
+    std::string_view words;
     int least = 0, most = 0;
 };
 

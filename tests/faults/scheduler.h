@@ -18,7 +18,7 @@ constexpr Ns kMs = 1'000'000, kSecond = 1'000'000'000;
 /// clock a little. If every thread waits, the clock jumps to the next deadline, so that waiting
 /// takes no time. A seed determines the next thread, so that runs can be repeated. A thread gives
 /// up its turn where it waits (see calls.cpp), and sometimes where it locks. Only the thread with
-/// the turn calls these functions, so that they need no lock.
+/// the turn changes this object, so that it needs no lock.
 class Scheduler {
 public:
     /// Created by the first call. Never destroyed, because threads outlive main().
