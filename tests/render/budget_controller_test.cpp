@@ -178,7 +178,7 @@ TEST(BudgetController, ManyFramesTogetherSaveTheTimeForConvertingAPicture) {
     EXPECT_LE(budget.kept().deviation, 0.1);
 }
 
-TEST(BudgetController, IdleFramesSaveTimeThatWasUsedBeyondTheBudget) {
+TEST(BudgetController, IdleFramesMakeUpForTimeUsedBeyondTheBudget) {
     BudgetController budget(kBudget);
     (void)usedIn(budget, 2, 1000, [](int) { return 0.001; });
     budget.beginFrame(true);

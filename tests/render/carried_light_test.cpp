@@ -31,7 +31,7 @@ double errorOf(const RenderedPicture& picture, double azimuth) {
     return std::sqrt(squares / values);
 }
 
-TEST(CarriedLight, FirstPictureNeedsOneSamplePerSixteenPixels) {
+TEST(CarriedLight, FirstPictureIsShownAfterFewSamples) {
     Driver driver(kThirtyTwo, kProduct);
     driver.look(20);
     driver.untilShown(1);
@@ -78,7 +78,7 @@ TEST(CarriedLight, NewPictureIsShownWhenItHasEnoughSamples) {
     driver.look(26);
     driver.untilShown(before + 1);
     EXPECT_GT(driver.shown.back().samples, 4)
-        << "the mean of 8 samples per object pixel and 2 per pixel of other surfaces";
+        << "8 samples per object pixel and 2 per pixel of other surfaces give a mean above 4";
 }
 
 TEST(CarriedLight, NewSamplesSoonOutweighTheLightFromBeforeAChangeOfLighting) {

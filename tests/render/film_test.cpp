@@ -155,7 +155,7 @@ TEST(Film, NonFiniteSamplesAreDroppedAndCounted) {
 }
 
 // The object at the pixel's centre was hit by no sample, so its light is unknown.
-TEST(Film, ObjectWithUnknownLightIsShownUnshaded) {
+TEST(Film, ObjectWithUnknownLightIsShownInItsFarLight) {
     SeenSurface seen{{1, 3}};
     seen.paint.diffuse = {0.5F, 0.5F, 0.5F};
     seen.far.diffuse = {0.4F, 0.4F, 0.4F};
@@ -254,7 +254,7 @@ std::size_t addressSpace() {
     return pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
 }
 
-TEST(Film, UnusedPixelsReserveNoMemory) {
+TEST(Film, UnusedBlocksOfPixelsReserveNoMemory) {
     const std::size_t before = addressSpace();
     Film film({4096, 4096});
     for (std::uint32_t i = 0; i < 4096; ++i)
@@ -281,7 +281,7 @@ TEST(Film, NextPictureReusesTheMemoryOfThePreviousPicture) {
     EXPECT_EQ(memory->ready(), all) << "a film's destructor must return its blocks";
 }
 
-TEST(Film, PixelsOfProvidedMemoryCauseNoPageFaults) {
+TEST(Film, PixelsOfProvidedMemoryCauseFewPageFaults) {
 #ifdef __SANITIZE_THREAD__
     GTEST_SKIP() << "the thread sanitizer's shadow memory causes page faults";
 #endif

@@ -57,8 +57,9 @@ TEST(FirstPicture, ObjectsOutOfViewNeedLittleMemory) {
     EXPECT_LT(memory->ready(), 1U);
 }
 
-// If the memory was provided before, at least half of it is unused after the first picture. If not,
-// the film allocates only a few blocks at a time, so that almost no memory is unused.
+// If threads have provided the memory before the first picture is traced, at least half of it is
+// unused after this picture. If not, the film allocates only a few blocks at a time, so that almost
+// no memory is unused.
 TEST(FirstPicture, ThreadsOfTheRendererProvideItsMemory) {
     const std::shared_ptr<FilmMemory> expected = Film::makeMemory(), piece = Film::makeMemory();
     TracedPictures pictures(kThirtyTwo, kProduct, expected);

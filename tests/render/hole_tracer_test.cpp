@@ -50,7 +50,7 @@ TEST(HoleTracer, AnswersMatchAPictureOfTheView) {
     resolve(film, view, {}, truth);
 
     HoleTracer holes(10000);
-    for (int round = 0; round < 2; ++round) {  // round 2 must not keep results of round 1
+    for (int round = 0; round < 2; ++round) {  // the second must not keep results of the first
         PixelList some;
         for (std::uint32_t i = 0; i < all.size(); i += 2 + round)
             some.push_back(i);

@@ -12,7 +12,7 @@ CameraModel wideLens() {
     return {{321, 243}, 200, 205, 163.2, 118.7, {-0.28, 0.07, 0.001, -0.0007, 0}};
 }
 
-TEST(LensRays, MatchUnprojectWithin0Point05Pixels) {
+TEST(LensRays, RaysMatchUnprojectToWithinATwentiethOfAPixel) {
     for (const CameraModel& camera :
          {wideLens(), CameraModel{{7, 5}, 6, 6, 3, 2, {}}, CameraModel{{1, 1}, 1, 1, 0, 0, {}}}) {
         const LensRays rays(camera);

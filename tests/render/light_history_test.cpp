@@ -28,8 +28,8 @@ Eigen::Vector3f pointAt(double x, double y) {
     return (kFromAbove.T_world_camera * ray).cast<float>();
 }
 
-/// Light whose value without objects is 1 + x + 20 y, so that interpolation between pixels is
-/// exact.
+/// Light of the shadow catcher at a pixel. Without objects it is 1 + x + 20 y, a linear function,
+/// so that interpolation between pixels is exact.
 KnownLight lightAt(int x, int y) {
     KnownLight out;
     out.first = Eigen::Vector3f::Constant(0.5F);

@@ -79,9 +79,9 @@ TEST(NoiseFilter, EstimatesUnknownVariances) {
     EXPECT_LT(errorOf(pixels, flat), kSigma / 2);
 }
 
-/// Returns the error of a filtered soft shadow. A quarter of the pixels has `samples` samples each.
-/// In a single sample, objects block all of the light or none. So single pixels look like spots
-/// until the filter averages them with their neighbours.
+/// Returns the error of a filtered soft shadow. A quarter of the pixels has `samples` samples each;
+/// the others have none. In a single sample, objects block all of the light or none. So single
+/// pixels look like spots until the filter averages them with their neighbours.
 double spotsOf(std::uint8_t id, int samples, std::uint32_t seed) {
     constexpr double kBlocked = 0.25;
     std::mt19937 random(seed);

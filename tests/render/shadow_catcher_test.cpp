@@ -39,8 +39,8 @@ TEST(ShadowCatcher, SphereBlocksTheShareOfTheSkyGivenByItsFormFactor) {
     // The form factor of the sphere for a small patch is (r / h)^2. This share of the irradiance is
     // blocked.
     EXPECT_NEAR(under.with.x() / under.without.x(), 1 - 0.25F, 0.01F);
-    // At a point beside the sphere, the share also has the cosine of the direction to the sphere as
-    // a factor.
+    // At a point beside the sphere, the share also has a factor: the cosine of the angle between
+    // the direction to the sphere and the ground's normal.
     const Film::Means aside = groundAt(tracer, {2, 0, 0}, 2048);
     EXPECT_NEAR(aside.with.x() / aside.without.x(), 1 - std::sqrt(0.5F) / 8, 0.01F);
 }

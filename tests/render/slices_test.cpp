@@ -151,8 +151,8 @@ TEST(Slices, NoPixelIsInTwoUnfinishedPortions) {
     }
 }
 
-// A turn visits all pixels that it concerns once. The first turn traces a ray through every pixel's
-// centre. The next three take the first samples: in one pixel of 16, in one of 4, and in all.
+// A turn visits each pixel at most once. The first turn traces a ray through every pixel's centre.
+// The next three take the first samples: in one pixel of 16, in one of 4, and in all.
 TEST(Slices, AllPixelsHaveEqualSamplesAfterEachFullTurnOfTimeSlices) {
     Slices slices({Slicing::Time, 8, 3, 0, 2});
     slices.begin({0, 0, 32, 24}, {32, 24});

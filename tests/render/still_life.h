@@ -11,8 +11,8 @@ namespace mfar::render_scenes {
 /// A sun and unevenLight() light them.
 [[nodiscard]] std::shared_ptr<const Scene> stillLife();
 
-/// A camera that looks at the origin. `azimuth` is the angle about the world's z axis from +x
-/// [degrees], `elevation` the angle above the plane [degrees].
+/// A camera that looks at the origin from a given `distance` [m]. `azimuth` is the angle about the
+/// world's z axis from +x [degrees], `elevation` the angle above the plane [degrees].
 [[nodiscard]] RenderView viewFrom(Size size, double azimuth, double elevation = 35,
                                   double distance = 0.9);
 
