@@ -57,8 +57,8 @@ TestPicture mirrored(const TestPicture& p) {
     return out;
 }
 
-// A shift within the reach of the search and of sub-pixel steps must be found, also in exchanged
-// and in mirrored pictures.
+// A shift within the reach of the search and of sub-pixel steps must be found, also if the two
+// pictures are exchanged or mirrored.
 void shiftedPicture(Context& c) {
     const Size size = c.size(101, 180);
     const Waves waves(static_cast<unsigned>(c.hostile.integer(1, 1 << 30)), 6, 60, 35);

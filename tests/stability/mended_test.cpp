@@ -101,7 +101,6 @@ TEST(Mended, EpipolarLensAcceptsAPictureOfOnePixel) {
     EXPECT_EQ(p.y, 0);
 }
 
-// In these pictures there is only one column or one row of cells.
 TEST(Mended, EpipolarFlowAcceptsPicturesWithOneColumnOrRowOfCells) {
     for (const Size size : {Size{1, 1}, Size{1, 40}, Size{40, 1}, Size{2, 3}}) {
         EpipolarFlow flow({smallCamera(size), smallCamera(size), {}}, oneWorker());

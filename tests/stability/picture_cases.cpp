@@ -125,8 +125,8 @@ void changePlan(Context& c) {
     c.gl.frame(c.checks, pixelsOf(size));
 }
 
-// Without a still the output must be the enlarged video. Columns are enlarged first and rounded to
-// 8 bits.
+// Without a still, the output must be the enlarged video. The video is first enlarged vertically,
+// this result is rounded to 8 bits, and then it is enlarged horizontally.
 void enlargement(Context& c) {
     const Size video = c.size(1, 60);
     const Size output{video.width * c.hostile.integer(1, 4) + c.hostile.integer(0, 3),

@@ -76,8 +76,8 @@ void frames(Context& c) {
     options.engines = enginesFor(c);
     if (c.scale == Scale::Product)
         options.output = c.hostile.pick({rig.still.size, Size{1440, 1080}, Size{1067, 800}});
-    // The default output has the size Pipeline::fullSize(). It is too small if the still is
-    // narrower than the video, and may exceed the largest texture if the still is very wide.
+    // The default output is as wide as the still. If the still is narrower than the video, or so
+    // wide that the output could exceed the largest texture, the output gets another size.
     const Size full = Pipeline::fullSize(rig);
     if (c.scale == Scale::Mixed || rig.still.size.width < rig.video.size.width ||
         std::max(full.width, full.height) > kMostOutput)

@@ -123,7 +123,7 @@ struct WholeLabels {
     /// For each pixel of the row, the pixel of the still (whose size is `canvas`) nearest to the
     /// point of label 0.
     std::vector<std::array<int, 2>> pixels;
-    std::vector<double> feet;  ///< position of each pixel's foot [labels]
+    std::vector<double> feet;  ///< position of each pixel's foot (see above) on its line [labels]
     std::array<int, 2> way{};  ///< step per label [px]
 
     WholeLabels(Context& c, std::size_t count, Size canvas) {
