@@ -131,7 +131,7 @@ void expectNoOffset(const Calibration& found) {
     expectRig(found);
 }
 
-TEST(Calibrate, AnUnobservableClockOffsetIsZeroAndReported) {
+TEST(Calibrate, AnUnobservableClockOffsetIsZeroAndReportedAsNotMeasured) {
     Motion motion;
     motion.rests = true;
     motion.stillsHz = 1;

@@ -211,7 +211,7 @@ TEST(TargetFinder, CornersOfTagsCutByThePicturesEdgeLieInsideThePicture) {
     EXPECT_GE(most, 32U);
 }
 
-TEST(TargetFinder, EmptyPicturesGiveNoCorners) {
+TEST(TargetFinder, UniformPicturesGiveNoCorners) {
     const cv::Mat1b grey(480, 640, 128);
     const Target grid = aprilGrid(6, 6, 0.064, 0.25), board = checkerboard(9, 6, 0.025);
     for (const Target* target : {&grid, &board}) {

@@ -103,7 +103,7 @@ TEST(SceneFollower, IfTheViewTurnsTheShadowCatcherIsRebuiltAfterTheLeastInterval
     EXPECT_NE(follow(0, 105), nullptr);
 }
 
-TEST(SceneFollower, OutsideOfTheViewTheShadowCatcherIsStillAPlane) {
+TEST(SceneFollower, OutsideOfTheViewTheShadowCatcherRemainsAPlane) {
     SceneFollower follower({.settling = 0});
     const auto reach = [](const ShadowCatcher& c) {
         Eigen::AlignedBox3f box;

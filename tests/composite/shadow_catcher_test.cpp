@@ -98,7 +98,7 @@ TEST(ShadowCatcher, ObjectsOnThePlaneKeepTheirHeightAndAreNotJoinedToIt) {
     EXPECT_GT(high, 50);
 }
 
-TEST(ShadowCatcher, UnknownDepthDistantDepthAndAreasOutsideThePictureGiveNoSurface) {
+TEST(ShadowCatcher, UnknownOrLargeDepthAndAreasOutsideThePictureGiveNoSurface) {
     const auto none = [](const InverseDepthField& field, const PixelRect& where) {
         return depthCatcher(field, kLens, eyeAbove(), where, kGround).triangles.empty();
     };

@@ -58,7 +58,7 @@ TEST(Silhouette, EveryPixelNearASurfacePointIsCovered) {
                 continue;
             const SurfaceRange& r = ranges[tile.y() * tiles.width + tile.x()];
             // The corners of a sphere's triangles lie on the sphere. So the triangles lie below its
-            // surface, by less than two thousandths of the radius (0.2).
+            // surface, by less than two thousandths of the radius, which is 0.2 m.
             ASSERT_LE(r.nearest, p.z() + 1e-3);
             ASSERT_GE(r.farthest, p.z() - 1e-3);
         }

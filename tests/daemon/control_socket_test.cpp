@@ -134,7 +134,7 @@ TEST_F(ControlSocketTest, SlowAnswersDelayNobody) {
     slow.wait();
 }
 
-TEST_F(ControlSocketTest, ClientsThatDoNotReadDelayNobody) {
+TEST_F(ControlSocketTest, ClientsThatReadNothingDelayNobody) {
     const ControlSocket socket(path, [&](std::string_view request, ControlRole) -> ControlAnswer {
         if (request != "large") return echo(request, ControlRole::Operator);
         return {json{{"ok", true}}.dump(), std::vector<std::uint8_t>(10'000'000)};

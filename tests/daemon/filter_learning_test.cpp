@@ -191,7 +191,7 @@ TEST_F(FilterLearningTest, StillsThatArriveTooSoonAreSkipped) {
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     const auto learned = std::chrono::steady_clock::now();
     ASSERT_EQ(learning.counts().learner.stills, 1U);
-    // The thread is idle again. It rests nine times as long as it has learned.
+    // The thread has learned. It now skips stills for nine times as long as the learning took.
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
     showTo(learning, second, second, {});
     if (std::chrono::steady_clock::now() - learned > 4 * (learned - begun))

@@ -71,7 +71,7 @@ TEST(Log, StatusLineNeverWraps) {
     EXPECT_EQ(out, "\r\x1b[K" + std::string(79, 'x'));
 }
 
-TEST(Log, StatusOfSeveralLinesIsShownInOne) {
+TEST(Log, AStatusOfSeveralLinesIsShownInOneLine) {
     const std::string out =
         written(Log::Style::Terminal, [](Log& log) { log.status("video: gone\nstill: gone"); });
     EXPECT_EQ(out, "\r\x1b[Kvideo: gone still: gone");

@@ -83,8 +83,8 @@ TEST_F(RigOfCameras, ARecorderWhoseDiskHangsIsReportedAsLate) {
         << "a recorder that waits for work is not late";
 }
 
-// The first recording of a rig counts as the recording of --record. If `breaks` is true, a file in
-// place of a folder makes the pictures of the recording unwritable.
+// The first recording of a rig counts as the recording of --record. If `breaks` is true, record()
+// replaces the folder for pictures by a file, so that the pictures cannot be written.
 TEST_F(RigOfCameras, OnlyTheRecordingOfTheCommandLineMustBeComplete) {
     says("video90", "");
     config_.recordTo = folder_ / "required";

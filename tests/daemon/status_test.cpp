@@ -340,7 +340,7 @@ TEST(Status, LineHasAProgressBarIfTheEndIsKnown) {
     EXPECT_THAT(statusLine(stats.count(), run, 1), testing::StartsWith("[####............]  25%"));
 }
 
-TEST(Summary, ReportsTheVirtualLayerOnlyIfItExists) {
+TEST(Summary, ReportsThePathTracerOnlyIfThereIsOne) {
     Stats stats;
     EXPECT_FALSE(summary(stats.count(), {}, "", 0)["virtual"].contains("path_tracer"));
     TracedLayerCounters counters;

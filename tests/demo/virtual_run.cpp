@@ -19,8 +19,8 @@ namespace {
 
 constexpr std::chrono::milliseconds kFrameInterval{33};
 // The path tracer renders the exact view only after the camera has rested for some frames. So the
-// last frame is repeated until the tracer has used more than kLeastLooks of the repetitions and its
-// picture is finished, at most kMostRestFrames times.
+// last frame is repeated until the tracer's picture is finished, and the tracer has noticed more
+// than kLeastLooks repetitions (it skips some). There are at most kMostRestFrames repetitions.
 constexpr int kLeastLooks = 15, kMostRestFrames = 20000;
 
 bool isSettled(const TracedLayerCounters& counters) {
@@ -107,7 +107,7 @@ VirtualRun runVirtual(const Recording& recording, const Config& config,
         throw std::runtime_error(recording.root.string() +
                                  ": no virtual object is in view in the last frame");
     Timestamp seen = show.counters().render.frame;
-    int looks = 0;  // number of repeated frames that the path tracer has used; it skips some
+    int looks = 0;  // number of repetitions that the path tracer has noticed
     for (int i = 0; i < kMostRestFrames && !(looks > kLeastLooks && isSettled(show.counters()));
          ++i) {
         show.again();

@@ -181,7 +181,7 @@ TEST(DepthStage, DepthIsMeasuredWhileTheCameraMovesForwards) {
     EXPECT_GT(errors.complete, 0.8);
 }
 
-TEST(DepthStage, DepthIsMeasuredOnlyInRequestedTiles) {
+TEST(DepthStage, DepthIsMeasuredOnlyInTheRequestedRectangle) {
     const PixelRect where{70, 50, 150, 120};
     Walk walk({}, where);
     walk.goSideways(10, 0.01);

@@ -47,7 +47,7 @@ TEST(Keyframes, AngleRuleChoosesTheNewestKeyframeWithEnoughParallax) {
     EXPECT_GT(choice->angle, 0.035);
 }
 
-TEST(Keyframes, ScoreRuleChoosesTheMostParallaxAmongKeyframesThatShowThePart) {
+TEST(Keyframes, ScoreRuleChoosesTheMostParallaxAmongKeyframesThatShowTheRegion) {
     const Keyframes frames = walked({});
     EXPECT_EQ(frames.choose(poseAt(0.1), 100, kAll, 1)->frame->pose.T_world_video.translation.x(),
               0);

@@ -101,9 +101,9 @@ RgbPlanes noisy(const LumaImage& light, double sigma, std::mt19937& random) {
     return out;
 }
 
-/// Plans frames of a camera that moves sideways by `step` [m] per frame. Returns the first frame
-/// after which the camera does not count as resting since frame 1, or `frames`. `sigma`: standard
-/// deviation of the noise [grey levels]. `drawsAll`: every frame is drawn as a whole.
+/// Plans frames of a camera that moves sideways by `step` [m] per frame. Returns the number of the
+/// first frame at which CameraRest notices the motion, or `frames` if it never does. `sigma`:
+/// standard deviation of the noise [grey levels]. `drawsAll`: every frame is drawn as a whole.
 int framesAtRest(double step, double sigma, int frames, bool drawsAll = false) {
     std::mt19937 random(7);
     WorkPlan plan(videoCamera().size);
@@ -129,7 +129,7 @@ TEST(CameraRest, NoiseDoesNotCountAsMotion) {
 }
 
 TEST(CameraRest, AMotionOfHalfAPixelIsNoticed) {
-    // The wall is 1.6 m away, so it moves by 125 px per metre.
+    // The wall is 1.6 m away, so it moves by 125 px per metre of camera motion.
     for (const double pixelsPerFrame : {0.02, 0.1, 0.5})
         for (const double sigma : {0.5, 2.0})
             EXPECT_LT(framesAtRest(pixelsPerFrame / 125, sigma, 100) * pixelsPerFrame, 0.6)

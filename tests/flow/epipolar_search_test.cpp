@@ -47,9 +47,9 @@ EpipolarSearch searched(const View& view, int threads = 2) {
 }
 
 // Upper limits of the median error [px] for oblique epipolar lines, and for lines along an axis of
-// the picture. The nearest still pixel gives the cost of a point on the line. The search corrects
-// the offset between that pixel and the point along the line, but not across the line. So oblique
-// lines have larger errors.
+// the picture. The still pixel nearest to a point on the line gives the point's cost. The offset of
+// this pixel from the point has a component along the line, which the search corrects, and one
+// across the line, which it does not correct. So oblique lines have larger errors.
 constexpr double kAcross = 0.38, kAlongAxis = 0.22;
 
 void expectErrors(const View& view, double median, double bad) {

@@ -58,7 +58,7 @@ test::FlowErrors errorsWith(const EpipolarOptions& options) {
     return test::errorsOf(search, view);
 }
 
-TEST(EpipolarOptions, EverySettingFindsAWallWithinItsReach) {
+TEST(EpipolarOptions, SettingsOtherThanTheDefaultsFindAWall) {
     for (const int levels : {1, 2, 3, 4})
         EXPECT_LT(errorsWith({.levels = levels}).bad, 0.02) << levels;
     for (const int radius : {0, 8})
@@ -73,7 +73,7 @@ TEST(EpipolarOptions, HalfTheResolutionFindsAWallToAboutAPixel) {
         EXPECT_LT(errorsWith({.levels = levels, .finest = 1}).bad, 0.02) << levels;
 }
 
-TEST(EpipolarOptions, OptionsChangedBetweenFramesActLikeInitialOptions) {
+TEST(EpipolarOptions, OptionsExceptLevelsCanBeChangedBetweenFrames) {
     const CameraModel camera{{200, 150}, 190, 190, 99.5, 74.5, {}};
     const test::View view{
         camera, {{{{0, 0, 1}, 2}}, 30, 100}, test::motion({0, 0, 0}, {-0.4, 0, 0})};

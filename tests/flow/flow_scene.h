@@ -21,7 +21,7 @@ struct Surface {
 struct Scene {
     std::vector<Surface> surfaces;
     double grain = 20;     ///< lattice points of the finest texture per unit of length
-    double contrast = 90;  ///< grey levels differ from 128 by up to 0.3 of this
+    double contrast = 90;  ///< grey levels differ from 128 by up to 1.2 times this
 
     /// Depth z of the first surface on a pixel's ray, for a camera at T_camera_video. 0 if the ray
     /// meets no surface.

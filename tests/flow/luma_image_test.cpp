@@ -131,7 +131,7 @@ TEST(Halve, APixelIsTheMeanOfFourPixelsWithTheBorderRepeated) {
     }
 }
 
-TEST(Halve, KeepsBlackAndWhite) {
+TEST(Halve, UniformPicturesStayUniform) {
     LumaImage coarse;
     for (const int grey : {0, 1, 254, 255}) {
         halve(pictureOf({9, 7}, [&](int, int) { return grey; }), coarse);
@@ -154,7 +154,7 @@ TEST(Smooth, AppliesTheSeparableMaskWithTheBorderRepeated) {
                         for (int i = -1; i <= 1; ++i)
                             sum += (i == 0 ? 1 - 2.0 * side : side) *
                                    (j == 0 ? 1 - 2.0 * side : side) * clampedAt(in, x + i, y + j);
-                    // Tolerance: the side weights are rounded to 1/256 and have errors of up to
+                    // Tolerance: smooth() rounds `side` to a multiple of 1/256, an error of up to
                     // 0.002. Along each axis, this changes a pixel by up to 255 * 2 * 0.002.
                     ASSERT_NEAR(out.row(y)[x], sum, 0.5 + 255 * 4 * 0.002) << side;
                 }

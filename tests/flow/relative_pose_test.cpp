@@ -26,7 +26,7 @@ struct Case {
     Eigen::Vector3d translation{0.2, 0.02, 0.01};
     Vector6 motion = Vector6::Zero();
     double noise = 0.2;  // noise of a match [px]
-    double wrong = 0;    // share of matches with an additional error of up to 0.02 [rays]
+    double wrong = 0;    // share of matches with an additional error of up to 0.02 in x/z and y/z
     int count = 250;
 
     [[nodiscard]] std::vector<RayMatch> matches() const {

@@ -128,7 +128,7 @@ void expectTwin(const Problem& p) {
     }
 }
 
-// The paths run only along the two axes. For these, addPath() may process pixels row by row.
+// The paths run only along the two axes, so addPath() may process pixels row by row.
 TEST(SemiGlobal, MatchesTheOracleInOneWindow) {
     for (unsigned seed = 1; seed <= 4; ++seed)
         for (const Size size : {Size{1, 1}, Size{1, 9}, Size{11, 1}, Size{2, 3}, Size{37, 29}})

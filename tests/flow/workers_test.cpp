@@ -122,7 +122,7 @@ TEST(Workers, DefaultIsOneThreadPerProcessorUpToFour) {
     EXPECT_EQ(Workers().count(), std::clamp(processors, 1, 4));
 }
 
-TEST(Workers, UnusedWorkersEndAtOnce) {
+TEST(Workers, UnusedWorkersCanBeDestroyed) {
     for (int i = 0; i < 200; ++i)
         const Workers workers(4);
 }

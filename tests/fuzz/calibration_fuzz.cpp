@@ -1,4 +1,4 @@
-// Fuzzes calibrations in all formats: as a folder, as single files, and as pairs of files.
+// Fuzzes calibrations in all formats, given as a folder, as single files, and as pairs of files.
 #include "base/calibration/camera_info.h"
 #include "base/calibration/rig_files.h"
 #include "tests/fuzz/file_bundle.h"

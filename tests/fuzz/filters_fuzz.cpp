@@ -1,7 +1,8 @@
 // Fuzzes the state of the learned filters. The input is a list of edits of a valid file. In each
 // edit, two bytes select a position (in 64ths of the file, plus an offset). The third byte is the
-// number of following bytes that replace those at the position; 0 truncates the file there. Then
-// the checksum is corrected, because otherwise every input would be refused.
+// number of following bytes that replace those at the position; 0 truncates the file there and ends
+// the list. After the last edit, the checksum is corrected, because otherwise every input would be
+// refused.
 #include "pipeline/enlarge/enlarger_learner.h"
 #include "pipeline/enlarge/filter_bank.h"
 #include "pipeline/enlarge/stored_numbers.h"

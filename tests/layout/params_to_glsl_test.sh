@@ -33,10 +33,10 @@ cat >case.h <<'END'
 
 #include <cstdint>
 
-// Left out.
+// The translation leaves out comments.
 namespace mfar::params {
 
-/// Left out, too.
+/// Doxygen comments are left out, too.
 inline constexpr float kHalf = 2.0F * kQuarter;
 inline constexpr std::uint32_t kMask = 15U;
 inline constexpr int kSum =

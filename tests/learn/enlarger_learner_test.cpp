@@ -137,7 +137,7 @@ TEST(EnlargerLearner, ASoftStillIsRefusedUnlessTheStillBeforeWasAlsoSoft) {
         << "a second soft still in a row means that the lens has changed";
 }
 
-TEST(EnlargerLearner, BadStillsNeverGiveFiltersWorseThanTheCubic) {
+TEST(EnlargerLearner, BadStillsNeverGiveFiltersWorseThanCubicInterpolation) {
     for (const SensorPair& good : {SensorPair{}, SensorPair{.videoBlur = 1, .videoNoise = 2}}) {
         EnlargerLearner learner;
         for (int i = 1; i <= 8; ++i) {

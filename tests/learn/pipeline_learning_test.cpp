@@ -145,7 +145,7 @@ TEST_P(PipelineLearning, TheToneCurveInTheFilterBankIsAppliedToStills) {
     EXPECT_NEAR(heard.level, 255 - sharp_.at(400, 300), 1);
 }
 
-TEST_P(PipelineLearning, WithoutAStillNewFiltersTakeEffectAtOnceOtherwiseAtTheNextStill) {
+TEST_P(PipelineLearning, NewFiltersTakeEffectAtTheNextStillOrAtOnceIfThereIsNoStill) {
     const auto none = std::make_shared<const FilterBank>(
         std::vector<FilterBank::Filter>(enlarge::kUnique, FilterBank::Filter{}));
     pipeline_.setFilters(none);

@@ -160,7 +160,8 @@ TEST(GltfModel, InterleavedAndNormalizedElementsAreRead) {
     EXPECT_EQ(mesh.uvs[3], Eigen::Vector2f(0, 0));
 }
 
-// Example from the specification: the lower left quarter of the picture, rotated.
+// Example from the specification of KHR_texture_transform: the lower left quarter of the picture,
+// rotated.
 TEST(GltfModel, TextureTransformIsApplied) {
     GltfMaker maker = richModel();
     nlohmann::json& m = maker.root["materials"][0];

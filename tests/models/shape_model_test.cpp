@@ -37,7 +37,7 @@ TEST(ShapeModel, EllipsoidNormalsAreTheSurfaceGradients) {
     }
 }
 
-TEST(ShapeModel, TheCheckerboardMatchesThePreview) {
+TEST(ShapeModel, TheCheckerboardHasTheObjectsSquaresAndColours) {
     VirtualObject object;
     object.squares = 3;
     const Model model = shapeModel(object);

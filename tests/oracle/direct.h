@@ -21,7 +21,7 @@ struct DirectCase {
     Grey video, still;
     Size cells;
     std::vector<Eigen::Vector2d> lines;  ///< flow along epipolar lines, one vector per cell
-    double noise = 0;
+    double noise = 0;                    ///< standard deviation [grey levels]
 
     [[nodiscard]] bool has(int x, int y) const {
         return x >= 0 && y >= 0 && x < cells.width && y < cells.height;
@@ -126,8 +126,9 @@ struct DirectResult {
     Eigen::Vector4d likeness;
     double error;
     bool compared;  ///< true: `likeness` replaces the cell's statistics
-    /// Change of a squared correlation at which the other candidate (see params::kClearlyAlike)
-    /// would be chosen; 1 if both candidates are equal or the cell is not doubtful.
+    /// If the difference of the two candidates' squared correlations changed by more than this, the
+    /// other candidate could be chosen (see params::kClearlyAlike). 1 if the candidates are equal
+    /// or the cell is not doubtful (see params::kGoodCost).
     double choiceMargin;
 };
 

@@ -20,7 +20,7 @@ struct FineCase {
     /// Value of the still at the position to which the flow leads from video pixel (x, y).
     std::function<double(double x, double y)> still;
     std::function<bool(int x, int y)> isMatched;  ///< true if cell (x, y) is matched
-    /// Second difference of bent flow at a cell [px].
+    /// Second difference of the flow at a cell [px]. 0 where the flow is not bent.
     std::function<double(int x, int y)> kink;
     /// Variance of the video around a cell [grey levels^2].
     std::function<double(int x, int y)> variance;

@@ -43,8 +43,8 @@ Grey greyOf(Size size, F valueAt) {
     return out;
 }
 
-/// A row of `to` pixels covers the same length as a row of `from` pixels. Returns the position of
-/// the centre of its pixel `x` in the row of `from` pixels.
+/// A row of `to` pixels and a row of `from` pixels cover the same length. Returns the position, in
+/// the row of `from` pixels, of the centre of pixel `x` of the other row.
 inline double centre(int x, int from, int to) {
     return (x + 0.5) * from / to - 0.5;
 }

@@ -24,9 +24,9 @@ struct TileChange {
     /// Sum of the squared mean and the two squared slopes of the cells' mean differences, each
     /// divided by the variance that noise gives to it. Maximum over red, luma and blue.
     double moments = 0;
-    /// Mean squares of three measures of the luma's difference: [0] twist() of pixels, [1] 2x2
-    /// means times 2, [2] twist() of 2x2 means, times 2. If the difference is white noise, each
-    /// mean square is the noise's variance.
+    /// Mean squares of three measures of the luma's difference (new minus last drawn picture):
+    /// [0] twist() of single pixels, [1] 2 * (mean of 2x2 pixels), [2] 2 * (twist() of the means of
+    /// 2x2 pixels). If the difference is white noise, each mean square is the noise's variance.
     std::array<double, 3> energy{};
     /// Sum of the squared residuals of a plane that is fitted to the luma's 2x2 means in a window
     /// of 8x8 pixels. Mean over nine windows.

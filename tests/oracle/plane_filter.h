@@ -37,6 +37,7 @@ inline Eigen::Vector2d medianAround(const FlowCells& cells, int x, int y) {
 /// per row of cells.
 using Plane = Eigen::Matrix<double, 2, 3>;
 
+/// `about`: an earlier estimate. Flow that differs from it by `reach` [px] or more has no weight.
 inline Plane fitPlane(const FlowCells& cells, int x, int y, const Plane& about, double reach) {
     Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
     Plane right = Plane::Zero();

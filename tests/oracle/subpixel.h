@@ -20,7 +20,8 @@ struct SubpixelCase {
     Size cells;
     std::vector<Eigen::Vector2d> flow;  ///< one vector per cell
     std::vector<bool> compared;         ///< cells that are compared with the still
-    double noise = 0, light = 0;
+    double noise = 0;                   ///< standard deviation [grey levels]
+    double light = 0;                   ///< see Guidance::light
 
     [[nodiscard]] bool has(int x, int y) const {
         return x >= 0 && y >= 0 && x < cells.width && y < cells.height;

@@ -66,6 +66,7 @@ inline double kinkAt(const Cells& flow, int x, int y) {
 
 /// Weight of a cell. Channels of `statistics`: covariance of video and still, variance of the
 /// video, variance of the still, confidence. `half` holds the statistics at half the resolution.
+/// `sigma`: standard deviation of the noise [grey levels].
 inline Weight weigh(const Cells& flow, const Cells& statistics, const Cells& half, int x, int y,
                     double sigma) {
     Eigen::Vector4d s = Eigen::Vector4d::Zero(), h = Eigen::Vector4d::Zero();

@@ -8,8 +8,8 @@ of Linux's dm-log-writes, as QEMU's blklogwrites makes it. Each line of MARKS is
 rows of the recording's list were synchronised when the log had BYTES bytes. OUT is the disk image
 that is written. Prints how many rows were synchronised before the cut.
 
-A disk keeps everything that was written before its last flush. It may keep any blocks of 4 KiB of
-later writes, each as a whole. SEED determines the cut and the share of these blocks."""
+A disk keeps everything that was written before its last flush or with the flag FUA. It may keep any
+blocks of 4 KiB of other writes, each as a whole. SEED determines the cut and the kept blocks."""
 
 import random
 import shutil
@@ -52,8 +52,8 @@ def blocks(place, data):
 
 
 def after_cut(start, done, chance, share, out):
-    """Writes to `out` the disk image that a power cut after the entries `done` leaves. It keeps the
-    share `share`, chosen at random, of the blocks that were written after the last flush."""
+    """Writes to `out` the disk image that a power cut after the entries `done` leaves. Each block that
+    was written after the last flush, without FUA, is kept with the probability `share`."""
     flushed = max((i for i, entry in enumerate(done) if entry[1] & FLUSH), default=0)
     shutil.copyfile(start, out)
     with open(out, 'r+b') as disk:

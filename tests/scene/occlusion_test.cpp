@@ -20,7 +20,8 @@ using synthetic::Path;
 constexpr int kUnscored = 8;
 
 /// Limits for each scene. The shelf needs less overlap than the office, because its objects are
-/// thin: the windows of the depth search widen them, and EdgeSnap corrects only a part of this.
+/// thin. The depth search compares neighbourhoods of pixels and so makes objects wider. EdgeSnap
+/// corrects only a part of this.
 struct Case {
     synthetic::Scene scene;
     double leastOverlap, mostBoundary;  // limits of IoU and of mean boundary distance [px]

@@ -135,7 +135,8 @@ TEST_F(SecondStill, IsMatchedInNoMoreTilesThanItsConfiguredShare) {
     pipeline.setQuality({.secondShare = 0});
     setStill(pipeline, part_);
     pipeline.setQuality({.secondShare = 1});
-    EXPECT_EQ(run(pipeline).matchedSecond, 0) << "no second still is kept while the share is zero";
+    EXPECT_EQ(run(pipeline).matchedSecond, 0)
+        << "while the share is 0, a replaced still must not be kept as the second still";
 }
 
 TEST_F(SecondStill, IsUsedOnlyInModeDetailWithLearnedFilters) {

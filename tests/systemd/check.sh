@@ -39,8 +39,8 @@ wait=$(sed -n 's/^constexpr std::chrono::seconds kLongestWait{\([0-9]*\)};$/\1/p
     "$sources/../daemon/restart_pause.cpp")
 pause=$(sed -n 's/^RestartSec=//p' "$reboot")
 [[ -n $wait ]] || fault "the longest wait was not found in restart_pause.cpp"
-# A start takes up to 60 s (TimeoutStartSec=), then mfard waits, and ends after at most 5 s
-# (TimeoutStopSec=). Then systemd waits, too.
+# A start takes up to 60 s (TimeoutStartSec=). If it fails, mfard waits up to $wait s and ends
+# within 5 s (TimeoutStopSec=). Then systemd waits $pause s before the next start.
 ((60 * minutes > starts * (60 + wait + 5 + pause))) ||
     fault "reboot.conf can never count $starts starts within $minutes min"
 ((starts * pause >= 600)) || fault "reboot.conf may reboot more often than every ten minutes"

@@ -34,8 +34,9 @@ std::string synopsis(const CLI::App& app) {
     return options + positional;
 }
 
-/// Returns entries for all arguments and for all commands with their arguments. `path`: names of
-/// the commands that contain `app`'s commands.
+/// Returns entries for all arguments of `app`, and for all its commands with their arguments.
+/// `path`: names of the commands that lead to `app`, each followed by a space; empty for the
+/// program itself.
 std::string arguments(const CLI::App& app, const std::string& path) {
     std::string out;
     for (const ArgumentText& argument : argumentTexts(app))

@@ -233,7 +233,6 @@ TEST(TagPose, UnusableTagsGiveNoPose) {
     EXPECT_FALSE(solveTagPose({}, camera).has_value());
 }
 
-// Four points must not give NaN, even if they do not look like a tag.
 TEST(TagPose, AnyFourCornersGiveAFinitePoseOrNone) {
     std::mt19937 random(9);
     std::uniform_real_distribution<double> x(-20, 660), y(-20, 500);

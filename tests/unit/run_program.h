@@ -13,7 +13,7 @@
 namespace mfar::test {
 
 struct Outcome {
-    int status = -1;  ///< exit status; 128 + n if signal n ended the program
+    int status = -1;  ///< exit status; if a signal n ended the program, -1 or the shell's 128 + n
     std::string text;
 };
 

@@ -29,8 +29,8 @@ std::size_t grownSince(std::size_t before) {
 
 TEST(ZeroedArray, ContentIsZeroAndAlignedAtEverySize) {
     for (const std::size_t size : {0, 1, 63, 64, 65, 4095, 1 << 20}) {
-        // Fills a block of memory with other values. The block is freed, then allocated again
-        // below.
+        // Fills a block of memory with a value other than 0 and frees it. Below, the same block is
+        // usually allocated again.
         std::fill_n(ZeroedArray<std::uint8_t>(size).data(), size, std::uint8_t{0xA5});
         ZeroedArray<std::uint8_t> array(size);
         ASSERT_EQ(array.size(), size);

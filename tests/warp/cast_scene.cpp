@@ -10,8 +10,9 @@ namespace {
 using Eigen::Vector3d;
 using Rgba = Eigen::Vector4d;
 
+// In the camera's frame, `along` has z = 1. So the point from + t * along has the depth t.
 struct Ray {
-    Vector3d from, along;  // `along` has z = 1 in the camera's frame. So t is the depth z.
+    Vector3d from, along;
 };
 struct Met {
     double z;

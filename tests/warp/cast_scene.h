@@ -24,7 +24,7 @@ struct CastScene {
     /// The scene as triangles, with `segments` segments around each sphere.
     [[nodiscard]] mfar::Scene scene(int segments = 192) const;
     /// Casts `grid`^2 rays per pixel for its colour, and one through its centre for depth and id.
-    /// If the latter hits nothing, depth and id are those of the nearest other hit.
+    /// If the centre ray hits nothing, depth and id are those of the hit with the smallest z.
     [[nodiscard]] RenderedPicture cast(const RenderView& view, int grid = 1) const;
     /// Casts rays only for these pixels. All other pixels are empty.
     [[nodiscard]] RenderedPicture castPixels(const RenderView& view, int grid,

@@ -107,8 +107,8 @@ TEST(MovingMirrors, HighlightsOfTheSunMove) {
     EXPECT_GT(bright, 10);
 }
 
-// Half of all light is hidden. Where the sun's light is weak, sky and sun get the same visible
-// share, and the sun's light must not be counted twice.
+// Half of all light is hidden. Where the sun's light is weak, one visible share is computed for sky
+// and sun together. The sun's light must then not be counted twice.
 TEST(MovingMirrors, HalfHiddenSkyAndWeakSunStayHalfVisibleAfterAMotion) {
     MirrorLight light = test::smoothLightAndSun();
     light.sunIrradiance = {1.5F, 1.5F, 1.5F};

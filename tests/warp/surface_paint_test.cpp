@@ -254,7 +254,7 @@ TEST(SurfacePaint, PlainColoursAreExactUpToTwoRoundings) {
         }
 }
 
-TEST(SurfacePaint, LampsHaveThePaintWithWhichTheirLightWasDivided) {
+TEST(SurfacePaint, LampsHaveThePaintOfThePathTracer) {
     Material lamp;
     lamp.baseColour = {0, 0, 0, 1};
     lamp.metallic = 1;
@@ -326,7 +326,8 @@ TEST(SurfacePaint, ASurfaceBehindTransparentTexelsIsPainted) {
     EXPECT_EQ(at(34, 24), 0x0000FF00U);
 }
 
-// Two objects and two triangles of one model coincide, so that the order of drawing could matter.
+// Two objects coincide, and so do the two meshes of their model, so that the order of drawing could
+// matter.
 TEST(SurfacePaint, PaintDependsNeitherOnThreadsNorOnWhereRowsAreSplit) {
     const std::vector<SurfaceTexture> textures{noise({64, 64}, 5), noise({16, 16}, 6)};
     auto twice = modelOf(ball(0.15F, 64), textured(0), textures);

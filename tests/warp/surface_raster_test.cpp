@@ -71,7 +71,7 @@ float depthOf(std::uint32_t word) {
 }
 
 // At a distance of 1 m, the square covers 40x40 pixels of the grid, which has twice the layer's
-// resolution. Its first corner is at (39.51, 19.51).
+// resolution. The square's upper left corner is at (39.51, 19.51) [grid px].
 TEST(SurfaceRaster, CoversASurfaceWithoutGapsAndNotBeyondItsOutline) {
     for (unsigned seed = 0; seed < 20; ++seed) {
         const auto words = drawn(

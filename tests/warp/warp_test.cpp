@@ -109,8 +109,8 @@ TEST_F(WarpGl, DepthOfTheLayerBelongsToTheCurrentPose) {
                 truth.id[i - kLayer.width] != id || truth.id[i + kLayer.width] != id)
                 continue;
             if (id == kCatcherId && truth.colour[i][3] < 8) continue;
-            // At the edge of a ball, its facets are slightly nearer to the centre than the true
-            // surface.
+            // Tolerance [m]: the facets of a ball are slightly nearer to its centre than the true
+            // surface. The error of depth is largest at the ball's edge.
             const float lift = id == kCatcherId ? kShadowLift * truth.depth[i] : 0;
             ASSERT_NEAR(z[i], truth.depth[i] - lift, 0.01) << x << " " << y;
             ++checked;
