@@ -273,7 +273,7 @@ constexpr Option kVirtual[] = {
            "Width and height of the path-traced picture as a share of the largest output, which is "
            "as wide as a still. It is never larger than the output or the GPU's textures."),
     word("holes", "push-pull re-render both none", R"("both")",
-         "How holes (pixels that come into view between two path-traced pictures) are filled: "
+         "Filling of holes (pixels that come into view between two path-traced pictures). "
          "\"push-pull\": from colours around them; \"re-render\": by a few path-traced samples, "
          "shadows by \"push-pull\"; \"both\": \"push-pull\" until samples are ready; or \"none\"."),
     whole("threads", kThreads, "1", "Number of threads of the path tracer."),

@@ -7,7 +7,8 @@
 namespace mfar {
 
 struct LibcameraMessage {
-    /// What repeated messages have in common: level, category and source line, but not the camera.
+    /// Level, category and source line. Two messages with the same event count as repetitions, even
+    /// if they concern different cameras.
     std::string event;
     std::string text;  ///< without level, time and thread
 };

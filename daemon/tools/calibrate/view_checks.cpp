@@ -68,11 +68,10 @@ void checkViews(const Target& target, const std::vector<TargetView>& views,
             count, sensor, leastViews));
     const Spread spread = spreadOf(target, views, guess);
     if (!(spread.tilt >= kLeastTilt))
-        throw Unsuitable(
-            fmt::format("the {} sensor saw the target from nearly one direction (the target was "
-                        "tilted by {:.0f} "
-                        "degrees; at least {:.0f} are needed): tilt the target to all sides",
-                        sensor, spread.tilt / kDegree, kLeastTilt / kDegree));
+        throw Unsuitable(fmt::format(
+            "the {} sensor saw the target from nearly one direction (the target was tilted by "
+            "{:.0f} degrees; at least {:.0f} are needed): tilt the target to all sides",
+            sensor, spread.tilt / kDegree, kLeastTilt / kDegree));
     if (!(spread.depth >= kLeastDepth))
         throw Unsuitable(fmt::format(
             "the {} sensor saw the target at nearly one distance (its farthest corner was "
