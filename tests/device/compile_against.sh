@@ -25,7 +25,7 @@ fi
 
 work=$(mktemp -d -p "$root/tmp" mfar.XXXXXX)
 trap 'rm -rf "$work"' EXIT
-tar -cf - hal tests/device tests/unit/*.h | tar -xf - -C "$work"
+tar -cf - base hal tests/device tests/unit/*.h | tar -xf - -C "$work"
 
 # These commands are executed inside the root folder. Their argument is the folder of the sources.
 # shellcheck disable=SC2016
@@ -56,12 +56,13 @@ link trigger-tests libgpiod $trigger trigger_gpiod_v$v $(printf "%s_test " $trig
 ./trigger-tests --gtest_brief=1
 
 echo "libcamera $(version libcamera)"
-tested="camera_selection field_of_view frame_drops picture_layout request_cycle sensor_clock
+tested="camera_selection field_of_view picture_layout picture_times request_cycle sensor_clock
     libcamera_buffers libcamera_controls libcamera_log"
 parts="$tested camera_libcamera libcamera_manager libcamera_setup libcamera_stream"
-objects libcamera hal/frame.cpp base/image_layout.cpp $(printf "hal/device/%s.cpp " $parts) tests/device/libcamera_test.cpp \
-    $(printf "tests/device/%s_test.cpp " $tested) tests/device/libcamera_probe.cpp
-parts="frame image_layout $parts"
+objects libcamera hal/frame.cpp hal/frame_drops.cpp base/image_layout.cpp tests/device/libcamera_test.cpp \
+    $(printf "hal/device/%s.cpp " $parts) $(printf "tests/device/%s_test.cpp " $tested) \
+    tests/device/libcamera_probe.cpp
+parts="frame frame_drops image_layout $parts"
 link camera-tests libcamera $parts libcamera_test $(printf "%s_test " $tested)
 link probe libcamera $parts libcamera_probe
 # Without this setting, libcamera logs its version and everything that is missing in a chroot.
