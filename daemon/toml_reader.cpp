@@ -1,6 +1,7 @@
 #include "daemon/toml_reader.h"
 
 #include "base/toml_bounds.h"
+#include "base/toml_fault.h"
 #include "daemon/config.h"
 
 #include <fmt/format.h>
@@ -96,7 +97,7 @@ TomlReader::TomlReader(std::string_view text, std::string file,
     try {
         root_ = toml::parse(text, file_);
     } catch (const toml::parse_error& error) {
-        throw ConfigError(place(file_, error.source().begin) + std::string(error.description()));
+        throw ConfigError(place(file_, error.source().begin) + tomlFault(error.description()));
     }
 }
 

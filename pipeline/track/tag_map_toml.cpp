@@ -1,4 +1,5 @@
 #include "base/toml_bounds.h"
+#include "base/toml_fault.h"
 #include "pipeline/track/tag_map.h"
 #include "pipeline/track/tag_map_faults.h"
 
@@ -20,7 +21,8 @@ public:
         try {
             root_ = toml::parse(text, file);
         } catch (const toml::parse_error& error) {
-            tagMapFault(file, static_cast<int>(error.source().begin.line), error.description());
+            tagMapFault(file, static_cast<int>(error.source().begin.line),
+                        tomlFault(error.description()));
         }
     }
 

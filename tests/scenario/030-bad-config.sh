@@ -23,6 +23,14 @@ echo 'seed = ' >mfard.toml
 run 78 --config mfard.toml
 says err 'mfard.toml:1:'
 
+echo "a quote that is not closed is named as such"
+printf 'seed = 3\nsource = "synthetic:office\n[trigger]\n' >mfard.toml
+run 78 --config mfard.toml --check-config
+says err 'mfard.toml:2:27: the closing quote of a text is missing'
+printf '[trigger]\nmode = """demand' >mfard.toml
+run 78 --config mfard.toml --check-config
+says err 'mfard.toml:2:17: the closing quote of a text is missing$'
+
 echo 'seed = 3' >mfard.toml
 run 0 --config mfard.toml --check-config
 says out '^ok$'
