@@ -309,7 +309,7 @@ void App::logChanges(const Counted& counted) {
     if (!running_) return;
     takeChanges(counted);
     if (counted.atFirstPicture && !std::exchange(firstPictureShown_, true))
-        log_.notice(firstPictureLine(*counted.atFirstPicture));
+        log_.notice(firstPictureLine(*counted.atFirstPicture, counted.displayFault));
 }
 
 void App::takeChanges(const Counted& counted) {

@@ -198,9 +198,8 @@ bool App::writeResults(const std::string& reason, ExitCode code) {
     const nlohmann::ordered_json all = results(reason, static_cast<int>(code));
     // systemd writes the end of a service to the journal itself.
     if (code == ExitCode::Ok && log_.style() != Log::Style::Journal)
-        log_.notice(fmt::format("{} pictures in {:.1f} s, {:.1f} fps: {}",
-                                all["frames"].get<std::uint64_t>(), all["seconds"].get<double>(),
-                                all["fps"].get<double>(), reason));
+        log_.notice(endLine(all["frames"].get<std::uint64_t>(), all["seconds"].get<double>(),
+                            all["fps"].get<double>(), reason));
     bool isWritten = true;
     if (options_.report) {
         try {

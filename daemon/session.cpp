@@ -137,7 +137,7 @@ std::string Session::showFrames(Mailbox<CapturedFrame>& mailbox, CaptureThread& 
         stats_.warn(*std::move(warning), {message::kObjects});
     leavePictures();
     finishDisplay();
-    return enough ? "the requested number of frames has been shown" : "end of the source";
+    return enough ? "the requested number of pictures has been made" : "end of the source";
 }
 
 bool Session::mayDraw() {

@@ -267,9 +267,18 @@ std::string statusLine(const Counted& counted, const RunDescription& run, double
     return line;
 }
 
-std::string firstPictureLine(const ProcessUse& use) {
-    return fmt::format("first picture {:.0f} ms after the start, {:.0f} MB resident", use.ms,
-                       use.residentMb);
+std::string firstPictureLine(const ProcessUse& use,
+                             const std::optional<std::string>& displayFault) {
+    return fmt::format("first picture {}{:.0f} ms after the start, {:.0f} MB resident{}",
+                       displayFault ? "drawn " : "", use.ms, use.residentMb,
+                       displayFault ? ", but not shown: " + *displayFault : "");
+}
+
+std::string endLine(std::uint64_t pictures, double seconds, double fps, const std::string& reason) {
+    std::string line = fmt::format("{} picture{}", pictures, pictures == 1 ? "" : "s");
+    if (pictures > 1)
+        fmt::format_to(std::back_inserter(line), " in {:.2f} s, {:.1f} fps", seconds, fps);
+    return line + ": " + reason;
 }
 
 nlohmann::ordered_json cameraStatus(const Counted& counted) {

@@ -30,7 +30,15 @@ struct RunDescription {
 [[nodiscard]] std::string statusLine(const Counted& counted, const RunDescription& run,
                                      double elapsedS, const Health& health = {});
 
-[[nodiscard]] std::string firstPictureLine(const ProcessUse& use);
+/// `displayFault`: Counted::displayFault after the first picture. If it is set, the picture was
+/// drawn but not shown.
+[[nodiscard]] std::string firstPictureLine(const ProcessUse& use,
+                                           const std::optional<std::string>& displayFault = {});
+
+/// Returns the last line of the log. `seconds` [s] and `fps` [1/s] measure the time from the first
+/// to the last picture.
+[[nodiscard]] std::string endLine(std::uint64_t pictures, double seconds, double fps,
+                                  const std::string& reason);
 
 /// Returns the states of the cameras as JSON, with the keys "video" and "still".
 [[nodiscard]] nlohmann::ordered_json cameraStatus(const Counted& counted);

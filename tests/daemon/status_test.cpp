@@ -175,6 +175,16 @@ TEST(Status, TheRateOfASilentCameraIsZero) {
 TEST(Status, ReportsTheTimeOfTheFirstPicture) {
     EXPECT_EQ(firstPictureLine({431.6, 380, 90.4}),
               "first picture 432 ms after the start, 90 MB resident");
+    EXPECT_EQ(
+        firstPictureLine({431.6, 380, 90.4}, "no screen yet (kms: there is no card0)"),
+        "first picture drawn 432 ms after the start, 90 MB resident, but not shown: no screen "
+        "yet (kms: there is no card0)");
+}
+
+TEST(Status, TheLastLineHasARateOnlyWithTwoPictures) {
+    EXPECT_EQ(endLine(0, 0, 0, "SIGTERM"), "0 pictures: SIGTERM");
+    EXPECT_EQ(endLine(1, 0, 0, "end of the source"), "1 picture: end of the source");
+    EXPECT_EQ(endLine(2, 0.0279, 35.9, "SIGINT"), "2 pictures in 0.03 s, 35.9 fps: SIGINT");
 }
 
 TEST(Status, ReportsTheShareOfFramesWithinTheDeadline) {

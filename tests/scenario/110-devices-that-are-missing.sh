@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Without its cameras, mfard must run and show pictures. The log must name the missing cameras.
+# Without its cameras or its screen, mfard must run. The log must name the missing devices.
 . "$(dirname "$0")/lib.sh"
 
 cat >mfard.toml <<'END'
@@ -34,3 +34,8 @@ run 0 --config mfard.toml --release-trigger
 sed -i '1a [cameras]\ncalibration = "lenses"' mfard.toml
 run 66 --config mfard.toml
 says err 'lenses'
+
+echo "without a screen, pictures are drawn and not shown"
+run 0 --source synthetic:flat --display kms:card97 --frames 2
+says err 'first picture drawn [0-9]+ ms .*, but not shown: no screen yet .*card97'
+says err '2 pictures in [0-9.]+ s, [0-9.]+ fps: the requested number of pictures has been made$'
