@@ -1,5 +1,6 @@
 #include "hal/device/libcamera_log.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <libcamera/logging.h>
 #include <mutex>
@@ -51,6 +52,15 @@ std::string_view takeWord(std::string_view& text) {
     return word;
 }
 
+/// Returns the length of the device's name at the begin of a message: "/dev/video0" of
+/// "/dev/video0[17:cap]: Cannot start", "'imx219 10-0010'" of "'imx219 10-0010': Cannot start". The
+/// number in brackets is a descriptor, which may change when the device is opened again.
+std::size_t lengthOfDevice(std::string_view message) {
+    if (message.starts_with('\'')) return message.find('\'', 1) + 1;
+    return message.starts_with("/dev/") ? std::min(message.find_first_of("[: "), message.size())
+                                        : 0;
+}
+
 }  // namespace
 
 LibcameraMessage libcameraMessage(std::string_view line) {
@@ -66,8 +76,9 @@ LibcameraMessage libcameraMessage(std::string_view line) {
     takeWord(rest);
     const bool hasPlace = takeWord(rest).find(':') != std::string_view::npos;
     if (!hasTime || !hasPlace || rest.empty()) return {std::string(line), std::string(line)};
-    const std::size_t common = withLevel.size() - rest.size();
-    return {std::string(withLevel.substr(0, common - 1)), std::string(text)};
+    const std::size_t device = lengthOfDevice(rest);
+    const std::size_t common = withLevel.size() - rest.size() + device - (device == 0 ? 1 : 0);
+    return {std::string(withLevel.substr(0, common)), std::string(text)};
 }
 
 LibcameraLog::LibcameraLog(Receiver receiver) {

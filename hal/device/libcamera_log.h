@@ -7,8 +7,8 @@
 namespace mfar {
 
 struct LibcameraMessage {
-    /// Level, category and source line. Two messages with the same event count as repetitions, even
-    /// if they concern different cameras.
+    /// Level, category, source line and, if the message begins with it, the device's name. Two
+    /// messages with the same event count as repetitions.
     std::string event;
     std::string text;  ///< without level, time and thread
 };

@@ -28,6 +28,18 @@ TEST(LibcameraLog, ALevelMayBePaddedWithASpace) {
               "WARN IPA ipa.cpp:1");
 }
 
+TEST(LibcameraLog, TheDeviceBelongsToTheEventAndItsDescriptorDoesNot) {
+    const auto event = [](const std::string& message) {
+        return libcameraMessage("[0:00:01.0] [1] ERROR V4L2 v4l2.cpp:7 " + message).event;
+    };
+    EXPECT_EQ(event("/dev/video0[17:cap]: Cannot start"), "ERROR V4L2 v4l2.cpp:7 /dev/video0");
+    EXPECT_EQ(event("/dev/video1: No such device"), "ERROR V4L2 v4l2.cpp:7 /dev/video1");
+    EXPECT_EQ(event("/dev/video1"), "ERROR V4L2 v4l2.cpp:7 /dev/video1");
+    EXPECT_EQ(event("'imx219 10-0010': Cannot start"), "ERROR V4L2 v4l2.cpp:7 'imx219 10-0010'");
+    EXPECT_EQ(event("'imx219"), "ERROR V4L2 v4l2.cpp:7");
+    EXPECT_EQ(event("Buffer 3: late"), "ERROR V4L2 v4l2.cpp:7");
+}
+
 TEST(LibcameraLog, LinesOfAnotherFormStayWhole) {
     for (const char* line : {"", "[", "ERROR", "[1] ", "ERROR IPA ", "assertion failed in foo bar",
                              "[1] [2] assertion failed in foo bar"}) {
