@@ -45,6 +45,11 @@ while IFS= read -r message; do
 done < <(sed -n '/^## Troubleshooting/,/^## /p' "$sources/README.md" | sed -n 's/^| \(`.*`\) | .*/\1/p' |
     grep -Eo '`[^`]+`' | tr -d '`')
 
+"$sources/run" help >"$work/help" || fault "./run help fails"
+while IFS= read -r package; do
+    fault "./run help lists the package $package twice"
+done < <(sed '1,/^Debian packages/d' "$work/help" | awk '{ print $1 }' | sort | uniq -d)
+
 completes() {
     # shellcheck source=/dev/null
     (. "$work/tree/systemd/mfard.bash-completion" && COMP_WORDS=(mfard "$1" "$2") COMP_CWORD=2 &&
