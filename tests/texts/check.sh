@@ -45,6 +45,16 @@ while IFS= read -r message; do
 done < <(sed -n '/^## Troubleshooting/,/^## /p' "$sources/README.md" | sed -n 's/^| \(`.*`\) | .*/\1/p' |
     grep -Eo '`[^`]+`' | tr -d '`')
 
+# The documents explain the messages and requests without the sources, which the package lacks.
+while read -r id; do
+    grep -q "^| .$id. | " "$sources/docs/boards.md" ||
+        fault "docs/boards.md does not explain the message id $id of daemon/message_ids.h"
+done < <(grep -Eo '[0-9a-f]{32}' "$sources/daemon/message_ids.h")
+while read -r command; do
+    grep -q "^| .{\"command\": \"$command\"" "$sources/docs/boards.md" ||
+        fault "docs/boards.md does not explain the request \"$command\" to the control socket"
+done < <(sed -n '/kCommands{/,/;/p' "$sources/daemon/control.cpp" | grep -Eo '"[a-z]+"' | tr -d '"')
+
 "$sources/run" help >"$work/help" || fault "./run help fails"
 while IFS= read -r package; do
     fault "./run help lists the package $package twice"
