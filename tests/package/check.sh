@@ -89,7 +89,10 @@ holds "the documents have links" test "$links" -gt 0
 for page in man1/mfard.1 man1/mfarctl.1 man1/mfar-sim.1 man1/mfar-calibrate.1 man5/mfard.toml.5; do
     holds "the manual page $page is installed" test -s "$root/usr/share/man/$page"
 done
-holds "the bash completion is installed" test -s "$root/usr/share/bash-completion/completions/mfard"
+for program in mfard mfarctl; do
+    holds "the bash completion of $program is installed" \
+        test -s "$root/usr/share/bash-completion/completions/$program"
+done
 holds "programs are stripped" isNot grep -q debug_info <(readelf -S "$root/usr/bin/mfard")
 
 step "OpenGL ES is recommended, but not a dependency"

@@ -60,17 +60,25 @@ while IFS= read -r package; do
     fault "./run help lists the package $package twice"
 done < <(sed '1,/^Debian packages/d' "$work/help" | awk '{ print $1 }' | sort | uniq -d)
 
+# completes EXPECTED PROGRAM WORD...: bash must complete the last word to EXPECTED.
 completes() {
+    local expected=$1 program=$2 got
+    shift
     # shellcheck source=/dev/null
-    (. "$work/tree/systemd/mfard.bash-completion" && COMP_WORDS=(mfard "$1" "$2") COMP_CWORD=2 &&
-        _mfard mfard "$2" "$1" && printf '%s ' "${COMPREPLY[@]}")
+    got=$(. "$work/tree/systemd/$program.bash-completion" && COMP_WORDS=("$@") COMP_CWORD=$(($# - 1)) &&
+        "_$program" "$program" "${!#}" "${*: -2:1}" && printf '%s ' "${COMPREPLY[@]}")
+    [[ $got == "$expected " ]] || fault "bash completes \"$*\" to: $got"
 }
-[[ $(completes --mode b) == 'blend ' ]] ||
-    fault "bash completes \"--mode b\" to: $(completes --mode b)"
-[[ $(completes mfard --print) == '--print-config ' ]] ||
-    fault "bash completes \"--print\" to: $(completes mfard --print)"
-[[ $(completes --config "$work/tree/do") == "$work/tree/docs " ]] ||
-    fault "bash does not complete a file name after --config"
+completes blend mfard --mode b
+completes --print-config mfard --print
+completes "$work/tree/docs" mfard --config "$work/tree/do"
+completes 'status stats' mfarctl sta
+completes 'snapshot' mfarctl --socket /run/status sn
+completes "$work/tree/docs" mfarctl --socket "$work/tree/do"
+completes --screen mfarctl snapshot --s
+completes "$work/tree/docs" mfarctl snapshot "$work/tree/do"
+completes --stop mfarctl record --s
+completes reset mfarctl learn r
 
 while IFS= read -r program; do
     [[ -s $work/tree/docs/man/$program.1 ]] || fault "$program has no manual page"

@@ -10,10 +10,6 @@
 namespace mfar::test {
 namespace {
 
-std::string longName(const ArgumentText& argument) {
-    return argument.names.substr(argument.names.rfind(',') + 1);
-}
-
 std::string valuesOf(const ArgumentText& argument) {
     for (const OptionSection& section : configOptions())
         for (const Option& option : section.options)
@@ -37,6 +33,10 @@ std::string manSection(const OptionSection& section) {
 }
 
 }  // namespace
+
+std::string longName(const ArgumentText& argument) {
+    return argument.names.substr(argument.names.rfind(',') + 1);
+}
 
 std::string programManPage() {
     std::string out =

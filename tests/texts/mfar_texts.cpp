@@ -47,6 +47,7 @@ int main(int argc, char** argv) {
         const std::filesystem::path folder = argv[1];
         write(folder / "systemd/mfard.toml", mfar::defaultConfigText());
         write(folder / "systemd/mfard.bash-completion", mfar::test::bashCompletion());
+        write(folder / "systemd/mfarctl.bash-completion", mfar::test::controlCompletion());
         write(folder / "docs/configuration.md", mfar::test::configurationPage());
         write(folder / "tests/fuzz/config.dict",
               mfar::test::fuzzDictionary(mfar::configOptions(), kValues));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "daemon/argument_text.h"
 #include "daemon/option_table.h"
 
 #include <span>
@@ -17,7 +18,12 @@ namespace mfar::test {
 [[nodiscard]] std::string simManPage();
 [[nodiscard]] std::string calibrateManPage();
 
+/// Completions of mfard's and mfarctl's command lines in bash, from their parsers.
 [[nodiscard]] std::string bashCompletion();
+[[nodiscard]] std::string controlCompletion();
+
+/// Returns the last of the names of an option, e.g. "--help" of "-h,--help".
+[[nodiscard]] std::string longName(const ArgumentText& argument);
 
 /// Keys and sections as a dictionary for libFuzzer, followed by the lines of `entries`.
 [[nodiscard]] std::string fuzzDictionary(std::span<const OptionSection> table,

@@ -5,6 +5,7 @@
 #include "tests/texts/troff.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <utility>
 
@@ -70,6 +71,25 @@ std::string page(const CLI::App& app, const Tool& tool) {
     return out + ".SH \"SEE ALSO\"\n.BR mfard (1),\n.BR mfard.toml (5)\n";
 }
 
+std::vector<std::string> commandsOf(const CLI::App& app) {
+    std::vector<std::string> out;
+    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+        out.push_back(command->get_name());
+    return out;
+}
+
+/// Returns assignments of bash: `words` to all options and commands of `app`, and `files` if an
+/// argument is a file.
+std::string completedWords(const CLI::App& app) {
+    std::vector<std::string> words = commandsOf(app);
+    bool takesFile = false;
+    for (const ArgumentText& argument : argumentTexts(app)) {
+        if (!argument.isPositional()) words.push_back(longName(argument));
+        takesFile = takesFile || argument.names == "FILE";
+    }
+    return fmt::format("words='{}'{}", fmt::join(words, " "), takesFile ? " files=1" : "");
+}
+
 }  // namespace
 
 std::string controlManPage() {
@@ -85,6 +105,34 @@ std::string controlManPage() {
           {"64", kParser},
           {"69", "no mfard answers at the socket, or the user may not use it"},
           {"74", "a file cannot be written"}}});
+}
+
+std::string controlCompletion() {
+    const CtlParser parser;
+    std::string cases;
+    for (const CLI::App* command : parser.app.get_subcommands([](const CLI::App*) { return true; }))
+        cases += fmt::format("    {}) {} ;;\n", command->get_name(), completedWords(*command));
+    return fmt::format(
+        R"(# Completion of mfarctl's commands and options in bash. Printed by mfar-texts.
+_mfarctl() {{
+    local word command='' words files=''
+    for word in "${{COMP_WORDS[@]:1:COMP_CWORD-1}}"; do
+        case $word in
+        {}) command=$word ;;
+        esac
+    done
+    case $command in
+{}    *) {} ;;
+    esac
+    if [ "$3" = --socket ]; then words='' files=1; fi
+    mapfile -t COMPREPLY < <(
+        compgen -W "$words" -- "$2"
+        [ -z "$files" ] || compgen -f -- "$2"
+    )
+}}
+complete -o filenames -F _mfarctl mfarctl
+)",
+        fmt::join(commandsOf(parser.app), " | "), cases, completedWords(parser.app));
 }
 
 std::string simManPage() {
