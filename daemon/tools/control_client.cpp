@@ -27,14 +27,18 @@ constexpr int kPatience = 15, kPatienceWithDisk = 600;
 constexpr std::size_t kLongestLine = 1U << 20U;
 constexpr std::uint64_t kMostData = 1ULL << 31U;
 
-/// Returns the name of the group whose members may use the socket. If this user may not enter the
-/// socket's folder, returns the group that owns the folder.
-std::string groupOf(const std::filesystem::path& socket) {
+/// Returns a message that says who may use the socket: members of the socket's group or, if this
+/// user may not enter the socket's folder, of the folder's group. If root has started mfard by
+/// hand, that is root's own group, which no other user should join.
+std::string noPermission(const std::filesystem::path& socket) {
     struct stat info{};
-    if (stat(socket.c_str(), &info) != 0 && stat(socket.parent_path().c_str(), &info) != 0)
-        return "mfar";
-    const group* found = getgrgid(info.st_gid);
-    return found != nullptr ? found->gr_name : std::to_string(info.st_gid);
+    const bool isKnown =
+        stat(socket.c_str(), &info) == 0 || stat(socket.parent_path().c_str(), &info) == 0;
+    if (isKnown && info.st_gid == 0) return "no permission, run mfarctl as root, e.g. with sudo";
+    const group* found = isKnown ? getgrgid(info.st_gid) : nullptr;
+    const std::string name = isKnown ? std::to_string(info.st_gid) : "mfar";
+    return "no permission, the user must be root or in group " +
+           (found != nullptr ? found->gr_name : name);
 }
 
 class Connection {
@@ -90,8 +94,7 @@ private:
     }
     [[nodiscard]] std::string reason() const {
         if (errno == ENOENT || errno == ECONNREFUSED) return "no mfard listens there";
-        if (errno == EACCES)
-            return "no permission, the user must be root or in group " + groupOf(path_);
+        if (errno == EACCES) return noPermission(path_);
         return std::strerror(errno);
     }
     [[noreturn]] void fail(const std::string& why) const {
