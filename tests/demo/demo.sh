@@ -8,22 +8,27 @@ here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
 frames=45
 seconds=1
 
-rm -rf "$out"
-mkdir -p "$out"
-work=$(mktemp -d -p "$out")
+# The results of an earlier run are replaced only by complete new ones.
+mkdir -p "$(dirname "$out")"
+work=$(mktemp -d "$out.XXXXXX")
 trap 'rm -rf "$work"' EXIT
+new=$work/results
+mkdir "$new"
 
 echo "1/3  mfard on the synthetic scene 'office', hand-held, $frames frames"
 "$build/daemon/mfard" --source synthetic:office --pace consumer --frames "$frames" \
-    --config "$here/demo.toml" --display "y4m:$work/video.y4m" --summary "$out/summary.json"
+    --config "$here/demo.toml" --display "y4m:$work/video.y4m" --summary "$new/summary.json"
 
 echo "2/3  the same scene with its truth, for comparison"
 "$build/daemon/tools/mfar-sim" --scene office --path handheld --seconds "$seconds" --stills 4 \
     --out "$work/recording"
 
 echo "3/3  pictures"
-"$build/tests/demo/mfar-demo" "$work/recording" "$out" --video "$work/video.y4m" \
+"$build/tests/demo/mfar-demo" "$work/recording" "$new" --video "$work/video.y4m" \
     --scene office --objects "$here/demo.toml" --virtual "$here/virtual.toml"
+
+rm -rf "$out"
+mv "$new" "$out"
 
 cat <<EOF
 
