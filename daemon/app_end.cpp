@@ -26,9 +26,10 @@ namespace {
 using Seconds = std::chrono::duration<double>;
 
 // Time limits after a signal. If no pictures are being written, the process ends at most kLeaveTime
-// after the signal. Otherwise, writing is cancelled kFlushTime after the signal, and the process
-// ends at most kCancelTime later.
+// after the signal, or kReportTime if a report must show the current picture. Otherwise, writing is
+// cancelled kFlushTime after the signal, and the process ends at most kCancelTime later.
 constexpr Seconds kLeaveTime{0.2};
+constexpr Seconds kReportTime{2};
 constexpr Seconds kFlushTime{0.4};
 // `timeout` of coreutils sends its signal to the process and then to the process group, so that it
 // arrives twice.
@@ -57,7 +58,7 @@ void App::onSignal(int signal) {
     // No message is logged here: even if the log itself hangs, the signal must end the process.
     lastResort_.arm(kLastResort, [] { std::_Exit(static_cast<int>(ExitCode::Ok)); });
     stop(signalName(signal));
-    events_.deadlineIn(writes() ? kFlushTime : kLeaveTime);
+    events_.deadlineIn(writes() ? kFlushTime : options_.report ? kReportTime : kLeaveTime);
 }
 
 void App::onDeadline() {
