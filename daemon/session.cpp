@@ -329,6 +329,7 @@ bool Session::mayDemandStill() const {
 void Session::fireIfNeeded(Timestamp frame, const FrameStats& stats) {
     Trigger* trigger = rig_.trigger();
     if (trigger == nullptr) return;
+    if (trigger->isStillComing()) policy_.stillIsComing(frame);
     if (policy_.decide(frame, previous_.value_or(frame), stats, mayDemandStill())) {
         try {
             trigger->fire();
@@ -342,11 +343,11 @@ void Session::fireIfNeeded(Timestamp frame, const FrameStats& stats) {
             policy_.failed();
         }
     }
-    const auto lost = static_cast<std::uint64_t>(policy_.lost());
+    const auto timedOut = static_cast<std::uint64_t>(policy_.timedOut());
     for (const std::string_view report :
-         triggerReports_.newSince({lost, trigger->missedEdges(), policy_.pending()}))
+         triggerReports_.newSince({timedOut, trigger->missedEdges(), policy_.pending()}))
         stats_.warn(fmt::format("{}: {}", trigger->name(), report), {message::kStill, "still"});
-    stats_.triggers(static_cast<std::uint64_t>(policy_.fired()), lost);
+    stats_.triggers(static_cast<std::uint64_t>(policy_.fired()), timedOut, policy_.pending());
 }
 
 // Called when no frame arrives. If a device has a fault, shows the last picture again, with a

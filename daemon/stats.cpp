@@ -210,6 +210,7 @@ void Stats::camera(CameraRole role, const CameraState& state) {
 void Stats::stillReceived() {
     const std::lock_guard lock(mutex_);
     ++counted_.stills.received;
+    countLost();
 }
 
 void Stats::stillUsed() {
@@ -238,10 +239,20 @@ void Stats::quality(const std::string& level, double deadlineMs) {
     counted_.quality.deadlineMs = deadlineMs;
 }
 
-void Stats::triggers(std::uint64_t fired, std::uint64_t lost) {
+void Stats::triggers(std::uint64_t fired, std::uint64_t timedOut, bool isPending) {
     const std::lock_guard lock(mutex_);
     counted_.stills.triggered = fired;
-    counted_.stills.lost = lost;
+    timedOut_ = timedOut;
+    isStillPending_ = isPending;
+    countLost();
+}
+
+// A still that arrived after its timeout, or was superseded, is not lost. As every still of a
+// triggered camera belongs to one pulse, the numbers tell how many pulses have no still.
+void Stats::countLost() {
+    StillCounts& stills = counted_.stills;
+    const std::uint64_t answered = stills.received + (isStillPending_ ? 1 : 0);
+    stills.lost = std::min(timedOut_, stills.triggered - std::min(answered, stills.triggered));
 }
 
 void Stats::matching(const StillCounters& counters) {

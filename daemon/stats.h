@@ -34,10 +34,11 @@ struct Drops {
 };
 
 struct StillCounts {
-    std::uint64_t triggered = 0;
-    std::uint64_t received = 0;
-    std::uint64_t used = 0;
-    std::uint64_t superseded = 0;
+    std::uint64_t triggered = 0;   ///< trigger pulses, including repetitions
+    std::uint64_t received = 0;    ///< stills from the camera, including late ones
+    std::uint64_t used = 0;        ///< received stills that were matched with the video
+    std::uint64_t superseded = 0;  ///< received stills that were replaced by newer ones before use
+    /// Trigger pulses whose still has not arrived, not even after its timeout.
     std::uint64_t lost = 0;
 };
 
@@ -183,7 +184,9 @@ public:
     /// Sets the governor's level and the deadline [ms] of the following pictures. `deadlineMs` is 0
     /// if there is no deadline.
     void quality(const std::string& level, double deadlineMs);
-    void triggers(std::uint64_t fired, std::uint64_t lost);
+    /// `timedOut`: pulses whose still did not arrive in time; it may have arrived later.
+    /// `isPending`: the last pulse's still is awaited.
+    void triggers(std::uint64_t fired, std::uint64_t timedOut, bool isPending);
     void matching(const StillCounters& counters);
     void mailboxDropped(std::uint64_t total);
     void recorderDropped(std::uint64_t total);
@@ -198,8 +201,9 @@ public:
     [[nodiscard]] RunPictures pictures();
 
 private:
-    /// The caller of these four functions must have locked mutex_.
+    /// The caller of these five functions must have locked mutex_.
     void total(Timestamp now);
+    void countLost();
     void age(Timestamp now);
     void objects(const FrameStats& frame);
     void remember(const FinishedPicture& picture);
@@ -212,6 +216,8 @@ private:
     std::uint64_t epipolarErrorFrames_ = 0;
     std::optional<Timestamp> firstShown_;
     Timestamp lastShown_;
+    std::uint64_t timedOut_ = 0;
+    bool isStillPending_ = false;
     PictureRate rate_;
     std::vector<Warning> warnings_;
     struct {

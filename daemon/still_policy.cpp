@@ -30,7 +30,7 @@ bool StillPolicy::decide(Timestamp now, Timestamp before, const FrameStats& stat
     if (retryAt_ && now < *retryAt_) return false;
     const bool isDue = config_.mode == TriggerMode::Rate && (!due_ || now >= *due_);
     const bool wants = asked_ || isDue || (mayDemand && demanded(now, before, stats));
-    const bool fires = pending() ? timedOut(now) : wants;
+    const bool fires = pending() ? repeatsAt(now) : wants;
     if (fires) fire(now);
     return fires;
 }
@@ -77,9 +77,11 @@ bool StillPolicy::demanded(Timestamp now, Timestamp before, const FrameStats& st
            stats.explained < config_.explainedBelow;
 }
 
-bool StillPolicy::timedOut(Timestamp now) {
-    if (now - *firedAt_ < toNanoseconds(config_.timeoutS)) return false;
-    ++lost_;
+// Returns true if the pending still is lost and must be requested once more.
+bool StillPolicy::repeatsAt(Timestamp now) {
+    const Timestamp since = std::max(*firedAt_, comingAt_.value_or(*firedAt_));
+    if (now - since < toNanoseconds(config_.timeoutS)) return false;
+    ++timedOut_;
     arrived_ = true;
     repeated_ = !repeated_;
     repetitions_ += repeated_ ? 1 : 0;

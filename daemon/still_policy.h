@@ -59,26 +59,32 @@ public:
     /// is not counted, and is requested again after a second.
     void failed();
 
+    /// Must be called if it is known at time `now` that the still will arrive. It counts as lost
+    /// only timeoutS after the last such call.
+    void stillIsComing(Timestamp now) { comingAt_ = now; }
+
     /// Reports that a still is the reference from the next frame on. If the still was exposed
     /// before the last trigger, it counts as a late still of an earlier trigger.
     void stillArrived(Timestamp exposed);
 
     [[nodiscard]] bool pending() const { return firedAt_ && !arrived_; }
     [[nodiscard]] int fired() const { return fired_; }
-    [[nodiscard]] int lost() const { return lost_; }
+    /// Returns the number of triggers whose stills did not arrive in time. They may arrive later.
+    [[nodiscard]] int timedOut() const { return timedOut_; }
     /// Returns the number of triggers that were repetitions, because the previous trigger's still
     /// was lost. fired() includes the repetitions.
     [[nodiscard]] int repetitions() const { return repetitions_; }
 
 private:
     [[nodiscard]] bool demanded(Timestamp now, Timestamp before, const FrameStats& stats) const;
-    [[nodiscard]] bool timedOut(Timestamp now);
+    [[nodiscard]] bool repeatsAt(Timestamp now);
     void fire(Timestamp now);
 
     TriggerConfig config_;
     std::optional<Timestamp> still_;
     std::optional<Timestamp> usedSince_;
     std::optional<Timestamp> firedAt_;
+    std::optional<Timestamp> comingAt_;
     bool arrived_ = true;  ///< true: the still of the last trigger has arrived or is lost
     bool repeated_ = false;
     std::optional<Timestamp> moved_;  ///< first motion after the last trigger
@@ -88,7 +94,7 @@ private:
     std::optional<Timestamp> notBefore_;  ///< earliest time of a trigger after two lost stills
     std::optional<Timestamp> retryAt_;    ///< time of the next trigger after failed()
     int fired_ = 0;
-    int lost_ = 0;
+    int timedOut_ = 0;
     int repetitions_ = 0;
 };
 

@@ -29,6 +29,9 @@ public:
     /// Ends an active pulse at once. Thread-safe. Never throws: if the line cannot be driven, the
     /// next fire() throws.
     virtual void endPulse() {}
+    /// Returns true if the still of a pulse is certain to arrive, however late, because it is being
+    /// simulated. Thread-safe.
+    [[nodiscard]] virtual bool isStillComing() const { return false; }
     [[nodiscard]] virtual std::string name() const = 0;
     /// Returns the number of pulses whose times are not measured, because the loopback line (an
     /// input that is wired to the trigger line) did not report both edges. Thread-safe.

@@ -46,6 +46,7 @@ class PulseLine final : public Trigger {
 public:
     explicit PulseLine(SyntheticStudio& studio) : studio_(studio) {}
     Timestamp fire() override { return studio_.fire(); }
+    bool isStillComing() const override { return studio_.isStillComing(); }
     std::string name() const override { return "synthetic trigger"; }
 
 private:

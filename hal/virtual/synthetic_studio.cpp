@@ -134,6 +134,11 @@ Timestamp SyntheticStudio::fire() {
     return t;
 }
 
+bool SyntheticStudio::isStillComing() const {
+    const std::lock_guard lock(mutex_);
+    return !stills_.empty();
+}
+
 bool SyntheticStudio::videoAllMade() const {
     return options_.frames > 0 && videoMade_ >= options_.frames;
 }

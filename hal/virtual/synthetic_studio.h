@@ -35,6 +35,8 @@ public:
     [[nodiscard]] bool videoEnded() const;
     [[nodiscard]] bool stillsEnded() const;
     Timestamp fire();
+    /// Returns true from fire() until the still has been returned by nextStill().
+    [[nodiscard]] bool isStillComing() const;
 
     /// Returns the picture of the video camera without noise, after waiting for the studio's
     /// thread. highRes() has the still's resolution and no blur.

@@ -143,9 +143,12 @@ TEST(SyntheticBoard, RealtimeStillArrivesWhileVideoRuns) {
     board.video().start();
     board.stills().start();
     ASSERT_TRUE(board.video().next(20s));
+    EXPECT_FALSE(board.trigger().isStillComing());
     const Timestamp pulse = board.trigger().fire();
+    EXPECT_TRUE(board.trigger().isStillComing());
     const auto still = board.stills().next(60s);
     ASSERT_TRUE(still);
+    EXPECT_FALSE(board.trigger().isStillComing());
     EXPECT_EQ(still->time(), pulse + 5ms);
     EXPECT_EQ(still->exposure, 8ms);
     EXPECT_GE(Timestamp::now(), pulse + 60ms);

@@ -22,6 +22,23 @@ TEST(Stats, CountersOfSeveralPathTracersAreAddedUp) {
     EXPECT_EQ(all->render.samples, 3800U);
 }
 
+TEST(Stats, AStillThatArrivesAfterItsTimeoutIsNotLost) {
+    Stats stats;
+    stats.triggers(1, 0, true);
+    EXPECT_EQ(stats.count().stills.lost, 0U);
+    stats.triggers(2, 1, true);
+    EXPECT_EQ(stats.count().stills.lost, 1U);
+    stats.stillReceived();
+    EXPECT_EQ(stats.count().stills.lost, 0U) << "the first pulse's still arrived late";
+    stats.triggers(2, 2, false);
+    EXPECT_EQ(stats.count().stills.lost, 1U);
+    stats.triggers(3, 2, true);
+    EXPECT_EQ(stats.count().stills.lost, 1U) << "the third pulse's still is awaited";
+    stats.stillReceived();
+    stats.triggers(3, 2, false);
+    EXPECT_EQ(stats.count().stills.received + stats.count().stills.lost, 3U);
+}
+
 TEST(Stats, ACameraThatIsBeingOpenedIsNoFault) {
     Stats stats;
     stats.fault("video camera is being opened");

@@ -89,7 +89,7 @@ TEST(Status, TheSummaryContainsTheMeasurementsOfTheRun) {
     showPictures(stats, 21);
     stats.stillReceived();
     stats.stillUsed();
-    stats.triggers(3, 2);
+    stats.triggers(3, 2, false);
     stats.mailboxDropped(4);
     CameraState video;
     video.counters.missed = 5;

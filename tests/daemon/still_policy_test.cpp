@@ -17,7 +17,7 @@ TEST(StillPolicy, ABusyTriggerIsRetriedAtOnce) {
     EXPECT_TRUE(policy.decide(at(100.03), at(100), {}));
     EXPECT_EQ(policy.fired(), 1);
     EXPECT_FALSE(policy.decide(at(100.07), at(100.03), {}));
-    EXPECT_EQ(policy.lost(), 0);
+    EXPECT_EQ(policy.timedOut(), 0);
 }
 
 TEST(StillPolicy, ATriggerThatCannotFireIsNotCountedAndIsRetriedAfterASecond) {
@@ -29,7 +29,7 @@ TEST(StillPolicy, ATriggerThatCannotFireIsNotCountedAndIsRetriedAfterASecond) {
         EXPECT_FALSE(policy.decide(at(100.9 + i), at(100.8 + i), {})) << i;
     }
     EXPECT_EQ(policy.fired(), 0);
-    EXPECT_EQ(policy.lost(), 0);
+    EXPECT_EQ(policy.timedOut(), 0);
     EXPECT_TRUE(policy.decide(at(105), at(104.9), {}));
     EXPECT_EQ(policy.fired(), 1);
     EXPECT_TRUE(policy.pending());
@@ -222,9 +222,21 @@ TEST(StillPolicy, ALostStillIsCountedAndRequestedAgain) {
     Simulation board(config);
     board.answers = false;
     EXPECT_EQ(board.run(11, kRest), 2);
-    EXPECT_EQ(board.policy.lost(), 2);
+    EXPECT_EQ(board.policy.timedOut(), 2);
     EXPECT_EQ(board.policy.repetitions(), 1);
     EXPECT_NEAR(board.firedAt[1] - board.firedAt[0], 1, 2 * kFrame);
+}
+
+TEST(StillPolicy, AStillThatIsComingIsNotLostUntilItsTimeoutAfterTheLastNews) {
+    StillPolicy policy({.mode = TriggerMode::Rate, .rateHz = 0.01, .timeoutS = 3});
+    const auto at = [](double s) { return Timestamp::fromSeconds(s); };
+    ASSERT_TRUE(policy.decide(at(100), at(100), {}));
+    policy.stillIsComing(at(110));
+    EXPECT_FALSE(policy.decide(at(110), at(110), {}));
+    EXPECT_FALSE(policy.decide(at(112.9), at(110), {}));
+    EXPECT_EQ(policy.timedOut(), 0);
+    EXPECT_TRUE(policy.decide(at(113.1), at(112.9), {}));
+    EXPECT_EQ(policy.timedOut(), 1);
 }
 
 /// Returns a board that has run for `seconds` and has requested two stills. Both were lost.
@@ -243,7 +255,7 @@ TEST(StillPolicy, AfterTwoLostStillsTheNextIsRequestedAtTheAgeLimit) {
     Simulation board = withTwoLostStills(config, 4.5);
     board.answers = true;
     EXPECT_EQ(board.run(60, kRest), 1);
-    EXPECT_EQ(board.policy.lost(), 2);
+    EXPECT_EQ(board.policy.timedOut(), 2);
 }
 
 TEST(StillPolicy, AfterTwoLostStillsTheNextIsRequestedWithinTenSeconds) {
@@ -295,11 +307,11 @@ TEST(StillPolicy, InModeOffALostStillThatACommandRequestedIsRequestedOnceMore) {
     board.answers = false;
     board.policy.ask();
     EXPECT_EQ(board.run(30, kRest), 2);
-    EXPECT_EQ(board.policy.lost(), 2);
+    EXPECT_EQ(board.policy.timedOut(), 2);
     board.answers = true;
     board.policy.ask();
     EXPECT_EQ(board.run(30, kRest), 1);
-    EXPECT_EQ(board.policy.lost(), 2);
+    EXPECT_EQ(board.policy.timedOut(), 2);
 }
 
 TEST(StillPolicy, AReloadToModeOffCancelsAPendingStill) {
@@ -311,7 +323,7 @@ TEST(StillPolicy, AReloadToModeOffCancelsAPendingStill) {
     config.mode = TriggerMode::Off;
     board.policy.configure(config);
     EXPECT_EQ(board.run(30, kRest), 0);
-    EXPECT_EQ(board.policy.lost(), 0);
+    EXPECT_EQ(board.policy.timedOut(), 0);
 }
 
 TEST(StillPolicy, AReloadFromModeOffToDemandFiresTheTrigger) {
