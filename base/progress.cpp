@@ -68,9 +68,15 @@ void Progress::clear() {
 }
 
 ProgressPart ProgressPart::part(std::size_t index, std::size_t count, std::string_view what) const {
+    const double length = 1 / static_cast<double>(std::max<std::size_t>(count, 1));
+    const double begin = length * static_cast<double>(index);
+    return span(begin, begin + length, what);
+}
+
+ProgressPart ProgressPart::span(double begin, double end, std::string_view what) const {
     ProgressPart out = *this;
-    out.length_ = length_ / static_cast<double>(std::max<std::size_t>(count, 1));
-    out.begin_ = begin_ + out.length_ * static_cast<double>(index);
+    out.length_ = length_ * (end - begin);
+    out.begin_ = begin_ + length_ * begin;
     if (!what.empty()) out.what_ = what_.empty() ? what : fmt::format("{}, {}", what_, what);
     return out;
 }

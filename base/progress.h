@@ -46,6 +46,9 @@ public:
     /// this part, followed by `what`.
     [[nodiscard]] ProgressPart part(std::size_t index, std::size_t count,
                                     std::string_view what) const;
+    /// Returns the part from `begin` to `end`, which are shares of this part. Its text is like that
+    /// of part().
+    [[nodiscard]] ProgressPart span(double begin, double end, std::string_view what) const;
     void show(std::size_t index, std::size_t count, std::string_view what) const;
 
 private:

@@ -97,7 +97,7 @@ VirtualRun runVirtual(const Recording& recording, const Config& config,
     const int all = static_cast<int>(recording.video.size());
     for (int done = 1; done <= all; ++done) {
         show.frame(recording.video[static_cast<std::size_t>(done - 1)]);
-        progress(done, all + 1);
+        progress(done, 2 * all);
     }
     VirtualRun run;
     run.moving = show.picture();
@@ -114,13 +114,14 @@ VirtualRun runVirtual(const Recording& recording, const Config& config,
         if (show.counters().render.frame == seen) continue;
         seen = show.counters().render.frame;
         ++looks;
+        progress(all + std::min(looks, all - 1), 2 * all);
     }
     // The last samples are finished now, but only a later frame shows them.
     for (int i = 0; i < 5; ++i) {
         std::this_thread::sleep_for(kFrameInterval);
         show.again();
     }
-    progress(all + 1, all + 1);
+    progress(2 * all, 2 * all);
     run.atRest = show.picture();
     run.rested = show.counters();
     return run;

@@ -19,9 +19,9 @@ struct VirtualRun {
 };
 
 /// Shows the objects of a configuration in a recording, with poses from its tags. `progress` gets
-/// the number of processed frames and of all frames; the repetitions of the last frame count as one
-/// frame. Needs a current GL context. Throws std::runtime_error if no object is in view in the last
-/// frame.
+/// the number of processed frames and of all frames. The repetitions of the last frame, whose
+/// number depends on the path tracer, count as many frames as the recording has. Needs a current GL
+/// context. Throws std::runtime_error if no object is in view in the last frame.
 [[nodiscard]] VirtualRun runVirtual(const Recording& recording, const Config& config,
                                     const std::function<void(int, int)>& progress);
 

@@ -96,6 +96,13 @@ TEST(ProgressPart, ANestedPartShowsItsShareOfTheWhole) {
     EXPECT_THAT(out.taken(), HasSubstr(" 69 %  shelf, product, frame 2 of 2"));
 }
 
+TEST(ProgressPart, ASpanShowsItsShareOfTheWhole) {
+    Output out;
+    Progress progress(out.file(), true);
+    ProgressPart(progress).span(0.6, 0.8, "occlusion").show(1, 2, "frame");
+    EXPECT_THAT(out.taken(), HasSubstr(" 70 %  occlusion, frame"));
+}
+
 TEST(ProgressPart, APartWithoutAProgressCanBeShown) {
     ProgressPart().part(0, 0, "none").show(0, 0, "none");
 }
