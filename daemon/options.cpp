@@ -37,6 +37,11 @@ std::optional<std::string> countFault(std::string_view given) {
     return fmt::format("\"{}\" is not a whole number of at least 1", given);
 }
 
+std::optional<std::string> reportFault(std::string_view given) {
+    if (given != "-") return std::nullopt;
+    return "the report cannot go to standard output, because it is written twice; name a file";
+}
+
 struct Words {
     std::string mode;
     std::string engine;
@@ -93,6 +98,7 @@ void addOthers(CLI::App& app, Options& options, bool& printConfig) {
     app.add_option("--report", options.report,
                    "Write a page with charts and pictures to this file (HTML), at the start\nand "
                    "at the end")
+        ->check(accepts(reportFault, ""))
         ->type_name("FILE");
     app.add_option(
            "--control", options.control,

@@ -93,6 +93,7 @@ TEST(Options, UsageErrorsListTheValidChoices) {
     EXPECT_THAT(usageFault({"--seed", "18446744073709551616"}),
                 AllOf(HasSubstr("--seed"), HasSubstr("exceeds 2^64 - 1")));
     EXPECT_EQ(parse({"--seed", "18446744073709551615"}).options.seed, ~std::uint64_t{0});
+    EXPECT_THAT(usageFault({"--report", "-"}), HasSubstr("name a file"));
     EXPECT_THAT(usageFault({"--colour"}), HasSubstr("--colour"));
     EXPECT_THAT(usageFault({"--source", "synthetic", "--recording", "x"}),
                 HasSubstr("--recording"));
