@@ -38,8 +38,8 @@ namespace mfar {
 /// After SIGINT or SIGTERM, no more frames are fetched and the trigger line is set inactive. Frames
 /// that are being processed are still shown and written, within these limits:
 ///   - If nothing is being written, the process ends at most 0.2 s after the signal, even in the
-///     middle of a picture. With a report, which shows that picture, it ends at most 2 s after the
-///     signal.
+///     middle of a picture. With a report, which shows that picture, it waits up to 1.5 s for the
+///     picture, and then writes the report.
 ///   - Otherwise, writing to slow readers of the display's pipe is cancelled 0.4 s after the
 ///     signal, and the process ends at most 0.5 s later.
 /// A second signal ends the process at once, except the same signal within 0.1 s. If the main

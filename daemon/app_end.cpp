@@ -26,10 +26,12 @@ namespace {
 using Seconds = std::chrono::duration<double>;
 
 // Time limits after a signal. If no pictures are being written, the process ends at most kLeaveTime
-// after the signal, or kReportTime if a report must show the current picture. Otherwise, writing is
-// cancelled kFlushTime after the signal, and the process ends at most kCancelTime later.
+// after the signal. If a report must show the current picture, kReportTime replaces kLeaveTime. It
+// is a second shorter than kLastResort, because a slow board may need that second to write the
+// report. Otherwise, writing is cancelled kFlushTime after the signal, and the process ends at most
+// kCancelTime later.
 constexpr Seconds kLeaveTime{0.2};
-constexpr Seconds kReportTime{2};
+constexpr Seconds kReportTime{1.5};
 constexpr Seconds kFlushTime{0.4};
 // `timeout` of coreutils sends its signal to the process and then to the process group, so that it
 // arrives twice.
