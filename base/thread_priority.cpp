@@ -2,9 +2,12 @@
 
 #include <pthread.h>
 #include <sys/resource.h>
+#include <system_error>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <ctime>
+#include <filesystem>
 #include <sched.h>
 
 namespace mfar {
@@ -14,6 +17,15 @@ bool lowerThreadPriority() {
     const sched_param none{};
     const bool batch = pthread_setschedparam(pthread_self(), SCHED_BATCH, &none) == 0;
     return setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNice) == 0 && batch;
+}
+
+void raiseThreadPriorities() noexcept {
+    std::error_code end;
+    std::filesystem::directory_iterator task("/proc/self/task", end);
+    for (; !end && task != std::filesystem::directory_iterator(); task.increment(end)) {
+        const int thread = std::atoi(task->path().filename().c_str());
+        (void)setpriority(PRIO_PROCESS, static_cast<id_t>(thread), 0);
+    }
 }
 
 double threadCpuMs() {

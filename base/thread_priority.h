@@ -6,6 +6,11 @@ namespace mfar {
 /// that wakes up does not preempt others. Returns false if the system refuses either.
 bool lowerThreadPriority();
 
+/// Sets all threads of the process to nice 0 if the system permits it. To be called before the
+/// process ends by force: each thread must run once more to end, so on a loaded machine, threads of
+/// low priority delay the end of the process.
+void raiseThreadPriorities() noexcept;
+
 [[nodiscard]] double threadCpuMs();
 
 }  // namespace mfar

@@ -1,3 +1,4 @@
+#include "base/thread_priority.h"
 #include "base/whole_file.h"
 #include "daemon/app.h"
 #include "daemon/budgets.h"
@@ -39,6 +40,11 @@ constexpr std::chrono::milliseconds kSameSignal{100};
 constexpr Seconds kCancelTime{0.5};
 constexpr std::chrono::milliseconds kLastResort{2500};
 
+[[noreturn]] void endProcess(int status) {
+    raiseThreadPriorities();
+    std::_Exit(status);
+}
+
 const char* signalName(int signal) {
     return signal == SIGINT ? "SIGINT" : "SIGTERM";
 }
@@ -53,12 +59,12 @@ void App::onSignal(int signal) {
         log_.warning(fmt::format("{} received after {}; ended at once", signalName(signal),
                                  signalName(*stopSignal_)),
                      {}, {message::kEnded});
-        std::_Exit(128 + signal);
+        endProcess(128 + signal);
     }
     stopSignal_ = signal;
     stopSignalAt_ = Timestamp::now();
     // No message is logged here: even if the log itself hangs, the signal must end the process.
-    lastResort_.arm(kLastResort, [] { std::_Exit(static_cast<int>(ExitCode::Ok)); });
+    lastResort_.arm(kLastResort, [] { endProcess(static_cast<int>(ExitCode::Ok)); });
     stop(signalName(signal));
     events_.deadlineIn(writes() ? kFlushTime : options_.report ? kReportTime : kLeaveTime);
 }
@@ -109,7 +115,7 @@ void App::leave(const std::string& why) {
     const bool written = writeResults(reason, end);
     removeControl();
     const ExitCode code = written || stopSignal_ ? end : ExitCode::OutputFailed;
-    std::_Exit(static_cast<int>(code));
+    endProcess(static_cast<int>(code));
 }
 
 // The control socket's file must be removed here, because ControlSocket's destructor does not run.
@@ -129,7 +135,7 @@ void App::leaveFailed(const std::exception_ptr& error) {
         log_.error(failure.what(), {message::kFailed});
         removeControl();
         if (!stopSignal_) pauseBeforeRestart(code, failure.what(), started_, log_);
-        std::_Exit(static_cast<int>(code));
+        endProcess(static_cast<int>(code));
     }
 }
 
@@ -169,7 +175,7 @@ ExitCode App::finish(std::future<std::string>& end) {
         // waiting for that thread.
         if (isReading()) {
             endControl();
-            std::_Exit(static_cast<int>(code));
+            endProcess(static_cast<int>(code));
         }
         return code;
     } catch (const std::exception& error) {

@@ -82,7 +82,7 @@ grep -qx 'RestartPreventExitStatus=64 65 66 78' "$unit" ||
 
 # The service's resources must be limited. Its command ExecStopPost= must have no more rights than
 # the service.
-for key in MemoryMax OOMPolicy TasksMax LimitNOFILE; do
+for key in MemoryMax OOMPolicy TasksMax LimitNOFILE LimitNICE; do
     grep -q "^$key=" "$unit" || fault "the unit has no $key="
 done
 grep -Eq '^ExecStopPost=-?[^+!:@]' "$unit" ||
