@@ -8,12 +8,13 @@ here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
 frames=45
 seconds=1
 
-# The results of an earlier run are replaced only by complete new ones.
-mkdir -p "$(dirname "$out")"
-work=$(mktemp -d "$out.XXXXXX")
+# The results of an earlier run are replaced only by complete new ones. A run that was killed leaves
+# this folder behind.
+work=$out.new
+rm -rf "$work"
 trap 'rm -rf "$work"' EXIT
 new=$work/results
-mkdir "$new"
+mkdir -p "$new"
 
 echo "1/3  mfard on the synthetic scene 'office', hand-held, $frames frames"
 "$build/daemon/mfard" --source synthetic:office --pace consumer --frames "$frames" \
