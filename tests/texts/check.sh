@@ -46,16 +46,19 @@ done < <(sed -n '/^## Troubleshooting/,/^## /p' "$sources/README.md" | sed -n 's
     grep -Eo '`[^`]+`' | tr -d '`')
 
 # The documents explain the messages and requests without the sources, which the package lacks.
-while read -r id; do
+ids=$(grep -Eo '[0-9a-f]{32}' "$sources/daemon/message_ids.h")
+for id in $ids; do
     grep -q "^| .$id. | " "$sources/docs/boards.md" ||
         fault "docs/boards.md does not explain the message id $id of daemon/message_ids.h"
-done < <(grep -Eo '[0-9a-f]{32}' "$sources/daemon/message_ids.h")
-while read -r command; do
+done
+commands=$(sed -n '/kCommands{/,/;/p' "$sources/daemon/control.cpp" | grep -Eo '"[a-z]+"' | tr -d '"')
+for command in $commands; do
     grep -q "^| .{\"command\": \"$command\"" "$sources/docs/boards.md" ||
         fault "docs/boards.md does not explain the request \"$command\" to the control socket"
-done < <(sed -n '/kCommands{/,/;/p' "$sources/daemon/control.cpp" | grep -Eo '"[a-z]+"' | tr -d '"')
+done
 
-"$sources/run" help >"$work/help" || fault "./run help fails"
+"$sources/run" help >"$work/help"
+grep -q '^Debian packages' "$work/help" || fault "./run help lists no packages"
 while IFS= read -r package; do
     fault "./run help lists the package $package twice"
 done < <(sed '1,/^Debian packages/d' "$work/help" | awk '{ print $1 }' | sort | uniq -d)
@@ -78,6 +81,7 @@ completes "$work/tree/docs" mfarctl --socket "$work/tree/do"
 completes --screen mfarctl snapshot --s
 completes "$work/tree/docs" mfarctl snapshot "$work/tree/do"
 completes --stop mfarctl record --s
+completes --stop mfarctl record learn --s
 completes reset mfarctl learn r
 
 while IFS= read -r program; do

@@ -118,7 +118,7 @@ _mfarctl() {{
     local word command='' words files=''
     for word in "${{COMP_WORDS[@]:1:COMP_CWORD-1}}"; do
         case $word in
-        {}) command=$word ;;
+        {}) command=$word && break ;;
         esac
     done
     case $command in
