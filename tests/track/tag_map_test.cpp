@@ -82,6 +82,7 @@ TEST(TagMap, BrokenTomlIsRefusedWithFileAndLine) {
         {"0.5, 0.5, -0.5, 0.5", "0, 0, 0, 0", "t.toml:8: the quaternion must have length 1"},
         {"family = \"tag16h5\"\n", "", "t.toml:11: tag 3 of family tag36h11 occurs twice"},
         {"family = \"tag16h5\"", "family = \"tag\"", "t.toml:12: family must be one of"},
+        {"family = \"tag16h5\"", "family = \"tag16h5", "t.toml:12: the closing quote of a text"},
         {"family = \"tag36h11\"\n", "",
          "t.toml:3: neither this tag nor the file has the key \"family\""},
         {"# a comment", "units = \"mm\"", "t.toml:1: unknown key units"},
