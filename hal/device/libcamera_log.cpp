@@ -52,7 +52,7 @@ std::string_view takeWord(std::string_view& text) {
     return word;
 }
 
-/// Returns the length of the device's name at the begin of a message: "/dev/video0" of
+/// Returns the length of the device's name at the beginning of a message: "/dev/video0" of
 /// "/dev/video0[17:cap]: Cannot start", "'imx219 10-0010'" of "'imx219 10-0010': Cannot start". The
 /// number in brackets is a descriptor, which may change when the device is opened again.
 std::size_t lengthOfDevice(std::string_view message) {
