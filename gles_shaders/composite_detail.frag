@@ -23,11 +23,12 @@
 
 layout(binding = 1) uniform sampler2D still;
 #ifdef SECOND
+#include "look_up_cells.glsl"
 layout(binding = 5) uniform sampler2D newestField;
 
 // Returns the weight that the first still has at this pixel.
 float newestShare() {
-    return textureLod(newestField, gl_FragCoord.xy * vec2(params.scaleX, params.scaleY) / vec2(4 * cellCount()), 0.0).z;
+    return lookUpCells(newestField, gl_FragCoord.xy * vec2(params.scaleX, params.scaleY), cellCount()).z;
 }
 #endif
 layout(location = 0) out vec4 colour;

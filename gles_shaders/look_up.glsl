@@ -4,6 +4,7 @@
 #ifdef PLAIN_TILE
 in vec4 plainLookUp;
 #else
+#include "look_up_cells.glsl"
 layout(binding = 2) uniform sampler2D lookupField;
 #endif
 
@@ -13,7 +14,7 @@ vec4 lookUp(out vec2 uv) {
 #ifdef PLAIN_TILE
     vec4 l = plainLookUp;
 #else
-    vec4 l = textureLod(lookupField, gl_FragCoord.xy * vec2(params.scaleX, params.scaleY) / vec2(4 * cellCount()), 0.0);
+    vec4 l = lookUpCells(lookupField, gl_FragCoord.xy * vec2(params.scaleX, params.scaleY), cellCount());
 #endif
     uv = (gl_FragCoord.xy * vec2(params.stillScaleX, params.stillScaleY) + l.xy) *
          vec2(params.stillTexelX, params.stillTexelY);

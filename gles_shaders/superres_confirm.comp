@@ -4,7 +4,7 @@
 // In: image of superres_fine.comp, images of superres_weigh.comp. Out: the images of
 // superres_weigh.comp with the new weights.
 // Range: newCells -2e4..2e4, -2e4..2e4, 0..2.31, 0..1
-// Range: newLookUps -4e3..4e3, -4e3..4e3, 0..2.31, 0..1
+// Range: newLookUps -4e3..4e3, -4e3..4e3, 0..2.31, 0..7
 #include "pipeline/engine/params/weigh.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -58,6 +58,7 @@ void main() {
     float lack = (1.0 - weighed.z) * (1.0 - weighed.z);
     float weight = keptShare(cell) * (weighed.z < 1.0 ? 1.0 - lack * lack : weighed.z);
     imageStore(newCells, cell, vec4(weighed.xy, weight, weighed.w));
-    imageStore(newLookUps, cell, vec4(texelFetch(lookupField, cell, 0).xy, weight, weighed.w));
+    vec4 looked = texelFetch(lookupField, cell, 0);
+    imageStore(newLookUps, cell, vec4(looked.xy, weight, looked.w));
     imageStore(newWeights, cell, vec4(0.5 * weight, texelFetch(weightField, cell, 0).yzw));
 }

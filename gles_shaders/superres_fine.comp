@@ -6,8 +6,10 @@
 // still and still * still. Each mean is over the middle two rows of the cell, and is halved. All
 // are zero in tiles that are not matched and in cells that are only partly inside the frame. The
 // fourth value is the variance of the video's patch [grey levels^2].
-// One workgroup per tile, one invocation per cell.
+// One workgroup per tile, one invocation per cell. The loops count from cell.x, so that compilers
+// cannot unroll them.
 // Range: fineField 0..32513, -32513..32513, 0..32513, 0..6.6e4
+#include "look_up_cells.glsl"
 #include "luma.glsl"
 #include "still_linear.glsl"
 #include "pipeline/engine/params/weigh.h"
@@ -26,11 +28,11 @@ layout(binding = 2) uniform sampler2D still;
 layout(binding = 3) uniform sampler2D statistics;
 layout(rgba32f, binding = 0) uniform writeonly highp image2D fineField;
 
-float stillAt(ivec2 pixel) {
+float stillAt(int first, ivec2 pixel) {
     float sum = 0.0;
-    for (int i = 0; i < 4; ++i) {
-        vec2 p = vec2(pixel) + 0.25 + 0.5 * vec2(i & 1, i >> 1);
-        vec2 l = textureLod(lookupField, p / vec2(4 * ivec2(params.columns, params.rows)), 0.0).xy;
+    for (int i = first; i < first + 4; ++i) {
+        vec2 p = vec2(pixel) + 0.25 + 0.5 * vec2((i - first) & 1, (i - first) >> 1);
+        vec2 l = lookUpCells(lookupField, p, ivec2(params.columns, params.rows)).xy;
         vec2 at = p * vec2(params.scaleX, params.scaleY) + l;
         sum += linearly(still, at * vec2(params.texelX, params.texelY));
     }
@@ -38,9 +40,9 @@ float stillAt(ivec2 pixel) {
 }
 
 // Returns the luma of video (x) and still (y) [grey levels].
-vec2 bothAt(ivec2 pixel) {
+vec2 bothAt(int first, ivec2 pixel) {
     ivec2 p = ivec2(min(pixel.x, params.videoWidth - 1), pixel.y);
-    return 255.0 * vec2(lumaOf(texelFetch(picture, p, 0).rgb), stillAt(p));
+    return 255.0 * vec2(lumaOf(texelFetch(picture, p, 0).rgb), stillAt(first, p));
 }
 
 vec3 productsOf(vec2 difference) {
@@ -55,13 +57,18 @@ void main() {
     vec3 sums = vec3(0.0);
     if (matched && isWhole) {
         ivec2 first = 4 * cell + ivec2(0, 1);
-        vec2 upper = bothAt(first), lower = bothAt(first + ivec2(0, 1));
-        for (int i = 1; i <= 4; ++i) {
-            sums += productsOf(lower - upper);
-            vec2 nextUpper = bothAt(first + ivec2(i, 0)), nextLower = bothAt(first + ivec2(i, 1));
-            sums += productsOf(nextUpper - upper) + productsOf(nextLower - lower);
-            upper = nextUpper;
-            lower = nextLower;
+        vec2 upper = vec2(0.0), lower = upper, above = upper;
+        for (int i = cell.x; i < cell.x + 10; ++i) {
+            int k = i - cell.x;
+            vec2 both = bothAt(cell.x, first + ivec2(k >> 1, k & 1));
+            if ((k & 1) == 0) {
+                above = both;
+                continue;
+            }
+            if (k > 1) sums += productsOf(above - upper) + productsOf(both - lower);
+            if (k < 9) sums += productsOf(both - above);
+            upper = above;
+            lower = both;
         }
     }
     float variance = texelFetch(statistics, cell, 0).y / kPatchPixels;

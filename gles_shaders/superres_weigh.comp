@@ -1,8 +1,8 @@
 // Computes the weight of the still in each cell, from the statistics of 3x3 cells.
 // In: images of superres_assess.comp, image of superres_gain.comp.
 // Out: cells image = flow (x, y) [video px], weight of the detail, confidence (eq. 2 of
-// the paper). Look-up image = LookUpCell: offset (x, y) [still px], weight, confidence. Weights
-// image = weight / 2, confidence, share of the video's variance that is not noise (for the
+// the paper). Look-up image = LookUpCell: offset (x, y) [still px], weight, confidence plus jumps
+// (see kJump). Weights image = weight / 2, confidence, share of the video's variance that is not noise (for the
 // sharpening), TrustCell::unexplained.
 // The weight of the detail is the product of the photometric gain between the sensors, the trust in
 // the match and the confidence. The gain is covariance / (variance of the still + noise). It is
@@ -15,7 +15,7 @@
 // square of the share of the video's variance that the still explains. Where the flow is
 // discontinuous, look-ups between cells are invalid, and the trust is 0.
 // Range: cellField -2e4..2e4, -2e4..2e4, 0..2.31, 0..1
-// Range: lookupField -4e3..4e3, -4e3..4e3, 0..2.31, 0..1
+// Range: lookupField -4e3..4e3, -4e3..4e3, 0..2.31, 0..7
 #include "pipeline/engine/params/weigh.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -44,6 +44,13 @@ vec3 halfAround(ivec2 cell) {
         sum += 0.25 * texelFetch(halfStatistics, clamp(c, ivec2(0), last), 0).xyz;
     }
     return sum;
+}
+
+// Returns `value` if the flow jumps between the cells `c` and c + by, otherwise 0; see kJump.
+float jumpAt(ivec2 c, ivec2 by, float value) {
+    vec2 here = flowAt(c), next = flowAt(c + by);
+    float change = max(length(here - flowAt(c - by)), length(flowAt(c + 2 * by) - next));
+    return length(next - here) > kJump + kJumpPerChange * change ? value : 0.0;
 }
 
 void main() {
@@ -75,6 +82,7 @@ void main() {
 
     vec4 d = texelFetch(displacement, cell, 0);
     imageStore(cellField, cell, vec4(d.xy, weight, confidence));
-    imageStore(lookupField, cell, vec4(d.zw, weight, confidence));
+    float jumps = jumpAt(cell, ivec2(1, 0), kJumpRight) + jumpAt(cell, ivec2(0, 1), kJumpBelow);
+    imageStore(lookupField, cell, vec4(d.zw, weight, confidence + jumps));
     imageStore(weightField, cell, vec4(0.5 * weight, confidence, signal, unexplained));
 }

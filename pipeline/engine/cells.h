@@ -1,6 +1,8 @@
 #pragma once
 
-#include <array>
+#include "pipeline/engine/params/weigh.h"
+
+#include <cmath>
 
 namespace mfar {
 
@@ -43,7 +45,15 @@ struct LookUpCell {
     /// pixels per video pixel) + (x, y). (Pixel coordinates here start at the picture's corner.)
     float x = 0, y = 0;
     float weight = 0;
-    float confidence = 0;
+    float confidenceAndJumps = 0;  ///< see params::kJumpRight
+
+    [[nodiscard]] float confidence() const {
+        return confidenceAndJumps - 2 * std::floor(confidenceAndJumps / 2);
+    }
+    [[nodiscard]] bool jumpsBelow() const { return confidenceAndJumps >= params::kJumpBelow; }
+    [[nodiscard]] bool jumpsRight() const {
+        return confidenceAndJumps - (jumpsBelow() ? params::kJumpBelow : 0) >= params::kJumpRight;
+    }
 };
 
 /// Four values in [0, 1]. They determine how much a tile is sharpened, and its class.

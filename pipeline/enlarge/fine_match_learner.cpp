@@ -1,6 +1,7 @@
 #include "pipeline/enlarge/fine_match_learner.h"
 
 #include "pipeline/engine/params/weigh.h"
+#include "pipeline/enlarge/warped_grid.h"
 #include "pipeline/flow/cell_field.h"
 
 #include <algorithm>
@@ -37,21 +38,9 @@ public:
 
 private:
     [[nodiscard]] double sample(double px, double py) const {
-        const Size cells = in_.lookUps.size();
-        const double cx = std::clamp((px - 1.5) / kCell, 0.0, cells.width - 1.0),
-                     cy = std::clamp((py - 1.5) / kCell, 0.0, cells.height - 1.0);
-        const int left = static_cast<int>(cx), top = static_cast<int>(cy);
-        const int right = std::min(left + 1, cells.width - 1),
-                  bottom = std::min(top + 1, cells.height - 1);
-        const auto between = [&](float LookUpCell::* of) {
-            const double upper = std::lerp(double(in_.lookUps[top][left].*of),
-                                           double(in_.lookUps[top][right].*of), cx - left);
-            const double lower = std::lerp(double(in_.lookUps[bottom][left].*of),
-                                           double(in_.lookUps[bottom][right].*of), cx - left);
-            return std::lerp(upper, lower, cy - top);
-        };
-        const double x = (px + 0.5) * in_.scaleX - 0.5 + between(&LookUpCell::x),
-                     y = (py + 0.5) * in_.scaleY - 0.5 + between(&LookUpCell::y);
+        const LookUpCell offset = lookUpAt(in_.lookUps, px, py);
+        const double x = (px + 0.5) * in_.scaleX - 0.5 + offset.x,
+                     y = (py + 0.5) * in_.scaleY - 0.5 + offset.y;
         return still((x + 0.5) * in_.stillPerX - 0.5, (y + 0.5) * in_.stillPerY - 0.5);
     }
     [[nodiscard]] double still(double x, double y) const {

@@ -86,7 +86,7 @@ public:
     };
     void addedTo(int x, int y, Added& out) const {
         const Phases low = cubicOf(x, y, [&](int i, int j) { return still_.mean(i, j); });
-        const Phases weights = betweenCells(cells_, &LookUpCell::weight, x, y);
+        const Phases weights = weightsAt(cells_, x, y);
         const auto enlarged = [&](const std::vector<float>& values) {
             return cubicOf(x, y, [&](int i, int j) { return values[at(i, j)]; });
         };

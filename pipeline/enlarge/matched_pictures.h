@@ -42,7 +42,7 @@ struct MatchedPictures {
 [[nodiscard]] inline bool mayTeach(const LookUpCell& cell) {
     constexpr float kLeastWeight = 0.25F, kLeastConfidence = 0.8F;
     return std::isfinite(cell.x) && std::isfinite(cell.y) && cell.weight >= kLeastWeight &&
-           cell.confidence >= kLeastConfidence;
+           cell.confidence() >= kLeastConfidence;
 }
 
 }  // namespace mfar

@@ -44,15 +44,9 @@ struct BetweenCells {
     float t;
 };
 
-float between(const AlignedRows<LookUpCell>& cells, float LookUpCell::* part, double px,
-              double py) {
-    const BetweenCells u(px, cells.size().width), v(py, cells.size().height);
-    const auto along = [&](int row) {
-        const float a = cells[row][u.first].*part;
-        return a + u.t * (cells[row][u.second].*part - a);
-    };
-    const float a = along(v.first);
-    return a + v.t * (along(v.second) - a);
+LookUpCell between(const LookUpCell& a, const LookUpCell& b, float t, bool jumps) {
+    if (jumps) t = t < 0.5F ? 0 : 1;
+    return {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), a.weight + t * (b.weight - a.weight)};
 }
 
 }  // namespace
@@ -67,10 +61,9 @@ void WarpedGrid::warp(const MatchedPictures& pictures, const AlignedRows<LookUpC
         std::max(1, static_cast<int>(std::lround(pictures.scaleX * pictures.stillPerX / kGrid)));
     const int perPixel = kGrid * samples;
     const auto valueAt = [&](double px, double py) {
-        const double sx =
-            (px + 0.5) * pictures.scaleX - 0.5 + between(lookUps, &LookUpCell::x, px, py);
-        const double sy =
-            (py + 0.5) * pictures.scaleY - 0.5 + between(lookUps, &LookUpCell::y, px, py);
+        const LookUpCell offset = lookUpAt(lookUps, px, py);
+        const double sx = (px + 0.5) * pictures.scaleX - 0.5 + offset.x;
+        const double sy = (py + 0.5) * pictures.scaleY - 0.5 + offset.y;
         return sample(pictures.still, static_cast<float>((sx + 0.5) * pictures.stillPerX - 0.5),
                       static_cast<float>((sy + 0.5) * pictures.stillPerY - 0.5));
     };
@@ -106,12 +99,22 @@ float WarpedGrid::rootAboveMean(int x, int y) const {
     return std::max(std::sqrt(squares / kPhases) - sum / kPhases, 0.0F);
 }
 
-Phases betweenCells(const AlignedRows<LookUpCell>& cells, float LookUpCell::* part, int x, int y) {
+LookUpCell lookUpAt(const AlignedRows<LookUpCell>& cells, double px, double py) {
+    const BetweenCells u(px, cells.size().width), v(py, cells.size().height);
+    const auto along = [&](int row) {
+        const LookUpCell &left = cells[row][u.first], &right = cells[row][u.second];
+        return between(left, right, u.t, left.jumpsRight());
+    };
+    const LookUpCell& above = cells[v.first][u.t < 0.5F ? u.first : u.second];
+    return between(along(v.first), along(v.second), v.t, above.jumpsBelow());
+}
+
+Phases weightsAt(const AlignedRows<LookUpCell>& cells, int x, int y) {
     Phases out;
     for (int phase = 0; phase < kPhases; ++phase) {
         const int row = phase / kGrid, column = phase % kGrid;
         out[phase] =
-            between(cells, part, x - 0.5 + (column + 0.5) / kGrid, y - 0.5 + (row + 0.5) / kGrid);
+            lookUpAt(cells, x - 0.5 + (column + 0.5) / kGrid, y - 0.5 + (row + 0.5) / kGrid).weight;
     }
     return out;
 }

@@ -41,10 +41,12 @@ private:
     std::vector<float> mean_;
 };
 
-/// Returns one member of LookUpCell, interpolated at the sub-pixels of a pixel. The interpolation
-/// between cells is bilinear, as in the detail step.
-[[nodiscard]] Phases betweenCells(const AlignedRows<LookUpCell>& cells, float LookUpCell::* part,
-                                  int x, int y);
+/// Returns offset and weight at (px, py) [video px], interpolated between cells as in the detail
+/// step, see params::kJump.
+[[nodiscard]] LookUpCell lookUpAt(const AlignedRows<LookUpCell>& cells, double px, double py);
+
+/// Returns the weights at the sub-pixels of a pixel, see lookUpAt().
+[[nodiscard]] Phases weightsAt(const AlignedRows<LookUpCell>& cells, int x, int y);
 
 template <class ValueAt>
 [[nodiscard]] Phases cubicOf(int x, int y, const ValueAt& valueAt) {

@@ -29,15 +29,24 @@ public:
         rows_.fill(-1);
     }
     /// Returns the enlarged row y of cells. `channelsOf` must convert a cell to finite numbers.
-    template <class ChannelsOf>
-    [[nodiscard]] Wide row(int y, const ChannelsOf& channelsOf) {
+    /// `amend(channels)` may change the row's channels after they are interpolated.
+    template <class ChannelsOf, class Amend>
+    [[nodiscard]] Wide row(int y, const ChannelsOf& channelsOf, const Amend& amend) {
         const int slot = y % kKept, first = slot * static_cast<int>(Count);
-        if (rows_[slot] != y) fill(y, first, channelsOf);
-        rows_[slot] = y;
+        std::array<float*, Count> channels;
         Wide out;
         for (std::size_t c = 0; c < Count; ++c)
-            out[c] = wide_[first + static_cast<int>(c)];
+            out[c] = channels[c] = wide_[first + static_cast<int>(c)];
+        if (rows_[slot] != y) {
+            fill(y, first, channelsOf);
+            amend(channels);
+        }
+        rows_[slot] = y;
         return out;
+    }
+    template <class ChannelsOf>
+    [[nodiscard]] Wide row(int y, const ChannelsOf& channelsOf) {
+        return row(y, channelsOf, [](const std::array<float*, Count>&) {});
     }
 
 private:

@@ -63,6 +63,38 @@ HWY_INLINE void HalfAround(const WeighRow::Half& rows, int chunk, LowRow& out) {
     }
 }
 
+/// The flow of four cells in a row or column, one component. The flow may jump between the middle
+/// two.
+struct FourCells {
+    V first, second, third, fourth;
+};
+
+/// Returns `value` where the flow jumps, otherwise 0; see params::kJump.
+HWY_INLINE V Jump(const FourCells& x, const FourCells& y, float value) {
+    const auto squared = [](V dx, V dy) HWY_ATTR { return hn::MulAdd(dx, dx, hn::Mul(dy, dy)); };
+    const V here = squared(hn::Sub(x.third, x.second), hn::Sub(y.third, y.second));
+    const V before = squared(hn::Sub(x.second, x.first), hn::Sub(y.second, y.first));
+    const V after = squared(hn::Sub(x.fourth, x.third), hn::Sub(y.fourth, y.third));
+    const V limit = hn::MulAdd(Const(params::kJumpPerChange), hn::Sqrt(hn::Max(before, after)),
+                               Const(params::kJump));
+    return hn::IfThenElseZero(hn::Gt(hn::Sqrt(here), limit), Const(value));
+}
+
+HWY_INLINE V JumpsOf(const WeighRow& row, int x) {
+    const D d;
+    const auto across = [&](const float* flow) HWY_ATTR {
+        return FourCells{hn::LoadU(d, flow + x - 1), hn::LoadU(d, flow + x),
+                         hn::LoadU(d, flow + x + 1), hn::LoadU(d, flow + x + 2)};
+    };
+    const auto down = [&](const RowsAround& flow, const float* below2) HWY_ATTR {
+        return FourCells{hn::LoadU(d, flow.above + x), hn::LoadU(d, flow.here + x),
+                         hn::LoadU(d, flow.below + x), hn::LoadU(d, below2 + x)};
+    };
+    return hn::Add(
+        Jump(across(row.flowX.here), across(row.flowY.here), params::kJumpRight),
+        Jump(down(row.flowX, row.flowX2), down(row.flowY, row.flowY2), params::kJumpBelow));
+}
+
 struct Weight {
     V weight, signal, unexplained, kink, variance;
 };
@@ -120,7 +152,8 @@ void WeighCells(const WeighRow& row, float noise) {
                                   hn::LoadU(d, row.flowY.here + x), w.weight, confidence, d,
                                   &row.weighed[x].x);
             hn::StoreInterleaved4(hn::LoadU(d, row.lookX + x), hn::LoadU(d, row.lookY + x),
-                                  w.weight, confidence, d, &row.lookUps[x].x);
+                                  w.weight, hn::Add(confidence, JumpsOf(row, x)), d,
+                                  &row.lookUps[x].x);
             hn::StoreInterleaved4(hn::Min(hn::Mul(w.weight, Const(0.5F)), Const(1)), confidence,
                                   w.signal, w.unexplained, d, &row.trust[x].halfWeight);
             hn::StoreU(w.kink, d, row.kink + x);

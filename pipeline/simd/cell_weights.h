@@ -18,6 +18,7 @@ struct RowsAround {
 struct WeighRow {
     int count;
     RowsAround flowX, flowY;
+    const float *flowX2, *flowY2;  ///< two rows below
     RowsAround covariance, varianceVideo, varianceStill;
     const float *confidence, *lookX, *lookY;
     /// Two rows of patch statistics at half resolution. `near` is the row that contains the cells.

@@ -132,6 +132,8 @@ void WeighStep::weigh(int row, float noise) {
     weighCells({.count = cells_.width,
                 .flowX = flowX_.around(row),
                 .flowY = flowY_.around(row),
+                .flowX2 = flowX_.around(std::min(row + 1, cells_.height - 1)).below,
+                .flowY2 = flowY_.around(std::min(row + 1, cells_.height - 1)).below,
                 .covariance = covariance_.around(row),
                 .varianceVideo = varianceVideo_.around(row),
                 .varianceStill = varianceStill_.around(row),

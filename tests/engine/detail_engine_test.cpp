@@ -201,7 +201,8 @@ void expectTheSamePicture(const FilterBank* filters, double most, double rms) {
 }
 
 TEST_F(DetailEngines, BothEnginesDrawTheSamePicture) {
-    expectTheSamePicture(nullptr, 4, 0.85);
+    // Where the flow jumps, the warped still has an edge, and the two means blur it differently.
+    expectTheSamePicture(nullptr, 5, 0.85);
 }
 
 TEST_F(DetailEngines, BothEnginesDrawTheSamePictureWithLearnedFilters) {

@@ -75,7 +75,8 @@ struct FineInput {
                 return double(frame.lookUps[y * frame.cells.width + x].*member);
             });
         };
-        const twin::Grey offX = field(&LookUpCell::x), offY = field(&LookUpCell::y);
+        const twin::Grey offX = field(&LookUpCell::x), offY = field(&LookUpCell::y),
+                         codes = field(&LookUpCell::confidenceAndJumps);
         const twin::Grey luma = twin::greyOf(
             size, [&](int x, int y) { return double((pairs.data + y * pairs.pitch)[x] & 255); });
         const twin::FineCase in{
@@ -88,9 +89,9 @@ struct FineInput {
             [&](double x, double y) {
                 const double u = (x + 0.5) / 4 - 0.5, v = (y + 0.5) / 4 - 0.5;
                 const double px = (x + 0.5) * frame.rig.still.fx / frame.rig.video.fx - 0.5 +
-                                  offX.bilinear(u, v),
+                                  twin::lookedUp(offX, codes, u, v),
                              py = (y + 0.5) * frame.rig.still.fy / frame.rig.video.fy - 0.5 +
-                                  offY.bilinear(u, v);
+                                  twin::lookedUp(offY, codes, u, v);
                 return luma.bilinear(std::clamp(px, 0.0, size.width - 1.0),
                                      std::clamp(py, 0.0, size.height - 1.0));
             },
@@ -147,7 +148,6 @@ Shares onGpu(const FineInput& in) {
         cellsIn[i] = {in.flow.values[4 * i], in.flow.values[4 * i + 1], weightAt(i), 0.5F};
         std::copy_n(&in.statistics.values[4 * i], 4, statistics[i].begin());
         lookUps[i].weight = weightAt(i);
-        lookUps[i].confidence = 0.5F;
     }
     gpu::Texture picture(video, gpu::TexelFormat::Rgba8);
     TextureCopy(picture).upload(in.frame.videoPixels.data(), 4L * video.width);
@@ -172,6 +172,7 @@ Shares onGpu(const FineInput& in) {
         EXPECT_EQ(got[4 * i + 3], 0.5F);
         EXPECT_NEAR(gotLooked[4 * i], lookUps[i].x, 1e-3 * std::abs(lookUps[i].x) + 1e-3);
         EXPECT_NEAR(gotLooked[4 * i + 2], weight, 1e-3);
+        EXPECT_NEAR(gotLooked[4 * i + 3], lookUps[i].confidenceAndJumps, 4e-3);
         EXPECT_NEAR(gotTrust[4 * i] / 255.0, std::min(weight / 2, 1.0F), 3e-3);
         EXPECT_NEAR(gotTrust[4 * i + 2] / 255.0, 0.25, 3e-3);
         EXPECT_EQ(gotTrust[4 * i + 3], 255);

@@ -6,6 +6,7 @@
 #include "tests/engine/pictures.h"
 
 #include <cmath>
+#include <span>
 
 namespace mfar {
 namespace {
@@ -37,9 +38,18 @@ TEST_F(WeighEngines, BothEnginesGiveTheSameWeights) {
     const TestPicture still = waves.shoot(kStill, {.step = step, .footprint = step});
     pyramids.buildStill(uploaded(still, gpu::Filter::Linear), ToneTexture(), rig, 0);
     flow.run(pyramids.luma(), tiles, false);
-    weigher.run({pyramids.video(), pyramids.still(), pyramids.words(), flow.cells(),
-                 flow.forward().offset, flow.forward().cells, flow.backward().cells,
-                 flow.backward().level, false},
+    const Flow2d::Field &there = flow.forward(), &back = flow.backward();
+    auto cells =
+        flow.cells().read<FlowCell>(std::max(there.offset + there.cells.width * there.cells.height,
+                                             back.offset + back.cells.width * back.cells.height));
+    const Size size = there.cells;
+    for (int y = size.height / 2; y < size.height; ++y)  // a surface in front of the other
+        for (int x = size.width / 2; x < size.width; ++x)
+            cells[static_cast<std::size_t>(there.offset) + y * size.width + x].x += 3;
+    gpu::Buffer flowCells(cells.size() * sizeof(FlowCell));
+    flowCells.write(std::span<const FlowCell>(cells));
+    weigher.run({pyramids.video(), pyramids.still(), pyramids.words(), flowCells, there.offset,
+                 size, back.cells, back.level, false},
                 tiles);
 
     ASSERT_GT(work.matched, 0);
@@ -48,10 +58,6 @@ TEST_F(WeighEngines, BothEnginesGiveTheSameWeights) {
     const auto words = pyramids.words().read<std::uint32_t>(
         static_cast<std::size_t>(last.offset) + static_cast<std::size_t>(last.pitch) * last.height +
         kLumaSpareWords);
-    const Flow2d::Field &there = flow.forward(), &back = flow.backward();
-    const auto cells =
-        flow.cells().read<FlowCell>(std::max(there.offset + there.cells.width * there.cells.height,
-                                             back.offset + back.cells.width * back.cells.height));
     simd::WeighStep weigh(rig, nullptr);
     weigh.run({pyramids.video(),
                pyramids.still(),
@@ -62,11 +68,17 @@ TEST_F(WeighEngines, BothEnginesGiveTheSameWeights) {
                {},
                work});
 
-    const std::vector<float> wanted = weigher.weighed().readRgba32F();
+    const std::vector<float> wanted = weigher.weighed().readRgba32F(),
+                             lookUps = weigher.lookUps().readRgba32F();
     double sum = 0;
-    for (int y = 0; y < there.cells.height; ++y)
-        for (int x = 0; x < there.cells.width; ++x) {
-            const float* w = &wanted[4UL * (static_cast<std::size_t>(y) * there.cells.width + x)];
+    int jumps = 0;
+    for (int y = 0; y < size.height; ++y)
+        for (int x = 0; x < size.width; ++x) {
+            const std::size_t at = 4UL * (static_cast<std::size_t>(y) * size.width + x);
+            const float* w = &wanted[at];
+            const LookUpCell& look = weigh.lookUps()[y][x];
+            ASSERT_NEAR(look.confidenceAndJumps, lookUps[at + 3], 4e-3) << x << ", " << y;
+            jumps += look.jumpsRight() + look.jumpsBelow();
             const WeighedCell& got = weigh.weighed()[y][x];
             ASSERT_EQ(got.x, w[0]);
             ASSERT_EQ(got.y, w[1]);
@@ -76,6 +88,7 @@ TEST_F(WeighEngines, BothEnginesGiveTheSameWeights) {
             sum += got.weight;
         }
     EXPECT_GT(sum, 100);
+    EXPECT_GT(jumps, (size.width + size.height) / 2);
 }
 
 }  // namespace

@@ -53,6 +53,36 @@ inline double tearAt(const Cells& flow, int x, int y) {
     return std::sqrt(dx.head<2>().squaredNorm() + dy.head<2>().squaredNorm());
 }
 
+/// True if the flow jumps from a cell to the next one, (dx, dy) further; see params::kJump.
+inline bool jumps(const Cells& flow, int x, int y, int dx, int dy) {
+    const auto change = [&](int k) {
+        return (flow.at(x + (k + 1) * dx, y + (k + 1) * dy) - flow.at(x + k * dx, y + k * dy))
+            .head<2>()
+            .norm();
+    };
+    return change(0) > params::kJump + params::kJumpPerChange * std::max(change(-1), change(1));
+}
+
+/// LookUpCell::confidenceAndJumps without the confidence.
+inline double jumpsAt(const Cells& flow, int x, int y) {
+    return (jumps(flow, x, y, 1, 0) ? params::kJumpRight : 0) +
+           (jumps(flow, x, y, 0, 1) ? params::kJumpBelow : 0);
+}
+
+/// A member of LookUpCell at position (x, y) [cells]. Across jumps, the nearer cell counts alone.
+/// `codes`: LookUpCell::confidenceAndJumps.
+inline double lookedUp(const Grey& member, const Grey& codes, double x, double y) {
+    const int left = static_cast<int>(std::floor(x)), top = static_cast<int>(std::floor(y));
+    const auto code = [&](int i, int j) { return static_cast<int>(codes.at(i, j)); };
+    const auto share = [](double t, bool jumps) { return jumps ? std::round(t) : t; };
+    const auto row = [&](int j) {
+        const bool right = code(left, j) / 2 % 2 == 1;
+        return std::lerp(member.at(left, j), member.at(left + 1, j), share(x - left, right));
+    };
+    const bool below = code(static_cast<int>(std::floor(x + 0.5)), top) / 4 == 1;
+    return std::lerp(row(top), row(top + 1), share(y - top, below));
+}
+
 inline double smoothstep(double low, double high, double v) {
     const double t = std::clamp((v - low) / (high - low), 0.0, 1.0);
     return t * t * (3 - 2 * t);

@@ -104,7 +104,7 @@ protected:
             ASSERT_NEAR(after[i].x, before[i].x, 0.001) << i;
             ASSERT_NEAR(after[i].y, before[i].y, 0.001) << i;
             ASSERT_NEAR(after[i].weight, before[i].weight, 0.01) << i;
-            ASSERT_NEAR(after[i].confidence, before[i].confidence, 0.01) << i;
+            ASSERT_NEAR(after[i].confidenceAndJumps, before[i].confidenceAndJumps, 0.01) << i;
         }
         EXPECT_GT(weighed, before.size() / 4);
     }

@@ -38,6 +38,18 @@ inline constexpr float kBentFlow = 0.07F;
 /// interpolating between their flow vectors gives wrong positions.
 inline constexpr float kSmoothStep = 2.0F;
 inline constexpr float kTornStep = 8.0F;
+/// Between two neighbouring cells on different surfaces, the flow jumps. There, look-ups are not
+/// interpolated: each output pixel takes the look-up of the nearer cell. The flow jumps if the
+/// length of its difference between the two cells exceeds kJump [video px] + kJumpPerChange times
+/// the difference between either cell and the next cell beyond it. The second term is needed
+/// because the flow also changes on a surface that is seen at a grazing angle, and there
+/// interpolation is better.
+inline constexpr float kJump = 1.0F;
+inline constexpr float kJumpPerChange = 2.0F;
+/// LookUpCell::confidenceAndJumps is the confidence, plus kJumpRight if the flow jumps to the right
+/// neighbour, plus kJumpBelow if it jumps to the neighbour below.
+inline constexpr float kJumpRight = 2.0F;
+inline constexpr float kJumpBelow = 4.0F;
 /// Weights below this have no visible effect.
 inline constexpr float kSmallestWeight = 0.004F;
 /// A patch is textured if the variance of its pixels is at least this factor times (noise variance

@@ -1,6 +1,7 @@
 #include "tests/engine/simd/detail_case.h"
 
 #include "pipeline/flow/cell_field.h"
+#include "tests/oracle/superres.h"
 
 #include <algorithm>
 #include <array>
@@ -90,6 +91,13 @@ DetailCase::DetailCase(Size videoSize, Size still, double changedShare)
             lookUps.push_back({scale * flowX, scale * flowY, weight, confidence});
             trust.push_back({0.5F * weight, confidence, flat ? 0.2F : 0.9F, flat ? 1.0F : 0.0F});
         }
+    twin::Cells flow{cells, {}};
+    for (const WeighedCell& cell : weighed)
+        flow.values.insert(flow.values.end(), {cell.x, cell.y, 0, 0});
+    for (int y = 0; y < cells.height; ++y)
+        for (int x = 0; x < cells.width; ++x)
+            lookUps[y * cells.width + x].confidenceAndJumps +=
+                static_cast<float>(twin::jumpsAt(flow, x, y));
 }
 
 ImageView DetailCase::stillView(PixelFormat format) const {

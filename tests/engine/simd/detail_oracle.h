@@ -4,6 +4,7 @@
 #include "tests/engine/simd/detail_case.h"
 #include "tests/oracle/learned.h"
 #include "tests/oracle/still.h"
+#include "tests/oracle/superres.h"
 
 #include <algorithm>
 #include <memory>
@@ -60,7 +61,10 @@ public:
             });
         };
         lookUp_ = {field(&LookUpCell::x), field(&LookUpCell::y), field(&LookUpCell::weight),
-                   field(&LookUpCell::confidence)};
+                   twin::greyOf(frame.cells, [&](int x, int y) {
+                       return double(frame.lookUps[y * frame.cells.width + x].confidence());
+                   })};
+        codes_ = field(&LookUpCell::confidenceAndJumps);
     }
 
     [[nodiscard]] double enlarged(int x, int y, int c) const {
@@ -94,8 +98,9 @@ public:
 private:
     [[nodiscard]] double lookUpAt(double x, double y, int channel) const {
         const Size video = frame_.rig.video.size;
-        return lookUp_[channel].bilinear((x + 0.5) * video.width / output_.width / 4 - 0.5,
-                                         (y + 0.5) * video.height / output_.height / 4 - 0.5);
+        const double column = (x + 0.5) * video.width / output_.width / 4 - 0.5,
+                     row = (y + 0.5) * video.height / output_.height / 4 - 0.5;
+        return twin::lookedUp(lookUp_[channel], codes_, column, row);
     }
     [[nodiscard]] double there(double x, double y, const Grey& still) const {
         const double px = (x + 0.5) * still.size.width / output_.width + lookUpAt(x, y, 0) - 0.5,
@@ -185,6 +190,7 @@ private:
     std::array<Grey, 3> video_;
     Grey residual_, detail_;
     std::array<Grey, 4> lookUp_;
+    Grey codes_;
 };
 
 inline Grey lumaPlane(const StillPreparation& still) {

@@ -42,7 +42,8 @@ struct WeighCase {
             for (int x = 0; x < cells.width; ++x) {
                 const bool far = (x + y) % 5 == 0 && y % 4 < 2;
                 const float bend = 0.04F * static_cast<float>(y % 6);
-                const float u = 2.3F + bend * static_cast<float>(x % 4);
+                const bool front = x >= cells.width / 2 && y >= cells.height / 2;
+                const float u = (front ? 7.3F : 2.3F) + bend * static_cast<float>(x % 4);
                 forward[y][x] = {far ? wide(random) : u, far ? wide(random) : -1.4F + bend, 0, 0};
                 errors[y][x] = {std::abs(wide(random)) / 3};
             }
@@ -93,6 +94,7 @@ public:
     [[nodiscard]] twin::Weight at(int x, int y) const {
         return twin::weigh(flow_, statistics_, half_, x, y, kVideoNoise);
     }
+    [[nodiscard]] double jumpsAt(int x, int y) const { return twin::jumpsAt(flow_, x, y); }
     [[nodiscard]] Vector2d lookUp(int x, int y) const {
         const StereoRig& rig = case_.rig;
         const Eigen::Array2d scale(rig.still.fx / rig.video.fx, rig.still.fy / rig.video.fy);
@@ -172,7 +174,7 @@ void expectOracle(const WeighCase& c, bool givenErrors) {
             }
             EXPECT_NEAR(w.confidence, t.confidence, 1e-4);
             EXPECT_EQ(l.weight, w.weight);
-            EXPECT_EQ(l.confidence, w.confidence);
+            EXPECT_NEAR(l.confidenceAndJumps, w.confidence + oracle.jumpsAt(x, y), 1e-6);
             EXPECT_LE((Vector2d(l.x, l.y) - oracle.lookUp(x, y)).norm(), 0.01);
             EXPECT_EQ(trust.halfWeight, std::min(w.weight / 2, 1.0F));
             EXPECT_EQ(trust.confidence, w.confidence);
