@@ -56,5 +56,5 @@ void main() {
     yy += damping;
     vec2 correction = vec2(yy * error.x - xy * error.y, xx * error.y - xy * error.x) / (xx * yy - xy * xy);
     bool takes = gain >= kLeastSubpixelGain && dot(correction, correction) < kSubpixelLongest * kSubpixelLongest;
-    if (takes) cells[params.target + index].xy = u + correction;
+    cells[params.target + index].xy = takes ? u + correction : u;
 }

@@ -1,7 +1,7 @@
 // Compares each cell with the still at its full resolution, for flow_subpixel.comp; see
 // kSubpixelReach.
-// In: states of the tiles, video, luma of the still with amplified finest detail, cells[] with the
-// flow and, if there are any, the ErrorCells.
+// In: video, luma of the still with amplified finest detail, chosen[] of flow_choose.comp as
+// cells[].
 // Out: four entries of sums[] per cell. v: luma of the video. s: luma of the still at the cell's
 // flow. x, y: derivatives of s with respect to the flow. For example, VX is the sum of v x over the
 // cell's 16 pixels minus 16 (mean of v) (mean of x).
@@ -22,43 +22,14 @@ layout(std140, binding = 0) uniform Params {
 layout(std430, binding = 1) readonly buffer Cells {
     vec4 cells[];
 };
-layout(std430, binding = 2) readonly buffer Tiles {
-    uvec2 header;
-    uvec2 tiles[];
-};
-layout(std430, binding = 3) writeonly buffer Sums {
+layout(std430, binding = 2) writeonly buffer Sums {
     vec4 sums[];
 };
 layout(binding = 0) uniform sampler2D picture;
 layout(binding = 1) uniform sampler2D still;
 
 #include "flow_cells.glsl"
-
-bool isCompared(ivec2 cell, int index) {
-    bool matched = tiles[gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x].y != 0u;
-    bool isWhole = all(lessThanEqual(4 * cell + 4, ivec2(params.videoWidth, params.videoHeight)));
-    return matched && isWhole && (params.errors < 0 || cells[params.errors + index].x < kNotShown);
-}
-
-struct Place {
-    vec2 centre, alongX, alongY;
-};
-
-// Returns where the still shows the cell's centre, and the change of this position per video pixel
-// along x and along y. `u`: the cell's flow. dx, dy: change of the flow per pixel along x and y.
-Place placeOf(ivec2 cell, vec2 u, vec2 dx, vec2 dy) {
-    // Positions in the still: of the cell's centre, and of the points one cell to the right of it
-    // and one cell below it.
-    vec2 at = vec2(0.0), right = at, below = at;
-    for (int i = cell.x; i < cell.x + 3; ++i) {
-        below = right;
-        right = at;
-        vec2 by = i == cell.x ? vec2(0.0, 1.0) + dy : vec2(1.0, 0.0) + dx;
-        by = i == cell.x + 2 ? vec2(0.0) : 4.0 * by;
-        at = stillPixel(params.rig, 4.0 * vec2(cell) + 1.5 + u + by);
-    }
-    return Place(at, 0.25 * (right - at), 0.25 * (below - at));
-}
+#include "flow_place.glsl"
 
 // Returns the still's luma at pixel `p` of the cell and its derivatives along x and y [grey
 // levels]. The still is sampled at 4x4 positions around the pixel, half a pixel apart, without the
@@ -94,8 +65,8 @@ void main() {
     vec2 squares = vec2(0.0);
     vec2 size = vec2(1.0) / vec2(params.texelX, params.texelY);
     Place place = placeOf(cell, u, dx, dy);
-    bool isInside = all(greaterThanEqual(place.centre, vec2(0.0))) && all(lessThanEqual(place.centre, size - 1.0));
-    int pixels = isInside && isCompared(cell, index) ? 16 : 0;
+    bool isCompared = cells[params.source + index].z > 0.0;
+    int pixels = isCompared && isInside(place, size) ? 16 : 0;
     for (int i = cell.y; i < cell.y + pixels; ++i) {
         ivec2 p = ivec2((i - cell.y) % 4, (i - cell.y) / 4);
         // 128 is subtracted, because small numbers have small rounding errors.

@@ -2,7 +2,6 @@
 
 #include "pipeline/engine/params/flow.h"
 #include "pipeline/flow/cell_field.h"
-#include "pipeline/simd/enlarge_rows.h"
 
 #include <algorithm>
 #include <utility>
@@ -10,33 +9,31 @@
 namespace mfar::simd {
 namespace {
 
-constexpr int kRoom = 64;  // number of pixels after a row that vectors can access
-
 template <std::size_t Count>
 std::array<CellPlane, Count> planes(Size cells) {
     return [&]<std::size_t... I>(std::index_sequence<I...>) {
         return std::array{(static_cast<void>(I), CellPlane(cells))...};
-    }(std::make_index_sequence<Count>());
+    }
+    (std::make_index_sequence<Count>());
 }
 
 }  // namespace
 
 SubpixelFlow::SubpixelFlow(const StereoRig& stillRig, std::shared_ptr<Workers> workers)
-    : lookUp_(stillRig), video_(stillRig.video.size), cells_(cellsOf(video_)),
-      workers_(std::move(workers)), flowX_(cells_), flowY_(cells_), compared_(cells_),
-      none_({cells_.width, 1}), alongX_(planes<2>(cells_)), alongY_(planes<2>(cells_)),
-      corrected_(planes<2>(cells_)), sums_(planes<kSubpixelSums>(cells_)),
-      luma_(workers_->count(), [this] {
-          return AlignedRows<std::int16_t>({kCell * wholeVectors(cells_).width + kRoom, kCell});
-      }) {}
+    : lookUp_(stillRig), cells_(cellsOf(stillRig.video.size)), workers_(std::move(workers)),
+      choice_(stillRig, workers_), given_(stillRig.video.size), none_({cells_.width, 1}),
+      alongX_(planes<2>(cells_)), alongY_(planes<2>(cells_)), corrected_(planes<2>(cells_)),
+      sums_(planes<kSubpixelSums>(cells_)),
+      luma_(workers_->count(), [this] { return given_.makeLuma(); }) {}
 
 void SubpixelFlow::run(const RgbPlanes& video, const StillPairs& still, float light,
                        const TileWork& work, FlowCell* flow, const ErrorCell* errors) {
-    const Frame frame{video, still, light, work, flow, errors};
+    choice_.run(video, still, light, work, flow, errors);
+    const Frame frame{video, still, light, work, flow};
     const auto forCellRows = [&](const auto& body) {
         forRows(workers_.get(), 0, cells_.height, kCellsPerTile, body);
     };
-    forCellRows([&](int row) { take(frame, row); });
+    forCellRows([&](int row) { given_.take(row, work, flow, errors); });
     workers_->forRange(cells_.height, kCellsPerTile, [&](int first, int last) {
         luma_.with([&](AlignedRows<std::int16_t>& luma) {
             for (int row = first; row < last; ++row) {
@@ -48,29 +45,13 @@ void SubpixelFlow::run(const RgbPlanes& video, const StillPairs& still, float li
     forCellRows([&](int row) { correct(frame, row); });
 }
 
-void SubpixelFlow::take(const Frame& frame, int row) {
-    const std::size_t first = static_cast<std::size_t>(row) * cells_.width;
-    splitFlow(frame.flow + first, cells_.width, flowX_[row], flowY_[row]);
-    const bool isWhole = kCell * (row + 1) <= video_.height;
-    const int wholeCells = isWhole ? video_.width / kCell : 0;
-    for (int x = 0; x < cells_.width; ++x) {
-        const bool matched = frame.work.at(x / kCellsPerTile, row / kCellsPerTile).matched != 0;
-        const bool isShown =
-            frame.errors == nullptr || frame.errors[first + x].error < params::kNotShown;
-        compared_[row][x] = matched && x < wholeCells && isShown ? 1 : 0;
-    }
-    flowX_.repeatBorder(row);
-    flowY_.repeatBorder(row);
-    std::fill(compared_[row] + cells_.width, compared_[row] + wholeVectors(cells_).width, 0.0F);
-}
-
 void SubpixelFlow::makeSlopes(int row) {
     const int width = cells_.width;
     const int r = std::clamp(row, 2, std::max(cells_.height - 3, 2));
     const int above = std::min(r - 2, cells_.height - 1), here = std::min(r, cells_.height - 1),
               below = std::min(r + 2, cells_.height - 1);
     for (int k = 0; k < 2; ++k) {
-        CellPlane& flow = k == 0 ? flowX_ : flowY_;
+        CellPlane& flow = k == 0 ? given_.flowX : given_.flowY;
         const float *u = flow[row], *a = flow[above], *h = flow[here], *b = flow[below];
         float *x = alongX_[k][row], *y = alongY_[k][row];
         for (int c = 0; c < width; ++c) {
@@ -86,11 +67,11 @@ void SubpixelFlow::sum(const Frame& frame, AlignedRows<std::int16_t>& luma, int 
     for (std::size_t k = 0; k < to.size(); ++k)
         to[k] = sums_[k][row];
     SubpixelCells cells{row,
-                        flowX_[row],
-                        flowY_[row],
+                        given_.flowX[row],
+                        given_.flowY[row],
                         {alongX_[0][row], alongX_[1][row]},
                         {alongY_[0][row], alongY_[1][row]},
-                        compared_[row],
+                        given_.compared[row],
                         {},
                         frame.light};
     for (int k = 0; k < kCell; ++k)
@@ -100,7 +81,7 @@ void SubpixelFlow::sum(const Frame& frame, AlignedRows<std::int16_t>& luma, int 
                 for (float* sums : to)
                     std::fill(sums + first, sums + last, 0.0F);
                 if (!matched) return;
-                takeLuma(frame.video, row, first, last, luma);
+                given_.takeLuma(frame.video, row, first, last, luma);
                 subpixelSumsRow(lookUp_, frame.still, cells, first, last, to);
             });
     // Cells outside the picture do not count.
@@ -108,19 +89,10 @@ void SubpixelFlow::sum(const Frame& frame, AlignedRows<std::int16_t>& luma, int 
         sums[-1] = sums[cells_.width] = 0;
 }
 
-void SubpixelFlow::takeLuma(const RgbPlanes& video, int row, int first, int last,
-                            AlignedRows<std::int16_t>& to) const {
-    for (int k = 0; k < kCell; ++k) {
-        const int y = std::min(kCell * row + k, video_.height - 1);
-        lumaEighthsRow({video.row(0, y), video.row(1, y), video.row(2, y)}, kCell * first,
-                       std::min(kCell * last, video_.width), to[k]);
-    }
-}
-
 void SubpixelFlow::correct(const Frame& frame, int row) {
     SubpixelAround in{{},
-                      flowX_.around(row),
-                      flowY_.around(row),
+                      given_.flowX.around(row),
+                      given_.flowY.around(row),
                       {alongX_[0][row], alongX_[1][row]},
                       {alongY_[0][row], alongY_[1][row]},
                       static_cast<float>(frame.work.noise)};

@@ -11,51 +11,24 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 // These must come after foreach_target.h, because they are compiled once per instruction set.
+#include "pipeline/simd/cell_place-inl.h"
 #include "pipeline/simd/still_blocks-inl.h"
-#include "pipeline/simd/still_pixel-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace mfar::simd::HWY_NAMESPACE {
 namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using I16 = hn::Rebind<std::int16_t, D>;
-
 constexpr int kSamples = 2 * kCell + 2;  // samples along an axis of a cell, plus one on each side
-constexpr float kMiddle = 1.5F;          // centre of a cell, from its first pixel
-
-/// Position of a cell in the still: that of the cell's centre, and its change per video pixel along
-/// x and along y [still px]. `isInside`: the centre is inside the still.
-struct Place {
-    Point centre, alongX, alongY;
-    hn::Mask<D> isInside;
-};
 
 HWY_INLINE Place PlaceOf(const LookUpParams& lookUp, const SubpixelCells& cells, int x) {
     const D d;
-    const V column = hn::Iota(d, static_cast<float>(x));
-    const float row = static_cast<float>(kCell * cells.row) + kMiddle;
-    const Point p{
-        hn::Add(hn::MulAdd(column, Const(kCell), Const(kMiddle)), hn::LoadU(d, cells.flowX + x)),
-        hn::Add(Const(row), hn::LoadU(d, cells.flowY + x))};
-    const auto moved = [&](V dx, V dy) HWY_ATTR {
-        return StillPixel(lookUp, hn::MulAdd(Const(kCell), dx, p.x),
-                          hn::MulAdd(Const(kCell), dy, p.y));
+    const auto pointOf = [&](const float* vx, const float* vy) HWY_ATTR {
+        return Point{hn::LoadU(d, vx + x), hn::LoadU(d, vy + x)};
     };
-    const auto change = [&](const std::array<const float*, 2>& slopes, std::size_t k)
-                            HWY_ATTR { return hn::LoadU(d, slopes[k] + x); };
-    const Point at = StillPixel(lookUp, p.x, p.y);
-    const Point right = moved(hn::Add(Const(1), change(cells.alongX, 0)), change(cells.alongX, 1));
-    const Point below = moved(change(cells.alongY, 0), hn::Add(Const(1), change(cells.alongY, 1)));
-    const auto along = [&](const Point& to) HWY_ATTR {
-        return Point{hn::Mul(hn::Sub(to.x, at.x), Const(1.0F / kCell)),
-                     hn::Mul(hn::Sub(to.y, at.y), Const(1.0F / kCell))};
-    };
-    const auto within = [](V v, float size) HWY_ATTR {
-        return hn::And(hn::Ge(v, Const(0)), hn::Le(v, Const(size - 1)));
-    };
-    return {at, along(right), along(below),
-            hn::And(within(at.x, lookUp.still.width), within(at.y, lookUp.still.height))};
+    return PlaceOf(lookUp, hn::Iota(d, static_cast<float>(x)), Const(static_cast<float>(cells.row)),
+                   pointOf(cells.flowX, cells.flowY), pointOf(cells.alongX[0], cells.alongX[1]),
+                   pointOf(cells.alongY[0], cells.alongY[1]));
 }
 
 class Sums {
@@ -112,13 +85,8 @@ public:
         };
         for (int j = 0; j < kSamples; ++j)
             for (int i = 0; i < kSamples; ++i) {
-                const V across = Const(offset(i)), down = Const(offset(j));
-                const auto along = [&](V centre, V perX, V perY) HWY_ATTR {
-                    return hn::MulAdd(across, perX, hn::MulAdd(down, perY, centre));
-                };
-                const Positions at = PositionsWithin(
-                    still.size, along(place.centre.x, place.alongX.x, place.alongY.x),
-                    along(place.centre.y, place.alongX.y, place.alongY.y));
+                const Point p = PointNear(place, offset(i), offset(j));
+                const Positions at = PositionsWithin(still.size, p.x, p.y);
                 samples_[j][i] = MeanOfFour(blocks.scattered(at.x, at.y), at);
             }
     }
@@ -139,11 +107,6 @@ public:
 private:
     V samples_[kSamples][kSamples];
 };
-
-HWY_INLINE V VideoAt(hn::Vec<I16> eighths) {
-    const V wide = hn::ConvertTo(D(), hn::PromoteTo(hn::Rebind<std::int32_t, D>(), eighths));
-    return hn::MulAdd(wide, Const(1.0F / 8), Const(-128));
-}
 
 /// Luma of the still as a video pixel sees it, and its derivatives; see params::kSubpixelReach.
 struct SeenPixel {

@@ -32,6 +32,19 @@ struct SubpixelCase {
     }
 };
 
+/// Returns the position in the still of the cell's centre.
+inline Eigen::Vector2d centreInStill(const SubpixelCase& in, int x, int y,
+                                     const Eigen::Vector2d& flow) {
+    return stillPixel(in.rig, Eigen::Vector2d(4 * x + 1.5, 4 * y + 1.5) + flow);
+}
+
+/// Whether the cell's centre is inside the still.
+inline bool isShown(const SubpixelCase& in, int x, int y, const Eigen::Vector2d& flow) {
+    const Eigen::Vector2d at = centreInStill(in, x, y, flow);
+    return at.minCoeff() >= 0 && at.x() <= in.rig.still.size.width - 1 &&
+           at.y() <= in.rig.still.size.height - 1;
+}
+
 /// Columns: change of the flow per pixel along x and along y.
 inline Eigen::Matrix2d slopesOf(const SubpixelCase& in, int x, int y) {
     Eigen::Matrix2d out;

@@ -89,6 +89,19 @@ inline constexpr float kSameFlow = 0.05F;
 /// Largest change of the flow within one surface [px per px]. A larger change is a depth edge.
 inline constexpr float kSteepestFlow = 0.25F;
 
+/// A patch of 8x8 pixels at a depth edge shows two surfaces, so the flow of a cell beside the edge
+/// often belongs to the other surface. If the flow of a neighbour differs from a cell's flow by
+/// more than this distance [px], the cell's own 16 pixels are compared with the still at its full
+/// resolution: at the cell's flow, and at the flow of each such neighbour.
+inline constexpr float kOtherSurface = 0.5F;
+/// The cell takes the flow of the neighbour with the lowest error (sum of the squared differences
+/// of luma) if that error is below this fraction of the cell's own error. An amount for noise is
+/// added to both errors first.
+inline constexpr float kClearlyBetter = 0.5F;
+/// Variance that is added to that of the video's noise [grey levels^2]. It stands for the errors of
+/// the right flow: the still has other noise, and the flow is still off by a fraction of a pixel.
+inline constexpr float kChoiceVariance = 4.0F;
+
 /// Because of aliasing (see kPatchSamples), the flow of most cells is off by about 0.1 px.
 /// Therefore, every cell is finally compared with the still at its full resolution, and one
 /// Gauss-Newton step corrects its flow. The derivative of the still along x is the mean over a
@@ -183,13 +196,22 @@ struct alignas(16) CompareDirectly {
     float leastTexture;
 };
 
-struct alignas(16) SumSubpixel {
+struct alignas(16) ChooseFlow {
     Rig rig;
     std::int32_t columns, rows;
     std::int32_t videoWidth, videoHeight;
     /// Indices in cells[]: of the flow field's first cell, and of the first ErrorCell. -1: there
     /// are no ErrorCells.
     std::int32_t source, errors;
+    float texelX, texelY;
+    float light;  ///< Guidance::light
+    float noise;  ///< standard deviation [grey levels]
+};
+
+struct alignas(16) SumSubpixel {
+    Rig rig;
+    std::int32_t columns, rows;
+    std::int32_t source;  ///< index in cells[] of the first cell
     float texelX, texelY;
     float light;  ///< Guidance::light
 };
