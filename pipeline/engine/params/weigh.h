@@ -107,8 +107,8 @@ inline constexpr float kRoughTexture = 0.4F;
 /// for that.
 inline constexpr float kFlatKink = 0.1F;
 inline constexpr float kSharpKink = 0.4F;
-inline constexpr float kFlatRoughKink = 1.0F;
-inline constexpr float kSharpRoughKink = 2.0F;
+inline constexpr float kFlatRoughKink = 1.5F;
+inline constexpr float kSharpRoughKink = 3.0F;
 inline constexpr float kAliasedStill = 0.4F;
 inline constexpr float kDetailedStill = 0.7F;
 inline constexpr float kFineNoise = 2.0F;
