@@ -21,7 +21,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 using I32 = hn::Rebind<std::int32_t, D>;
 
 /// Returns the bits of three neighbours, which are in the row above, here or below.
-HWY_INLINE hn::Vec<I32> StepsTo(const CellsAround& cells, const float* RowsAround::*which, int x,
+HWY_INLINE hn::Vec<I32> StepsTo(const CellsAround& cells, const float* RowsAround::* which, int x,
                                 int firstBit) {
     const D d;
     constexpr float kReach2 = params::kOtherSurface * params::kOtherSurface;

@@ -13,8 +13,7 @@ template <std::size_t Count>
 std::array<CellPlane, Count> planes(Size cells) {
     return [&]<std::size_t... I>(std::index_sequence<I...>) {
         return std::array{(static_cast<void>(I), CellPlane(cells))...};
-    }
-    (std::make_index_sequence<Count>());
+    }(std::make_index_sequence<Count>());
 }
 
 }  // namespace

@@ -23,9 +23,8 @@ constexpr int kSamples = 2 * kCell + 2;  // samples along an axis of a cell, plu
 
 HWY_INLINE Place PlaceOf(const LookUpParams& lookUp, const SubpixelCells& cells, int x) {
     const D d;
-    const auto pointOf = [&](const float* vx, const float* vy) HWY_ATTR {
-        return Point{hn::LoadU(d, vx + x), hn::LoadU(d, vy + x)};
-    };
+    const auto pointOf = [&](const float* vx, const float* vy)
+                             HWY_ATTR { return Point{hn::LoadU(d, vx + x), hn::LoadU(d, vy + x)}; };
     return PlaceOf(lookUp, hn::Iota(d, static_cast<float>(x)), Const(static_cast<float>(cells.row)),
                    pointOf(cells.flowX, cells.flowY), pointOf(cells.alongX[0], cells.alongX[1]),
                    pointOf(cells.alongY[0], cells.alongY[1]));

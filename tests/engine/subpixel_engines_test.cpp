@@ -176,7 +176,7 @@ TEST_F(SubpixelEngines, AnInvalidFlowStaysAndDoesNotSpread) {
     const FlowCell sound = in.given[in.index(kX, kY)];
     const std::vector<FlowCell> before[] = {correctedOnHost(in), correctedOnGpu(in)};
     for (const float wrong : {std::nanf(""), 3e38F})
-        for (float FlowCell::*axis : {&FlowCell::x, &FlowCell::y}) {
+        for (float FlowCell::* axis : {&FlowCell::x, &FlowCell::y}) {
             FlowCell& hit = in.given[in.index(kX, kY)];
             hit = sound;
             hit.*axis = wrong;

@@ -93,8 +93,8 @@ struct Surfaces : SeenStill {
 /// The flow and the errors as the GLES engine stores them.
 struct SurfacesOnGpu {
     SurfacesOnGpu(const Surfaces& in, bool usesErrors)
-        : cells(2 * in.given.size() * sizeof(FlowCell)),
-          tiles(in.rig.video.size), fields{0, usesErrors ? static_cast<int>(in.given.size()) : -1} {
+        : cells(2 * in.given.size() * sizeof(FlowCell)), tiles(in.rig.video.size),
+          fields{0, usesErrors ? static_cast<int>(in.given.size()) : -1} {
         cells.write(std::span(in.given), 0);
         cells.write(std::span(in.errors), in.given.size() * sizeof(FlowCell));
         tiles.set(in.work);

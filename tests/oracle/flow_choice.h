@@ -13,7 +13,8 @@ inline double choiceError(const SubpixelCase& in, int x, int y, const Eigen::Vec
         (centreInStill(in, x, y + 1, flow) - at) / 4;
     double error = 0;
     for (int k = 0; k < 16; ++k) {
-        const Eigen::Vector2d pixel(k % 4 - 1.5, k / 4 - 1.5);
+        const int column = k % 4, row = k / 4;
+        const Eigen::Vector2d pixel(column - 1.5, row - 1.5);
         double mean = 0, meanSquare = 0;
         for (const double dy : {-0.25, 0.25})
             for (const double dx : {-0.25, 0.25}) {
