@@ -7,6 +7,7 @@
 #include <algorithm>
 
 namespace mfar::simd {
+
 ComparedCells::ComparedCells(Size videoSize)
     : video(videoSize), cells(cellsOf(video)), flowX(cells), flowY(cells), compared(cells) {}
 

@@ -24,8 +24,8 @@ float stepOf(double still, double video, int videoPixels, int pixels) {
 std::vector<int> firstFrom(double offset, int cells, int video, int output) {
     std::vector<int> out;
     const double perPixel = static_cast<double>(video) / output / kCell;
+    int x = 0;
     for (int c = 0; c < cells; ++c) {
-        int x = 0;
         while (x < output && (x + 0.5) * perPixel - 0.5 < c + offset)
             ++x;
         out.push_back(x);

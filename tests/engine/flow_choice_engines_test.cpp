@@ -11,8 +11,8 @@
 namespace mfar {
 namespace {
 
-/// What a cell may do after the oracle's comparison. Within the rounding of the errors, it may keep
-/// its flow and may also take that of a neighbour.
+/// Decides whether a cell's choice agrees with the oracle. If rounding can change which of two
+/// errors is smaller, both choices agree.
 class Choices {
 public:
     Choices(const twin::SubpixelCase& in, int x, int y)
@@ -42,8 +42,8 @@ private:
     }
     /// Each luma is exact to about 0.3 grey levels.
     static double roundingOf(double error) { return 2 * 0.3 * 4 * std::sqrt(error) + 2; }
-    /// Whether a neighbour's error is clearly better than the cell's own, if rounding has changed
-    /// both errors in favour of the neighbour (`sign`: 1) or of the cell (-1).
+    /// Returns true if a neighbour's error is clearly better than the cell's own. `sign`: 1 assumes
+    /// that rounding favours the neighbour, -1 that it favours the cell.
     [[nodiscard]] bool wins(double error, double sign) const {
         if (!(error < kOutside && own_ < kOutside)) return false;
         const double noise = twin::choiceNoise(in_);

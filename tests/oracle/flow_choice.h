@@ -14,19 +14,9 @@ inline double choiceError(const SubpixelCase& in, int x, int y, const Eigen::Vec
     double error = 0;
     for (int k = 0; k < 16; ++k) {
         const int column = k % 4, row = k / 4;
-        const Eigen::Vector2d pixel(column - 1.5, row - 1.5);
-        double mean = 0, meanSquare = 0;
-        for (const double dy : {-0.25, 0.25})
-            for (const double dx : {-0.25, 0.25}) {
-                const Eigen::Vector2d p = at + along * (pixel + Eigen::Vector2d(dx, dy));
-                const double value =
-                    in.still.bilinear(std::clamp(p.x(), 0.0, in.still.size.width - 1.0),
-                                      std::clamp(p.y(), 0.0, in.still.size.height - 1.0));
-                mean += value / 4;
-                meanSquare += value * value / 4;
-            }
-        const double seen = std::lerp(mean, std::sqrt(meanSquare), in.light);
-        error += std::pow(in.video.at(4 * x + k % 4, 4 * y + k / 4) - seen, 2);
+        const Eigen::Array2d means = seenAt(in, at, along, column - 1.5, row - 1.5);
+        const double seen = std::lerp(means[0], std::sqrt(means[1]), in.light);
+        error += std::pow(in.video.at(4 * x + column, 4 * y + row) - seen, 2);
     }
     return error;
 }

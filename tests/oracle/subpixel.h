@@ -38,11 +38,28 @@ inline Eigen::Vector2d centreInStill(const SubpixelCase& in, int x, int y,
     return stillPixel(in.rig, Eigen::Vector2d(4 * x + 1.5, 4 * y + 1.5) + flow);
 }
 
-/// Whether the cell's centre is inside the still.
+/// Returns true if the still shows the cell's centre.
 inline bool isShown(const SubpixelCase& in, int x, int y, const Eigen::Vector2d& flow) {
     const Eigen::Vector2d at = centreInStill(in, x, y, flow);
     return at.minCoeff() >= 0 && at.x() <= in.rig.still.size.width - 1 &&
            at.y() <= in.rig.still.size.height - 1;
+}
+
+/// Returns the mean of the still over a video pixel, and the mean of its squares. (right, down):
+/// distance of the pixel from the cell's centre. `at`: position of this centre in the still.
+/// `along`: change of the position in the still per video pixel.
+inline Eigen::Array2d seenAt(const SubpixelCase& in, const Eigen::Vector2d& at,
+                             const Eigen::Matrix2d& along, double right, double down) {
+    Eigen::Array2d sum(0, 0);
+    for (const double dy : {-0.25, 0.25})
+        for (const double dx : {-0.25, 0.25}) {
+            const Eigen::Vector2d p = at + along * Eigen::Vector2d(right + dx, down + dy);
+            const double value =
+                in.still.bilinear(std::clamp(p.x(), 0.0, in.still.size.width - 1.0),
+                                  std::clamp(p.y(), 0.0, in.still.size.height - 1.0));
+            sum += Eigen::Array2d(value, value * value);
+        }
+    return sum / 4;
 }
 
 /// Columns: change of the flow per pixel along x and along y.
@@ -78,19 +95,7 @@ inline Eigen::Matrix4d scatterOf(const SubpixelCase& in, int x, int y) {
     const Eigen::Vector2d at = place({0, 0});
     Eigen::Matrix2d along;  // change of the position in the still per video pixel
     along << (place({4, 0}) - at) / 4, (place({0, 4}) - at) / 4;
-    // Returns the mean of the still over a pixel, and the mean of its squares.
-    const auto seen = [&](double right, double down) -> Eigen::Array2d {
-        Eigen::Array2d sum(0, 0);
-        for (const double dy : {-0.25, 0.25})
-            for (const double dx : {-0.25, 0.25}) {
-                const Eigen::Vector2d p = at + along * Eigen::Vector2d(right + dx, down + dy);
-                const double value =
-                    in.still.bilinear(std::clamp(p.x(), 0.0, in.still.size.width - 1.0),
-                                      std::clamp(p.y(), 0.0, in.still.size.height - 1.0));
-                sum += Eigen::Array2d(value, value * value);
-            }
-        return sum / 4;
-    };
+    const auto seen = [&](double right, double down) { return seenAt(in, at, along, right, down); };
     Eigen::Matrix<double, 4, 16> all;
     for (int k = 0; k < 16; ++k) {
         const int column = k % 4, row = k / 4;
