@@ -23,8 +23,9 @@ public:
     virtual ~DeviceCopy() = default;
 
     virtual void upload(const void* data, std::ptrdiff_t pitch) = 0;
-    /// Copies all rows to `data`. Waits for the GPU.
-    virtual void download(void* data, std::ptrdiff_t pitch) = 0;
+    /// Brings all rows of `data` up to date, and waits for the GPU. Returns the number of copied
+    /// bytes. `data` contains zeros, or what the last download of the same field left there.
+    virtual std::size_t download(void* data, std::ptrdiff_t pitch) = 0;
 };
 
 /// The result of a step: rows of T in CPU memory (host), on the GPU (device) or in both. The step
@@ -74,8 +75,9 @@ public:
     [[nodiscard]] Rows<const T> host() const {
         if (!isOnHost() && isOnDevice()) {
             if (downloaded_.size() != size_) downloaded_ = AlignedRows<T>(size_);
-            device_->download(downloaded_[0], downloaded_.pitch() * sizeof(T));
-            if (transfers_ != nullptr) transfers_->downloadedBytes += bytes();
+            const std::size_t copied =
+                device_->download(downloaded_[0], downloaded_.pitch() * sizeof(T));
+            if (transfers_ != nullptr) transfers_->downloadedBytes += copied;
             editable_ = downloaded_.rows();
             host_ = editable_;
         }

@@ -31,6 +31,50 @@ std::uint8_t byteOf(float share) {
     return static_cast<std::uint8_t>(std::lround(255 * std::clamp(share, 0.0F, 1.0F)));
 }
 
+/// True if glReadPixels() can read the bound framebuffer in this layout. Every driver can read four
+/// channels; of fewer channels, some drivers can read the framebuffer's own.
+bool canRead(const Layout& layout) {
+    if (layout.channels == GL_RGBA) return true;
+    GLint channels = 0, type = 0;
+    glGetIntegerv(GL_IMPLEMENTATION_COLOR_READ_FORMAT, &channels);
+    glGetIntegerv(GL_IMPLEMENTATION_COLOR_READ_TYPE, &type);
+    return static_cast<GLenum>(channels) == layout.channels &&
+           static_cast<GLenum>(type) == layout.type;
+}
+
+/// Reads the pixels of `part` with four channels of T, a few rows at a time. Calls
+/// take(texels, count, row) for each row; `row` begins with `first`, and is `pitch` bytes longer
+/// for each row.
+template <class T, class Take>
+void readFourChannels(const PixelRect& part, GLenum type, std::byte* first, std::ptrdiff_t pitch,
+                      const Take& take) {
+    constexpr int kRowsTogether = 16;
+    const int width = part.x1 - part.x0;
+    std::vector<T> texels(static_cast<std::size_t>(4) * width * kRowsTogether);
+    for (int y = part.y0; y < part.y1; y += kRowsTogether) {
+        const int rows = std::min(kRowsTogether, part.y1 - y);
+        glReadPixels(part.x0, y, width, rows, GL_RGBA, type, texels.data());
+        gpu::checkErrors("TextureCopy");
+        for (int i = 0; i < rows; ++i)
+            take(texels.data() + static_cast<std::ptrdiff_t>(4) * width * i, width,
+                 first + (y - part.y0 + i) * pitch);
+    }
+}
+
+/// Takes the first `channels` of four channels.
+template <class T>
+auto takeFirstChannels(int channels) {
+    return [channels](const T* texels, int count, std::byte* row) {
+        for (T* to = reinterpret_cast<T*>(row); count-- > 0; texels += 4, to += channels)
+            std::copy_n(texels, channels, to);
+    };
+}
+
+void takeShares(const std::uint8_t* texels, int count, std::byte* row) {
+    std::transform(texels, texels + std::ptrdiff_t{4} * count, reinterpret_cast<float*>(row),
+                   [](std::uint8_t v) { return static_cast<float>(v) / 255; });
+}
+
 }  // namespace
 
 void BufferCopy::upload(const void* data, std::ptrdiff_t) {
@@ -39,10 +83,11 @@ void BufferCopy::upload(const void* data, std::ptrdiff_t) {
     own_->write(bytes);
 }
 
-void BufferCopy::download(void* data, std::ptrdiff_t) {
+std::size_t BufferCopy::download(void* data, std::ptrdiff_t) {
     const auto bytes = buffer_->read<std::byte>(count_ * entryBytes_,
                                                 static_cast<std::size_t>(first_) * entryBytes_);
     std::ranges::copy(bytes, static_cast<std::byte*>(data));
+    return bytes.size();
 }
 
 const gpu::Framebuffer& TextureCopy::target() {
@@ -72,40 +117,35 @@ void TextureCopy::upload(const void* data, std::ptrdiff_t pitch) {
     glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
 }
 
-// Always reads back four channels, because every driver supports this.
-void TextureCopy::download(void* data, std::ptrdiff_t pitch) {
+std::size_t TextureCopy::download(void* data, std::ptrdiff_t pitch) {
     const auto [width, height] = texture_->size();
+    return download({0, 0, width, height}, data, pitch);
+}
+
+// Throws if the GL context was lost. Rows that were not read yet are then unchanged.
+std::size_t TextureCopy::download(const PixelRect& part, void* data, std::ptrdiff_t pitch) {
+    if (part.empty()) return 0;
     const Layout layout = layoutOf(texture_->format());
+    const int bytes = floats_ ? 4 * static_cast<int>(sizeof(float)) : layout.bytes;
+    std::byte* first =
+        static_cast<std::byte*>(data) + part.y0 * pitch + std::ptrdiff_t{part.x0} * bytes;
     target().bind();
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
-    if (layout.channels == GL_RGBA && !floats_) {
-        glPixelStorei(GL_PACK_ROW_LENGTH, static_cast<GLint>(pitch / layout.bytes));
-        glReadPixels(0, 0, width, height, layout.channels, layout.type, data);
+    if (!floats_ && canRead(layout)) {
+        glPixelStorei(GL_PACK_ROW_LENGTH, static_cast<GLint>(pitch / bytes));
+        glReadPixels(part.x0, part.y0, part.x1 - part.x0, part.y1 - part.y0, layout.channels,
+                     layout.type, first);
         glPixelStorei(GL_PACK_ROW_LENGTH, 0);
-        // Throws if the GL context was lost: `data` is then unchanged.
         gpu::checkErrors("TextureCopy");
-        return;
+    } else if (floats_) {
+        readFourChannels<std::uint8_t>(part, layout.type, first, pitch, takeShares);
+    } else if (layout.type == GL_FLOAT) {
+        readFourChannels<float>(part, layout.type, first, pitch, takeFirstChannels<float>(1));
+    } else {
+        readFourChannels<std::uint8_t>(part, layout.type, first, pitch,
+                                       takeFirstChannels<std::uint8_t>(layout.bytes));
     }
-    const auto row = [&](int y) { return static_cast<std::byte*>(data) + y * pitch; };
-    const std::size_t values = static_cast<std::size_t>(4) * width;
-    if (layout.type == GL_FLOAT) {
-        const std::vector<float> read = texture_->readRgba32F();
-        for (int y = 0; y < height; ++y)
-            for (int x = 0; x < width; ++x)
-                reinterpret_cast<float*>(row(y))[x] = read[y * values + 4UL * x];
-        return;
-    }
-    const std::vector<std::uint8_t> read = texture_->readRgba8();
-    for (int y = 0; y < height; ++y) {
-        const std::uint8_t* from = read.data() + y * values;
-        if (floats_)
-            std::transform(from, from + values, reinterpret_cast<float*>(row(y)),
-                           [](std::uint8_t v) { return static_cast<float>(v) / 255; });
-        else
-            for (int x = 0; x < width; ++x)
-                for (int c = 0; c < layout.bytes; ++c)
-                    row(y)[x * layout.bytes + c] = static_cast<std::byte>(from[4 * x + c]);
-    }
+    return static_cast<std::size_t>(part.x1 - part.x0) * (part.y1 - part.y0) * bytes;
 }
 
 }  // namespace mfar

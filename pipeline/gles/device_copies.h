@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/geometry.h"
 #include "base/gl/buffer.h"
 #include "base/gl/texture.h"
 #include "pipeline/engine/field.h"
@@ -25,7 +26,7 @@ public:
 
     /// Must be called only if the object was constructed without a step's buffer.
     void upload(const void* data, std::ptrdiff_t pitch) override;
-    void download(void* data, std::ptrdiff_t pitch) override;
+    std::size_t download(void* data, std::ptrdiff_t pitch) override;
 
 private:
     std::optional<gpu::Buffer> own_;
@@ -49,7 +50,12 @@ public:
     [[nodiscard]] const gpu::Framebuffer& target();
 
     void upload(const void* data, std::ptrdiff_t pitch) override;
-    void download(void* data, std::ptrdiff_t pitch) override;
+    std::size_t download(void* data, std::ptrdiff_t pitch) override;
+
+protected:
+    /// Copies only the pixels of `part`, which must lie within the texture. `data` is the address
+    /// of the first pixel of the whole picture.
+    std::size_t download(const PixelRect& part, void* data, std::ptrdiff_t pitch);
 
 private:
     std::optional<gpu::Texture> own_;

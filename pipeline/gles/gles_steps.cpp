@@ -42,7 +42,7 @@ public:
     /// Sets the still's format, which determines the order of the channels that download() reads
     /// back.
     void setFormat(PixelFormat format) { format_ = format; }
-    void download(void* data, std::ptrdiff_t pitch) override {
+    std::size_t download(void* data, std::ptrdiff_t pitch) override {
         const std::vector<std::uint8_t> rgba = texture().readRgba8();
         const auto [width, height] = texture().size();
         for (int y = 0; y < height; ++y) {
@@ -56,6 +56,7 @@ public:
                               static_cast<std::size_t>(width), row);
             tone_.tone().apply({row, static_cast<std::size_t>(width)});
         }
+        return rgba.size();
     }
 
 private:
@@ -71,7 +72,7 @@ public:
     StillPictureCopy(const gpu::Texture& picture, PixelFormat format)
         : TextureCopy(picture), format_(format) {}
 
-    void download(void* data, std::ptrdiff_t pitch) override {
+    std::size_t download(void* data, std::ptrdiff_t pitch) override {
         const std::vector<std::uint8_t> read = texture().readRgba8();
         const auto [width, height] = texture().size();
         for (int y = 0; y < height; ++y) {
@@ -82,6 +83,7 @@ public:
                 if (format_ == PixelFormat::Gray8) pixel[1] = pixel[2] = pixel[0];
             }
         }
+        return read.size();
     }
 
 private:
