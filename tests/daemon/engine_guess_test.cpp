@@ -7,9 +7,8 @@
 namespace mfar {
 namespace {
 
-using testing::Contains;
 using testing::ElementsAre;
-using testing::Not;
+using testing::Ge;
 using testing::SizeIs;
 
 const EngineChoice kSimd = EngineChoice::all(EngineKind::Simd),
@@ -29,12 +28,9 @@ TEST(EngineGuess, TheMostPromisingAssignmentOfStepsToEnginesComesFirst) {
     EngineChoice drawing = kGles;
     drawing.pyramid = drawing.flow = drawing.weigh = EngineKind::Simd;
     const auto guess = promisingEngines("Mali-G610 (Panfrost)");
-    ASSERT_THAT(guess, SizeIs(3));
-    EXPECT_EQ(guess.front(), drawing);
-    EXPECT_THAT(guess, Contains(kSimd));
-    EngineChoice matching = EngineChoice::all(EngineKind::Simd);
-    matching.pyramid = matching.flow = matching.weigh = EngineKind::Gles;
-    EXPECT_THAT(guess, Not(Contains(matching)));
+    ASSERT_THAT(guess, SizeIs(Ge(2U)));
+    EXPECT_EQ(guess[0], drawing);
+    EXPECT_EQ(guess[1], kSimd);
 }
 
 }  // namespace
