@@ -48,7 +48,8 @@ struct LookUpCell {
     float confidenceAndJumps = 0;  ///< see params::kJumpRight
 
     [[nodiscard]] float confidence() const {
-        return confidenceAndJumps - 2 * std::floor(confidenceAndJumps / 2);
+        return confidenceAndJumps -
+               params::kJumpRight * std::floor(confidenceAndJumps / params::kJumpRight);
     }
     [[nodiscard]] bool jumpsBelow() const { return confidenceAndJumps >= params::kJumpBelow; }
     [[nodiscard]] bool jumpsRight() const {

@@ -32,7 +32,7 @@ std::uint8_t byteOf(float share) {
 }
 
 /// True if glReadPixels() can read the bound framebuffer in this layout. Every driver can read four
-/// channels; of fewer channels, some drivers can read the framebuffer's own.
+/// channels. Some can also read as many channels as the framebuffer has.
 bool canRead(const Layout& layout) {
     if (layout.channels == GL_RGBA) return true;
     GLint channels = 0, type = 0;
@@ -42,9 +42,9 @@ bool canRead(const Layout& layout) {
            static_cast<GLenum>(type) == layout.type;
 }
 
-/// Reads the pixels of `part` with four channels of T, a few rows at a time. Calls
-/// take(texels, count, row) for each row; `row` begins with `first`, and is `pitch` bytes longer
-/// for each row.
+/// Reads the pixels of `part` with four channels of T, a few rows at a time, and calls
+/// take(texels, count, row) for each row. `first`: address of the part's first pixel in CPU memory.
+/// The rows there begin `pitch` bytes after each other.
 template <class T, class Take>
 void readFourChannels(const PixelRect& part, GLenum type, std::byte* first, std::ptrdiff_t pitch,
                       const Take& take) {

@@ -9,7 +9,8 @@
 
 namespace mfar {
 
-/// Textures of a virtual layer as a LayerPicture. Only the layer's bounds are downloaded.
+/// Textures of a virtual layer as a LayerPicture. Only pixels within the layer's bounds are
+/// downloaded, and those within the bounds of the last download, which may have become 0.
 class TextureLayer {
 public:
     explicit TextureLayer(Transfers* transfers = nullptr)
