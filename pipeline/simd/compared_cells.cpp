@@ -14,7 +14,7 @@ ComparedCells::ComparedCells(Size videoSize)
 void ComparedCells::take(int row, const TileWork& work, const FlowCell* flow,
                          const ErrorCell* errors) {
     const std::size_t first = static_cast<std::size_t>(row) * cells.width;
-    splitFlow(flow + first, cells.width, flowX[row], flowY[row]);
+    takeFlow(row, flow);
     const bool isWhole = kCell * (row + 1) <= video.height;
     const int wholeCells = isWhole ? video.width / kCell : 0;
     for (int x = 0; x < cells.width; ++x) {
@@ -22,9 +22,14 @@ void ComparedCells::take(int row, const TileWork& work, const FlowCell* flow,
         const bool isShown = errors == nullptr || errors[first + x].error < params::kNotShown;
         compared[row][x] = matched && x < wholeCells && isShown ? 1 : 0;
     }
+    std::fill(compared[row] + cells.width, compared[row] + wholeVectors(cells).width, 0.0F);
+}
+
+void ComparedCells::takeFlow(int row, const FlowCell* flow) {
+    splitFlow(flow + static_cast<std::size_t>(row) * cells.width, cells.width, flowX[row],
+              flowY[row]);
     flowX.repeatBorder(row);
     flowY.repeatBorder(row);
-    std::fill(compared[row] + cells.width, compared[row] + wholeVectors(cells).width, 0.0F);
 }
 
 AlignedRows<std::int16_t> ComparedCells::makeLuma() const {

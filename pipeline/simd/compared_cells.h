@@ -20,6 +20,8 @@ public:
     /// and `errors` have one entry per cell of the frame. `errors`: may be null; otherwise, cells
     /// with an error of kNotShown or more are not compared.
     void take(int row, const TileWork& work, const FlowCell* flow, const ErrorCell* errors);
+    /// Sets the flow of a row, and leaves which cells are compared.
+    void takeFlow(int row, const FlowCell* flow);
 
     /// Allocates memory for the luma of a row of cells.
     [[nodiscard]] AlignedRows<std::int16_t> makeLuma() const;

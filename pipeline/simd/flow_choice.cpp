@@ -54,17 +54,14 @@ FlowChoice::Scratch::Scratch(const ComparedCells& cells)
     choosers.reserve(static_cast<std::size_t>(kRowsTogether) * cells.cells.width);
 }
 
-FlowChoice::FlowChoice(const StereoRig& stillRig, std::shared_ptr<Workers> workers)
-    : lookUp_(stillRig), workers_(std::move(workers)), cells_(stillRig.video.size),
+FlowChoice::FlowChoice(const StereoRig& stillRig, std::shared_ptr<Workers> workers,
+                       ComparedCells& cells)
+    : lookUp_(stillRig), workers_(std::move(workers)), cells_(cells),
       none_({cells_.cells.width, 1}),
       scratch_(workers_->count(), [this] { return Scratch(cells_); }) {}
 
-void FlowChoice::run(const RgbPlanes& video, const StillPairs& still, float light,
-                     const TileWork& work, FlowCell* flow, const ErrorCell* errors) {
-    const Frame frame{video, still, light, work, flow};
+void FlowChoice::run(const Frame& frame) {
     const int height = cells_.cells.height;
-    forRows(workers_.get(), 0, height, kCellsPerTile,
-            [&](int row) { cells_.take(row, work, flow, errors); });
     workers_->forRange(height, kRowsTogether, [&](int first, int last) {
         scratch_.with([&](Scratch& scratch) {
             for (int row = first; row < last; row += kRowsTogether)

@@ -17,22 +17,22 @@ namespace mfar::simd {
 /// version of flow_choose.comp. Allocates memory only in the constructor.
 class FlowChoice {
 public:
-    /// The still camera of `stillRig` has the resolution of the still that is compared.
-    FlowChoice(const StereoRig& stillRig, std::shared_ptr<Workers> workers);
+    /// The still camera of `stillRig` has the resolution of the still that is compared. `cells`
+    /// must outlive this object.
+    FlowChoice(const StereoRig& stillRig, std::shared_ptr<Workers> workers, ComparedCells& cells);
 
-    /// Changes the flow of cells in matched tiles. `flow` and `errors`: see ComparedCells::take().
-    /// `light`: Guidance::light.
-    void run(const RgbPlanes& video, const StillPairs& still, float light, const TileWork& work,
-             FlowCell* flow, const ErrorCell* errors);
-
-private:
     struct Frame {
         const RgbPlanes& video;
         const StillPairs& still;
-        float light;
+        float light;  ///< Guidance::light
         const TileWork& work;
-        FlowCell* flow;
+        FlowCell* flow;  ///< of all cells
     };
+    /// Changes the flow of compared cells in `frame.flow`. `cells` must contain the same flow, and
+    /// is not changed.
+    void run(const Frame& frame);
+
+private:
     /// A cell beside a step of the flow. `neighbours`: see findFlowSteps(). `own`: index of its
     /// pair in Scratch::own.
     struct Chooser {
@@ -64,7 +64,7 @@ private:
 
     LookUpParams lookUp_;
     std::shared_ptr<Workers> workers_;
-    ComparedCells cells_;
+    ComparedCells& cells_;
     CellPlane none_;  // one row of zeros (never written), instead of rows outside the picture
     ScratchSlots<Scratch> scratch_;
 };

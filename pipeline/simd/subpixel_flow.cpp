@@ -20,19 +20,20 @@ std::array<CellPlane, Count> planes(Size cells) {
 
 SubpixelFlow::SubpixelFlow(const StereoRig& stillRig, std::shared_ptr<Workers> workers)
     : lookUp_(stillRig), cells_(cellsOf(stillRig.video.size)), workers_(std::move(workers)),
-      choice_(stillRig, workers_), given_(stillRig.video.size), none_({cells_.width, 1}),
+      given_(stillRig.video.size), choice_(stillRig, workers_, given_), none_({cells_.width, 1}),
       alongX_(planes<2>(cells_)), alongY_(planes<2>(cells_)), corrected_(planes<2>(cells_)),
       sums_(planes<kSubpixelSums>(cells_)),
       luma_(workers_->count(), [this] { return given_.makeLuma(); }) {}
 
 void SubpixelFlow::run(const RgbPlanes& video, const StillPairs& still, float light,
                        const TileWork& work, FlowCell* flow, const ErrorCell* errors) {
-    choice_.run(video, still, light, work, flow, errors);
     const Frame frame{video, still, light, work, flow};
     const auto forCellRows = [&](const auto& body) {
         forRows(workers_.get(), 0, cells_.height, kCellsPerTile, body);
     };
     forCellRows([&](int row) { given_.take(row, work, flow, errors); });
+    choice_.run(frame);
+    forCellRows([&](int row) { given_.takeFlow(row, flow); });
     workers_->forRange(cells_.height, kCellsPerTile, [&](int first, int last) {
         luma_.with([&](AlignedRows<std::int16_t>& luma) {
             for (int row = first; row < last; ++row) {

@@ -27,13 +27,7 @@ public:
              FlowCell* flow, const ErrorCell* errors);
 
 private:
-    struct Frame {
-        const RgbPlanes& video;
-        const StillPairs& still;
-        float light;
-        const TileWork& work;
-        FlowCell* flow;
-    };
+    using Frame = FlowChoice::Frame;
     void makeSlopes(int row);
     void sum(const Frame& frame, AlignedRows<std::int16_t>& luma, int row);
     void correct(const Frame& frame, int row);
@@ -41,8 +35,8 @@ private:
     LookUpParams lookUp_;
     Size cells_;
     std::shared_ptr<Workers> workers_;
-    FlowChoice choice_;
     ComparedCells given_;
+    FlowChoice choice_;
     CellPlane none_;  // one row of zeros (never written), instead of rows outside the picture
     std::array<CellPlane, 2> alongX_, alongY_, corrected_;
     std::array<CellPlane, kSubpixelSums> sums_;

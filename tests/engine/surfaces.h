@@ -107,9 +107,12 @@ struct SurfacesOnGpu {
 /// Returns the surfaces with the flow that the cells choose.
 inline Surfaces chosenOnHost(const Surfaces& in, bool usesErrors = true, float light = 0) {
     Surfaces out = in;
-    simd::FlowChoice(in.rig, std::make_shared<Workers>(2))
-        .run(in.video, in.pairs(), light, in.work, out.given.data(),
-             usesErrors ? in.errors.data() : nullptr);
+    simd::ComparedCells cells(in.rig.video.size);
+    for (int row = 0; row < cells.cells.height; ++row)
+        cells.take(row, in.work, in.given.data(), usesErrors ? in.errors.data() : nullptr);
+    const simd::StillPairs still = in.pairs();
+    simd::FlowChoice(in.rig, std::make_shared<Workers>(2), cells)
+        .run({in.video, still, light, in.work, out.given.data()});
     return out;
 }
 
