@@ -15,38 +15,75 @@ std::array<float, 4> catmullRom(float t) {
             0.5F * (t3 - t2)};
 }
 
+// Like std::floor() and std::lround(), without a call of the C library for each sample.
+int floored(float x) {
+    const int towards0 = static_cast<int>(x);
+    return towards0 - (x < static_cast<float>(towards0) ? 1 : 0);
+}
+int rounded(float x) {
+    return static_cast<int>(double{x} + (x < 0 ? -0.5 : 0.5));
+}
+
 float sample(const AlignedRows<std::uint8_t>& picture, float x, float y) {
     const auto [width, height] = picture.size();
-    const float floorX = std::floor(x), floorY = std::floor(y);
-    const int left = static_cast<int>(floorX) - 1, top = static_cast<int>(floorY) - 1;
-    const auto wx = catmullRom(x - floorX), wy = catmullRom(y - floorY);
-    float out = 0;
-    for (int j = 0; j < 4; ++j) {
-        const std::uint8_t* row = picture[std::clamp(top + j, 0, height - 1)];
-        float sum = 0;
-        for (int i = 0; i < 4; ++i)
-            sum += wx[i] * static_cast<float>(row[std::clamp(left + i, 0, width - 1)]);
-        out += wy[j] * sum;
-    }
-    return out;
+    const int floorX = floored(x), floorY = floored(y);
+    const int left = floorX - 1, top = floorY - 1;
+    const auto wx = catmullRom(x - static_cast<float>(floorX)),
+               wy = catmullRom(y - static_cast<float>(floorY));
+    const auto sum = [&](const auto& levelAt) {
+        float out = 0;
+        for (int j = 0; j < 4; ++j) {
+            float row = 0;
+            for (int i = 0; i < 4; ++i)
+                row += wx[i] * static_cast<float>(levelAt(left + i, top + j));
+            out += wy[j] * row;
+        }
+        return out;
+    };
+    const bool inside = left >= 0 && left + 4 <= width && top >= 0 && top + 4 <= height;
+    if (inside) return sum([&](int column, int row) { return picture[row][column]; });
+    return sum([&](int column, int row) {
+        return picture[std::clamp(row, 0, height - 1)][std::clamp(column, 0, width - 1)];
+    });
 }
 
 /// The two cells between which a position is interpolated along one axis. `at` is the position in
 /// video px, and t is the weight of the second cell.
 struct BetweenCells {
-    BetweenCells(double at, int count) {
+    BetweenCells(double position, int count) : at(position) {
         const double cell = std::clamp((at - 1.5) / kCell, 0.0, count - 1.0);
         first = std::min(static_cast<int>(cell), std::max(count - 2, 0));
         second = std::min(first + 1, count - 1);
         t = static_cast<float>(cell - first);
     }
+    double at;
     int first, second;
     float t;
 };
 
+/// Divides each of `pixels` video pixels into `perPixel` parts, and returns the parts' centres.
+std::vector<BetweenCells> partsOf(int pixels, int perPixel, int cells) {
+    std::vector<BetweenCells> out;
+    out.reserve(static_cast<std::size_t>(pixels) * static_cast<std::size_t>(perPixel));
+    for (int pixel = 0; pixel < pixels; ++pixel)
+        for (int part = 0; part < perPixel; ++part)
+            out.emplace_back(pixel - 0.5 + (part + 0.5) / perPixel, cells);
+    return out;
+}
+
 LookUpCell between(const LookUpCell& a, const LookUpCell& b, float t, bool jumps) {
     if (jumps) t = t < 0.5F ? 0 : 1;
     return {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), a.weight + t * (b.weight - a.weight)};
+}
+
+LookUpCell lookUpBetween(const AlignedRows<LookUpCell>& cells, const BetweenCells& u,
+                         const BetweenCells& v) {
+    const auto along = [&](int row) {
+        const LookUpCell &left = cells[row][u.first], &right = cells[row][u.second];
+        return between(left, right, u.t, left.jumpsRight());
+    };
+    const LookUpCell& above = cells[v.first][u.t < 0.5F ? u.first : u.second];
+    return between(along(v.first), along(v.second), v.t, above.jumpsBelow());
 }
 
 }  // namespace
@@ -60,10 +97,12 @@ void WarpedGrid::warp(const MatchedPictures& pictures, const AlignedRows<LookUpC
     const int samples =
         std::max(1, static_cast<int>(std::lround(pictures.scaleX * pictures.stillPerX / kGrid)));
     const int perPixel = kGrid * samples;
-    const auto valueAt = [&](double px, double py) {
-        const LookUpCell offset = lookUpAt(lookUps, px, py);
-        const double sx = (px + 0.5) * pictures.scaleX - 0.5 + offset.x;
-        const double sy = (py + 0.5) * pictures.scaleY - 0.5 + offset.y;
+    const std::vector<BetweenCells> columns = partsOf(video_.width, perPixel, lookUps.size().width);
+    const std::vector<BetweenCells> rows = partsOf(video_.height, perPixel, lookUps.size().height);
+    const auto valueAt = [&](const BetweenCells& u, const BetweenCells& v) {
+        const LookUpCell offset = lookUpBetween(lookUps, u, v);
+        const double sx = (u.at + 0.5) * pictures.scaleX - 0.5 + offset.x;
+        const double sy = (v.at + 0.5) * pictures.scaleY - 0.5 + offset.y;
         return sample(pictures.still, static_cast<float>((sx + 0.5) * pictures.stillPerX - 0.5),
                       static_cast<float>((sy + 0.5) * pictures.stillPerY - 0.5));
     };
@@ -72,18 +111,16 @@ void WarpedGrid::warp(const MatchedPictures& pictures, const AlignedRows<LookUpC
             if (known[y / kCell][x / kCell] == 0) continue;
             float sum = 0;
             for (int phase = 0; phase < kPhases; ++phase) {
+                const BetweenCells* u = &columns[x * perPixel + phase % kGrid * samples];
+                const BetweenCells* v = &rows[y * perPixel + phase / kGrid * samples];
                 float value = 0;
-                for (int k = 0; k < samples * samples; ++k) {
-                    const int column = phase % kGrid * samples + k % samples,
-                              row = phase / kGrid * samples + k / samples;
-                    value += valueAt(x - 0.5 + (column + 0.5) / perPixel,
-                                     y - 0.5 + (row + 0.5) / perPixel);
-                }
+                for (int row = 0; row < samples; ++row)
+                    for (int column = 0; column < samples; ++column)
+                        value += valueAt(u[column], v[row]);
                 value /= static_cast<float>(samples * samples);
                 sum += value;
                 grid_[kGrid * y + phase / kGrid][kGrid * x + phase % kGrid] =
-                    static_cast<std::int16_t>(
-                        std::lround(std::clamp(value, -64.0F, 320.0F) * kScale));
+                    static_cast<std::int16_t>(rounded(std::clamp(value, -64.0F, 320.0F) * kScale));
             }
             mean_[static_cast<std::size_t>(y) * video_.width + x] = sum / kPhases;
         }
@@ -100,13 +137,7 @@ float WarpedGrid::rootAboveMean(int x, int y) const {
 }
 
 LookUpCell lookUpAt(const AlignedRows<LookUpCell>& cells, double px, double py) {
-    const BetweenCells u(px, cells.size().width), v(py, cells.size().height);
-    const auto along = [&](int row) {
-        const LookUpCell &left = cells[row][u.first], &right = cells[row][u.second];
-        return between(left, right, u.t, left.jumpsRight());
-    };
-    const LookUpCell& above = cells[v.first][u.t < 0.5F ? u.first : u.second];
-    return between(along(v.first), along(v.second), v.t, above.jumpsBelow());
+    return lookUpBetween(cells, {px, cells.size().width}, {py, cells.size().height});
 }
 
 Phases weightsAt(const AlignedRows<LookUpCell>& cells, int x, int y) {
@@ -117,6 +148,18 @@ Phases weightsAt(const AlignedRows<LookUpCell>& cells, int x, int y) {
             lookUpAt(cells, x - 0.5 + (column + 0.5) / kGrid, y - 0.5 + (row + 0.5) / kGrid).weight;
     }
     return out;
+}
+
+const std::array<Phases, kTaps>& cubicWeights() {
+    static const std::array<Phases, kTaps> kWeights = [] {
+        const std::int16_t* cubic = FilterBank::prior().cubic();
+        std::array<Phases, kTaps> out;
+        for (int tap = 0; tap < kTaps; ++tap)
+            for (int phase = 0; phase < kPhases; ++phase)
+                out[tap][phase] = double(cubic[filterIndex(tap, phase)]) / kWeightScale;
+        return out;
+    }();
+    return kWeights;
 }
 
 }  // namespace mfar::enlarge

@@ -4,6 +4,7 @@
 #include "pipeline/enlarge/class_sums.h"
 #include "pipeline/enlarge/matched_pictures.h"
 
+#include <array>
 #include <cstdint>
 #include <stop_token>
 #include <vector>
@@ -48,16 +49,19 @@ private:
 /// Returns the weights at the sub-pixels of a pixel, see lookUpAt().
 [[nodiscard]] Phases weightsAt(const AlignedRows<LookUpCell>& cells, int x, int y);
 
+/// Returns the weights of FilterBank::cubic() for each tap.
+[[nodiscard]] const std::array<Phases, kTaps>& cubicWeights();
+
+/// Returns Keys' cubic enlargement of a picture at the sub-pixels of a pixel. `valueAt` returns the
+/// picture's value at (x, y).
 template <class ValueAt>
 [[nodiscard]] Phases cubicOf(int x, int y, const ValueAt& valueAt) {
-    const std::int16_t* cubic = FilterBank::prior().cubic();
+    const std::array<Phases, kTaps>& weights = cubicWeights();
     const double here = valueAt(x, y);
     Phases out = Phases::Constant(here);
     for (int tap = 0; tap < kTaps; ++tap) {
         const Offset of = kTapAt[tap];
-        const double step = (valueAt(x + of.x, y + of.y) - here) / kWeightScale;
-        for (int phase = 0; phase < kPhases; ++phase)
-            out[phase] += step * cubic[filterIndex(tap, phase)];
+        out += (valueAt(x + of.x, y + of.y) - here) * weights[tap];
     }
     return out;
 }
