@@ -8,16 +8,16 @@
 namespace mfar::enlarge {
 namespace {
 
-constexpr Size kVideo{32, 16};
-constexpr double kAcross = 6,
-                 kDown = -5;  // slopes of the still's levels [grey levels per video px]
+constexpr Size kVideo{16, 8};
+// Slopes of the still's levels [grey levels per video px]. All levels are from 8 to 216.
+constexpr double kAcross = 10, kDown = 6;
 
 double levelAt(double x, double y) {
     return 120 + kAcross * (x - kVideo.width / 2.0) + kDown * (y - kVideo.height / 2.0);
 }
 
 /// A still with `scale` pixels per video pixel, whose levels rise evenly from left to right and
-/// fall evenly from top to bottom.
+/// from top to bottom.
 MatchedPictures evenSlope(int scale) {
     MatchedPictures out;
     out.video = kVideo;
