@@ -347,7 +347,7 @@ void Session::fireIfNeeded(Timestamp frame, const FrameStats& stats) {
     for (const std::string_view report :
          triggerReports_.newSince({timedOut, trigger->missedEdges(), policy_.pending()}))
         stats_.warn(fmt::format("{}: {}", trigger->name(), report), {message::kStill, "still"});
-    stats_.triggers(static_cast<std::uint64_t>(policy_.fired()), timedOut, policy_.pending());
+    stats_.triggers(static_cast<std::uint64_t>(policy_.fired()), timedOut, policy_.pendingSince());
 }
 
 // Called when no frame arrives. If a device has a fault, shows the last picture again, with a

@@ -207,9 +207,10 @@ void Stats::camera(CameraRole role, const CameraState& state) {
     if (role == CameraRole::Video) counted_.drops.sensor = state.counters.missed.value_or(0);
 }
 
-void Stats::stillReceived() {
+void Stats::stillReceived(Timestamp exposed) {
     const std::lock_guard lock(mutex_);
     ++counted_.stills.received;
+    newestStill_ = std::max(newestStill_.value_or(exposed), exposed);
     countLost();
 }
 
@@ -239,19 +240,22 @@ void Stats::quality(const std::string& level, double deadlineMs) {
     counted_.quality.deadlineMs = deadlineMs;
 }
 
-void Stats::triggers(std::uint64_t fired, std::uint64_t timedOut, bool isPending) {
+void Stats::triggers(std::uint64_t fired, std::uint64_t timedOut,
+                     std::optional<Timestamp> pendingSince) {
     const std::lock_guard lock(mutex_);
     counted_.stills.triggered = fired;
     timedOut_ = timedOut;
-    isStillPending_ = isPending;
+    pendingSince_ = pendingSince;
     countLost();
 }
 
 // A still that arrived after its timeout, or was superseded, is not lost. As every still of a
-// triggered camera belongs to one pulse, the numbers tell how many pulses have no still.
+// triggered camera belongs to one pulse, the numbers tell how many pulses have no still. The policy
+// awaits a still until a frame has it, and the still is received earlier than that.
 void Stats::countLost() {
     StillCounts& stills = counted_.stills;
-    const std::uint64_t answered = stills.received + (isStillPending_ ? 1 : 0);
+    const bool isAwaited = pendingSince_ && !(newestStill_ && *newestStill_ >= *pendingSince_);
+    const std::uint64_t answered = stills.received + (isAwaited ? 1 : 0);
     stills.lost = std::min(timedOut_, stills.triggered - std::min(answered, stills.triggered));
 }
 

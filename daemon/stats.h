@@ -175,7 +175,8 @@ public:
     /// `frame`: time of the frame to which the counters belong.
     void traced(const TracedLayerCounters& counters, Timestamp frame);
     void camera(CameraRole role, const CameraState& state);
-    void stillReceived();
+    /// `exposed`: time of the still, in the clock of the video frames.
+    void stillReceived(Timestamp exposed);
     void stillUsed();
     void stillsSuperseded(std::uint64_t stills);
     /// framePose() counts the pose of a frame, stillPose() the pose of a still, see PoseCounts.
@@ -185,8 +186,9 @@ public:
     /// if there is no deadline.
     void quality(const std::string& level, double deadlineMs);
     /// `timedOut`: pulses whose still did not arrive in time; it may have arrived later.
-    /// `isPending`: the last pulse's still is awaited.
-    void triggers(std::uint64_t fired, std::uint64_t timedOut, bool isPending);
+    /// `pendingSince`: see StillPolicy::pendingSince().
+    void triggers(std::uint64_t fired, std::uint64_t timedOut,
+                  std::optional<Timestamp> pendingSince);
     void matching(const StillCounters& counters);
     void mailboxDropped(std::uint64_t total);
     void recorderDropped(std::uint64_t total);
@@ -217,7 +219,7 @@ private:
     std::optional<Timestamp> firstShown_;
     Timestamp lastShown_;
     std::uint64_t timedOut_ = 0;
-    bool isStillPending_ = false;
+    std::optional<Timestamp> pendingSince_, newestStill_;
     PictureRate rate_;
     std::vector<Warning> warnings_;
     struct {

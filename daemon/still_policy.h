@@ -68,6 +68,10 @@ public:
     void stillArrived(Timestamp exposed);
 
     [[nodiscard]] bool pending() const { return firedAt_ && !arrived_; }
+    /// Returns the time of the last trigger while its still is pending.
+    [[nodiscard]] std::optional<Timestamp> pendingSince() const {
+        return pending() ? firedAt_ : std::nullopt;
+    }
     [[nodiscard]] int fired() const { return fired_; }
     /// Returns the number of triggers whose stills did not arrive in time. They may arrive later.
     [[nodiscard]] int timedOut() const { return timedOut_; }

@@ -12,7 +12,7 @@ std::optional<CapturedStill> nextStill(CameraReader& reader, Rig& rig, Stats& st
     std::optional<Frame> still = reader.next(timeout);
     if (!still) return std::nullopt;
     still->shift(rig.stillTimeOffset());
-    stats.stillReceived();
+    stats.stillReceived(still->time());
     rig.recordStill(*still);
     return CapturedStill{*std::move(still)};
 }

@@ -24,19 +24,32 @@ TEST(Stats, CountersOfSeveralPathTracersAreAddedUp) {
 
 TEST(Stats, AStillThatArrivesAfterItsTimeoutIsNotLost) {
     Stats stats;
-    stats.triggers(1, 0, true);
+    const auto at = [](double s) { return Timestamp::fromSeconds(s); };
+    stats.triggers(1, 0, at(1));
     EXPECT_EQ(stats.count().stills.lost, 0U);
-    stats.triggers(2, 1, true);
+    stats.triggers(2, 1, at(4));
     EXPECT_EQ(stats.count().stills.lost, 1U);
-    stats.stillReceived();
+    stats.stillReceived(at(1.1));
     EXPECT_EQ(stats.count().stills.lost, 0U) << "the first pulse's still arrived late";
-    stats.triggers(2, 2, false);
+    stats.triggers(2, 2, std::nullopt);
     EXPECT_EQ(stats.count().stills.lost, 1U);
-    stats.triggers(3, 2, true);
+    stats.triggers(3, 2, at(8));
     EXPECT_EQ(stats.count().stills.lost, 1U) << "the third pulse's still is awaited";
-    stats.stillReceived();
-    stats.triggers(3, 2, false);
+    stats.stillReceived(at(8.1));
+    stats.triggers(3, 2, std::nullopt);
     EXPECT_EQ(stats.count().stills.received + stats.count().stills.lost, 3U);
+}
+
+// Regression test: between the arrival of a still and the frame that has it, the still counted as
+// received and as awaited, so a lost still of an earlier pulse did not count.
+TEST(Stats, ALostPulseStaysLostWhenTheAwaitedStillArrives) {
+    Stats stats;
+    stats.triggers(2, 1, Timestamp::fromSeconds(4));
+    ASSERT_EQ(stats.count().stills.lost, 1U);
+    stats.stillReceived(Timestamp::fromSeconds(4.1));
+    EXPECT_EQ(stats.count().stills.lost, 1U);
+    stats.triggers(2, 1, std::nullopt);
+    EXPECT_EQ(stats.count().stills.lost, 1U);
 }
 
 TEST(Stats, ACameraThatIsBeingOpenedIsNoFault) {

@@ -87,9 +87,9 @@ TEST(Stats, RecentRateCoversTheLastSecond) {
 TEST(Status, TheSummaryContainsTheMeasurementsOfTheRun) {
     Stats stats;
     showPictures(stats, 21);
-    stats.stillReceived();
+    stats.stillReceived({});
     stats.stillUsed();
-    stats.triggers(3, 2, false);
+    stats.triggers(3, 2, std::nullopt);
     stats.mailboxDropped(4);
     CameraState video;
     video.counters.missed = 5;
