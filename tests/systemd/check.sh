@@ -39,9 +39,12 @@ wait=$(sed -n 's/^constexpr std::chrono::seconds kLongestWait{\([0-9]*\)};$/\1/p
     "$sources/../daemon/restart_pause.cpp")
 pause=$(sed -n 's/^RestartSec=//p' "$reboot")
 [[ -n $wait ]] || fault "the longest wait was not found in restart_pause.cpp"
-# A start takes up to 60 s (TimeoutStartSec=). If it fails, mfard waits up to $wait s and ends
-# within 5 s (TimeoutStopSec=). Then systemd waits $pause s before the next start.
-((60 * minutes > starts * (60 + wait + 5 + pause))) ||
+start=$(sed -n 's/^TimeoutStartSec=//p' "$unit")
+stop=$(sed -n 's/^TimeoutStopSec=//p' "$unit")
+[[ -n $start && -n $stop ]] || fault "the unit has no TimeoutStartSec= or TimeoutStopSec="
+# A start takes up to $start s. If it fails, mfard waits up to $wait s and ends within $stop s. Then
+# systemd waits $pause s before the next start.
+((60 * minutes > starts * (start + wait + stop + pause))) ||
     fault "reboot.conf can never count $starts starts within $minutes min"
 ((starts * pause >= 600)) || fault "reboot.conf may reboot more often than every ten minutes"
 rm -r "$work/mfard.service.d"
@@ -75,10 +78,19 @@ grep -Eq '^(RestartSteps|RestartMaxDelaySec|RestartMode)=' "$unit" &&
 limit=$(sed -n "s/^constexpr milliseconds kWatchdog{\([0-9]*\)'000};$/\1/p" \
     "$sources/../daemon/budgets.h")
 grep -qx "WatchdogSec=$limit" "$unit" || fault "WatchdogSec is not the $limit s of budgets.h"
-# After these exit codes systemd does not restart mfard. isRestarted() must exclude the same codes,
+# After certain exit codes systemd does not restart mfard. isRestarted() must exclude the same codes,
 # because mfard waits before it ends only if it will be restarted.
-grep -qx 'RestartPreventExitStatus=64 65 66 78' "$unit" ||
-    fault "RestartPreventExitStatus differs from the codes that isRestarted() excludes"
+restarted=$(sed -n '/^bool isRestarted/,/^}/p' "$sources/../daemon/restart_pause.cpp" |
+    grep -o 'ExitCode::[A-Za-z]*' || true)
+codes=$(sed -n 's/^    \([A-Za-z]*\) = \([1-9][0-9]*\),.*/\1 \2/p' "$sources/../daemon/exit_code.h")
+excluded=$(
+    while read -r name code; do
+        grep -qx "ExitCode::$name" <<<"$restarted" || printf ' %s' "$code"
+    done <<<"$codes"
+)
+[[ -n $restarted && -n $excluded ]] || fault "the exit codes were not found"
+grep -qx "RestartPreventExitStatus=${excluded# }" "$unit" ||
+    fault "RestartPreventExitStatus differs from the codes that isRestarted() excludes:$excluded"
 
 # The service's resources must be limited. Its command ExecStopPost= must have no more rights than
 # the service.
