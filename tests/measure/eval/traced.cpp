@@ -9,7 +9,7 @@
 #include "pipeline/traced_layer.h"
 #include "tests/measure/eval/metrics/flicker.h"
 #include "tests/measure/eval/metrics/hdrvdp.h"
-#include "tests/measure/eval/model_key.h"
+#include "tests/measure/eval/scene_key.h"
 #include "tests/measure/eval/stopwatch.h"
 #include "tests/measure/eval/traced_truth.h"
 #include "tests/measure/eval/warp_scenes.h"
@@ -235,14 +235,11 @@ void savePicture(const std::filesystem::path& folder, const std::string& name, S
     savePng(folder / (name + ".png"), rgbaOf({&picture}, size).view());
 }
 
-/// Name of the files with the truth. It contains the model's key, because another file, or another
-/// version of the file, may have the same name. Names of built-in scenes contain no key.
+/// Name of the files with the truth. It contains the scene's key, because another file, another
+/// version of the file or of a built-in scene may have the same name.
 std::string truthName(const std::string& name, const Scene& scene, synthetic::Path path) {
-    const std::vector<std::string> own = warpSceneNames();
-    if (std::ranges::find(own, name) != own.end() || scene.objects.empty())
-        return fmt::format("{}-{}", name, synthetic::name(path));
     return fmt::format("{}-{:016x}-{}", std::filesystem::path(name).stem().string(),
-                       modelKey(*scene.objects.front().model), synthetic::name(path));
+                       sceneKey(scene), synthetic::name(path));
 }
 
 class TracedRun {

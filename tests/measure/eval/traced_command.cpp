@@ -22,6 +22,10 @@ constexpr const char* kTracedHelp =
     "far; warp_ms: time of drawing the layer; hdrvdp_q: HDR-VDP-2's quality of the whole frame,\n"
     "100 if it equals the truth. Frames of the first half second are not scored.";
 
+constexpr const char* kTruthHelp =
+    "folder that keeps the truth for later runs; if another version of mfar-eval has made its "
+    "files, delete them, because the path tracer may have changed";
+
 }  // namespace
 
 CLI::App* addTracedCommand(CLI::App& app, TracedRequest& request) {
@@ -58,7 +62,7 @@ CLI::App* addTracedCommand(CLI::App& app, TracedRequest& request) {
     sub->add_option("--truth-samples", request.truthSamples, "samples per pixel of the truth")
         ->check(CLI::Range(1, 65536))
         ->capture_default_str();
-    sub->add_option("--truth", request.truth, "folder that keeps the truth for later runs");
+    sub->add_option("--truth", request.truth, kTruthHelp);
     sub->add_option("--save", request.save, "folder for the compared frames and their truth");
     sub->add_option("--video", request.video,
                     "folder to write a Y4M video of each path into, with the methods side by side");

@@ -1,3 +1,5 @@
+#include "tests/measure/eval/scene_key.h"
+#include "tests/measure/eval/warp_scenes.h"
 #include "tests/models/gltf_maker.h"
 #include "tests/unit/run_program.h"
 
@@ -57,6 +59,10 @@ TEST(MfarEvalTraced, ComparesFramesOfEachMethodAndKeepsTheTruth) {
     // Frames 0, 10 and 20 are compared. Flicker also needs the truth of the frames after them.
     const auto files = std::filesystem::directory_iterator(folder / "truth");
     EXPECT_EQ(std::distance(begin(files), end(files)), 6);
+    // Another version of the scene must not find these files.
+    const std::string truth = fmt::format("truth/still-life-{:016x}-orbit-64x48-4-020.truth",
+                                          sceneKey(*warpScene("still-life")));
+    EXPECT_TRUE(std::filesystem::exists(folder / truth)) << truth;
     EXPECT_TRUE(std::filesystem::exists(folder / "saved/still-life-orbit-020-product.png"));
     // A frame of the video shows both methods side by side, in 4:2:0.
     constexpr std::uintmax_t kFrameBytes = 2 * 64 * 48 * 3 / 2;

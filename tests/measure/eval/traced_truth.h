@@ -16,7 +16,8 @@ namespace mfar::eval {
 /// program.
 class TracedTruth {
 public:
-    /// `name`: name of scene and path, for file names. Different scenes need different names.
+    /// `name`: name of scene and path, for file names. Different scenes need different names, also
+    /// different versions of a scene, see sceneKey().
     /// If `folder` is empty, no files are kept.
     TracedTruth(const std::shared_ptr<const Scene>& scene, int samples,
                 std::filesystem::path folder, const std::string& name);

@@ -1,4 +1,4 @@
-#include "tests/measure/eval/model_key.h"
+#include "tests/measure/eval/scene_key.h"
 
 #include <cstddef>
 
@@ -68,10 +68,7 @@ void addMaterial(Fnv1a& hash, const Material& m) {
                     m.emissionTexture);
 }
 
-}  // namespace
-
-std::uint64_t modelKey(const Model& model) {
-    Fnv1a hash;
+void addModel(Fnv1a& hash, const Model& model) {
     hash.addNumbers(model.meshes.size(), model.paths.size(), model.materials.size(),
                     model.textures.size());
     for (const Mesh& mesh : model.meshes)
@@ -84,6 +81,45 @@ std::uint64_t modelKey(const Model& model) {
         hash.addNumbers(texture.size.width, texture.size.height, texture.srgb);
         hash.add(texture.texels);
     }
+}
+
+void addObjects(Fnv1a& hash, const std::vector<SceneObject>& objects) {
+    hash.addNumbers(objects.size());
+    const Model* last = nullptr;
+    for (const SceneObject& object : objects) {
+        // The parts of a model are consecutive objects with the same model.
+        const bool isNew = object.model.get() != last;
+        hash.addNumbers(isNew, object.scale, object.part, object.path != nullptr);
+        if (isNew) addModel(hash, *object.model);
+        last = object.model.get();
+        addPose(hash, object.T_world_object);
+        addPose(hash, object.T_world_ground);
+        if (object.path) addPath(hash, *object.path);
+    }
+}
+
+void addLighting(Fnv1a& hash, const Lighting& lighting) {
+    hash.addNumbers(lighting.environment != nullptr, lighting.sun.has_value());
+    if (lighting.environment) {
+        hash.addNumbers(lighting.environment->size.width, lighting.environment->size.height);
+        hash.add(lighting.environment->radiance);
+    }
+    if (lighting.sun) {
+        hash.add(lighting.sun->towards.data(), 3);
+        hash.add(lighting.sun->irradiance.data(), 3);
+        hash.addNumbers(lighting.sun->angularRadius);
+    }
+}
+
+}  // namespace
+
+std::uint64_t sceneKey(const Scene& scene) {
+    Fnv1a hash;
+    addObjects(hash, scene.objects);
+    addLighting(hash, scene.lighting);
+    hash.add(scene.catcher.positions);
+    hash.add(scene.catcher.triangles);
+    hash.add(scene.catcher.albedo.data(), 3);
     return hash.sum();
 }
 
