@@ -3,14 +3,15 @@
 #include "daemon/virtual_world.h"
 #include "hal/virtual/image_files.h"
 #include "hal/virtual/y4m.h"
-#include "pipeline/composite/lens_projection.h"
 #include "pipeline/composite/shadow_catcher.h"
+#include "pipeline/scene/scene_parts.h"
 #include "pipeline/slices/view_change.h"
 #include "pipeline/traced_layer.h"
 #include "tests/measure/eval/metrics/flicker.h"
 #include "tests/measure/eval/metrics/hdrvdp.h"
 #include "tests/measure/eval/scene_key.h"
 #include "tests/measure/eval/stopwatch.h"
+#include "tests/measure/eval/traced_motion.h"
 #include "tests/measure/eval/traced_truth.h"
 #include "tests/measure/eval/warp_scenes.h"
 #include "tests/warp/warp_engine.h"
@@ -20,7 +21,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <thread>
 
@@ -129,36 +129,11 @@ double hdrVdpOf(const Picture& shown, const Picture& exact, Size size) {
     return hdrVdp(lightOf(shown), lightOf(exact), display.pixelsPerDegree).q;
 }
 
-/// Flow of the objects' pixels from the frame `now` to the frame `before`, CV_32FC2 [px]. NaN where
-/// `before` does not show the same object.
-cv::Mat motionTo(const RenderedPicture& before, const RenderedPicture& now) {
-    const Size size = now.camera.size;
-    const LensProjection lens(now.camera);
-    const RigidTransform T = before.T_world_camera.inverse() * now.T_world_camera;
-    constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
-    cv::Mat out(size.height, size.width, CV_32FC2, cv::Scalar(kUnknown, kUnknown));
-    for (int y = 0; y < size.height; ++y)
-        for (int x = 0; x < size.width; ++x) {
-            const std::size_t i = static_cast<std::size_t>(y) * size.width + x;
-            if (!showsObject(now, i)) continue;
-            const Eigen::Vector3d h = lens(T * (static_cast<double>(now.depth[i]) *
-                                                now.camera.unproject({x, y}).homogeneous()));
-            if (!(h.z() > LensProjection::kNear)) continue;
-            const Eigen::Vector2d at = h.hnormalized();
-            const auto u = std::lround(at.x()), v = std::lround(at.y());
-            if (u < 0 || v < 0 || u >= size.width || v >= size.height) continue;
-            if (before.id[static_cast<std::size_t>(v) * size.width + u] != now.id[i]) continue;
-            out.at<cv::Vec2f>(y, x) = {static_cast<float>(at.x() - x),
-                                       static_cast<float>(at.y() - y)};
-        }
-    return out;
-}
-
 /// Flicker of the errors of objects' pixels between consecutive frames. Empty if no point of the
 /// objects is in both frames.
-std::optional<double> flickerOf(const Picture& before, const RenderedPicture& truthBefore,
-                                const Picture& now, const RenderedPicture& truth) {
-    const Size size = truth.camera.size;
+std::optional<double> flickerOf(const Picture& before, const PosedPicture& truthBefore,
+                                const Picture& now, const PosedPicture& truth) {
+    const Size size = truth.picture.camera.size;
     const double out =
         flicker(lumaOf(now, size), lumaOf(before, size), motionTo(truthBefore, truth), 0);
     return std::isnan(out) ? std::nullopt : std::optional(out);
@@ -263,6 +238,10 @@ public:
 private:
     [[nodiscard]] bool isCompared(int frame) const { return frame % request_.every == 0; }
 
+    [[nodiscard]] PosedPicture posed(int frame, const RenderedPicture& truth) const {
+        return {truth, posesAt(*course_.scene(), timeOf(frame))};
+    }
+
     std::vector<Picture> run(const std::string& method, const ProgressPart& progress) {
         const auto count = static_cast<std::size_t>(request_.frames);
         ShownFrames frames(course_, optionsOf(request_, method));
@@ -281,7 +260,8 @@ private:
             Picture error = differenceOf(shown, exact);
             std::optional<double> flicker;
             if (follows && errorBefore && i > kFirstFrames)
-                flicker = flickerOf(*errorBefore, *truthBefore, error, truth);
+                flicker =
+                    flickerOf(*errorBefore, posed(i - 1, *truthBefore), error, posed(i, truth));
             if (isCompared(i) && i >= kFirstFrames)
                 compare(method, i, {shown, exact, error, flicker}, truth, frames);
             else if (flicker)
