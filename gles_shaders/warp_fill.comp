@@ -71,7 +71,7 @@ void gather(ivec2 p, uint id, int last, out vec4 sum, out float weight) {
 }
 
 void main() {
-    uint i = gl_GlobalInvocationID.x;
+    uint i = gl_GlobalInvocationID.y * kListRow + gl_GlobalInvocationID.x;
     if (i >= commands[0].w) return;
     uvec2 entry = list[i];
     int index = int(entry.x & 0x3fffffffu);

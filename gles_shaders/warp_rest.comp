@@ -11,7 +11,7 @@
 // surface.
 // holes[] = pixels whose colour is not wholly known: pixel index, colour so far (RGBA8). Bit 31 of
 // the index: z of the state is 1. Bit 30: the pixel is at an edge.
-// holeCommands[0] = number of groups of 64 entries of holes[] (x), number of entries (w).
+// holeCommands[0] = number of rows of kListRow entries of holes[] (y), number of entries (w).
 // holeCommands[l] = dispatch command for pyramid level l, written with the first entry of holes[].
 // Range: depth 0..1e6
 // Variant: #define MOVING
@@ -45,7 +45,7 @@ uvec4 groupsOf(DispatchGroups g) {
 }
 
 void main() {
-    uint entry = gl_GlobalInvocationID.x;
+    uint entry = gl_GlobalInvocationID.y * kListRow + gl_GlobalInvocationID.x;
     if (entry >= commands[0].w) return;
     int index = int(list[entry]);
     ivec2 p = ivec2(index % params.width, index / params.width);
@@ -79,7 +79,7 @@ void main() {
     imageStore(state, p, vec4(missing / 255.0, part, open ? 1.0 : 0.0, plain / 255.0));
     if (!hole) return;
     uint i = atomicAdd(holeCommands[0].w, 1u);
-    if (i % 64u == 0u) atomicAdd(holeCommands[0].x, 1u);
+    if (i % kListRow == 0u) atomicAdd(holeCommands[0].y, 1u);
     if (i == 0u)
         for (int l = 0; l < params.levels; ++l) holeCommands[l + 1] = groupsOf(params.wanted[l]);
     holes[i] = uvec2(uint(index) | (edge ? 1u << 30 : open ? 1u << 31 : 0u), packUnorm4x8(shown));

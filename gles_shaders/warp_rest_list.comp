@@ -1,8 +1,8 @@
 // Lists the pixels that warp_look_up.frag left to warp_rest.comp. One invocation processes a square
 // of 2x2 pixels, because most squares contain no such pixel.
 // In: state of warp_look_up.frag. Out: list[] = row-major indices of the pixels; commands[0] =
-// number of groups of 64 entries (x), number of entries (w). The order of the list varies, but no
-// result depends on it.
+// number of rows of kListRow entries (y), number of entries (w). The order of the list varies, but
+// no result depends on it.
 #include "warp_view_params.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -25,9 +25,9 @@ void main() {
     uint count = some.x + some.y + some.z + some.w;
     if (count == 0u) return;
     uint i = atomicAdd(commands[0].w, count);
-    // Number of groups of 64 list entries whose first entry is one of the new entries.
-    uint groups = (i + count + 63u) / 64u - (i + 63u) / 64u;
-    if (groups > 0u) atomicAdd(commands[0].x, groups);
+    // Number of rows of the list whose first entry is one of the new entries.
+    uint rows = (i + count + kListRow - 1u) / kListRow - (i + kListRow - 1u) / kListRow;
+    if (rows > 0u) atomicAdd(commands[0].y, rows);
     uint first = uint(p.y * params.width + p.x), row = uint(params.width);
     if (some.w != 0u) list[i] = first;
     i += some.w;

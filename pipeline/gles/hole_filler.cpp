@@ -43,6 +43,7 @@ void HoleFiller::begin(const PixelRect& where, HoleFilling filling) {
     std::array<Command, 1 + kLevels> none{};
     for (Command& command : none)
         command = {0, 1, 1, 0};
+    none[0] = kEmptyList;
     lists_[current_].commands.write(std::span<const Command>(none));
     params_ = {};
     params_.bounds = boundsOf(where);

@@ -22,6 +22,10 @@ namespace mfar {
 class HoleFiller {
 public:
     static constexpr int kLevels = 6;
+    using Command = params::DispatchGroups;
+    /// Command of a list without entries. The shader that adds entries counts rows (y) of kListRow
+    /// entries.
+    static constexpr Command kEmptyList{params::kListColumns, 0, 1, 0};
 
     explicit HoleFiller(Size layer);
 
@@ -33,7 +37,6 @@ public:
     [[nodiscard]] const gpu::Buffer& entries() const { return lists_[current_].entries; }
     /// Numbers of workgroups for each level of the pyramid. warp_rest.comp copies them to
     /// commands() when it finds the first pixel without a known colour.
-    using Command = params::DispatchGroups;
     [[nodiscard]] const std::array<Command, kLevels>& wanted() const { return wanted_; }
     [[nodiscard]] int levels() const { return params_.levelCount; }
 

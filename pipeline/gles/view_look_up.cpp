@@ -146,8 +146,7 @@ void ViewLookUp::run(const Input& input, const RigidTransform& T_world_camera,
 
 void ViewLookUp::runRest(const Params& params, const Input& input, const PixelRect& where,
                          const HoleFiller& holes) {
-    constexpr HoleFiller::Command kNone{0, 1, 1, 0};
-    commands_.write(std::span(&kNone, 1));
+    commands_.write(std::span(&HoleFiller::kEmptyList, 1));
     restList_.run(params,
                   {gpu::sampler(0, state_), gpu::storage(0, commands_), gpu::storage(1, list_)},
                   {gpu::groupsFor((where.x1 - where.x0 + 1) / 2, kListGroup),

@@ -24,6 +24,11 @@ inline constexpr float kLeastLookUpWeight = 0.2F;
 /// this case, only this number of pyramid levels is used, the finest ones.
 inline constexpr int kCrackLevels = 2;
 inline constexpr std::uint32_t kContrastLevels = 64U;
+/// Lists of pixels are processed by rows of this number of workgroups, with 64 entries each. With
+/// one row, 65535 workgroups, the most that OpenGL ES guarantees, would process only 4.2 million
+/// entries.
+inline constexpr std::uint32_t kListColumns = 16U;
+inline constexpr std::uint32_t kListRow = 64U * kListColumns;  ///< entries per row
 
 struct alignas(16) SilhouetteMesh {
     Transform object;  ///< T_camera_object, multiplied by the object's scale
