@@ -6,16 +6,21 @@ namespace mfar {
 namespace {
 
 struct Heard final : MatchListener {
-    int times = 0, weighed = 0, replacements = 0;
+    int times = 0, replacements = 0;
+    int weighed = 0;  ///< cells of all reports with a weight above 0.5
+    // Of the last report of replaced():
+    int lastWeighed = 0, lastLuma = -1, lastStill = -1;
     void replaced(const RgbPlanes& video, Rows<const std::uint8_t> still,
                   Rows<const LookUpCell> lookUps,
                   const MatchedPictures::LookedUp& lookedUp) override {
+        const int before = weighed;
         matched(video, still, lookUps, lookedUp);
         --times;
         ++replacements;
+        lastWeighed = weighed - before;
         lastLuma = video.row(1, 0)[0];
+        lastStill = still[300][400];
     }
-    int lastLuma = -1;
     void matched(const RgbPlanes& video, Rows<const std::uint8_t> still,
                  Rows<const LookUpCell> lookUps,
                  const MatchedPictures::LookedUp& lookedUp) override {
@@ -43,13 +48,18 @@ protected:
     static Pipeline made() {
         return {discsRig(), {.output = {}, .engines = EngineChoice::all(GetParam())}};
     }
-    void setStill(Pipeline& pipeline) const {
+    void setStill(Pipeline& pipeline) const { setStill(pipeline, still_); }
+    void setStill(Pipeline& pipeline, const std::vector<std::uint8_t>& still) const {
         pipeline.setStill(
-            {still_.data(), sharp_.size, std::size_t(sharp_.size.width), PixelFormat::Gray8}, {});
+            {still.data(), sharp_.size, std::size_t(sharp_.size.width), PixelFormat::Gray8}, {});
     }
     std::vector<std::uint8_t> picture(Pipeline& pipeline) const {
+        return picture(pipeline, video_);
+    }
+    std::vector<std::uint8_t> picture(Pipeline& pipeline,
+                                      const std::vector<std::uint8_t>& video) const {
         pipeline.redraw();
-        pipeline.run({video_.data(), low_.size, std::size_t(low_.size.width), PixelFormat::Gray8},
+        pipeline.run({video.data(), low_.size, std::size_t(low_.size.width), PixelFormat::Gray8},
                      {});
         return pipeline.readImage();
     }
@@ -101,6 +111,11 @@ TEST_P(PipelineLearning, AStillIsReportedOnlyAfterAFrameWithMatchedTiles) {
 }
 
 TEST_P(PipelineLearning, ReplacedStillIsReportedWithTheLastFrame) {
+    // The last frame and the new still differ from the others.
+    std::vector<std::uint8_t> last = video_, dark = still_;
+    last[0] = static_cast<std::uint8_t>(last[0] < 128 ? last[0] + 20 : last[0] - 20);
+    for (std::uint8_t& level : dark)
+        level /= 2;
     Heard heard;
     pipeline_.setMatchListener(&heard);
     setStill(pipeline_);
@@ -108,13 +123,14 @@ TEST_P(PipelineLearning, ReplacedStillIsReportedWithTheLastFrame) {
     EXPECT_EQ(heard.replacements, 0)
         << "a still that no frame was matched with must not be reported";
     (void)picture(pipeline_);
-    (void)picture(pipeline_);
+    (void)picture(pipeline_, last);
     EXPECT_EQ(heard.replacements, 0);
-    setStill(pipeline_);
+    setStill(pipeline_, dark);
     EXPECT_EQ(heard.replacements, 1);
-    EXPECT_EQ(heard.lastLuma, video_[0]);
-    EXPECT_GT(heard.weighed, 1000)
-        << "in both reports together, more than 1000 cells must have a weight above 0.5";
+    EXPECT_EQ(heard.lastLuma, last[0]);
+    EXPECT_NEAR(heard.lastStill, sharp_.at(400, 300), 1) << "the old still must be reported";
+    EXPECT_GT(heard.lastWeighed, 1000)
+        << "more than 1000 of 3072 cells must have a weight above 0.5";
     pipeline_.dropStill();
     setStill(pipeline_);
     pipeline_.setMode(SuperResMode::Off);
