@@ -1,6 +1,7 @@
 #include "base/progress.h"
 #include "daemon/exit_code.h"
 #include "daemon/output_checks.h"
+#include "daemon/tools/april_grid_text.h"
 #include "daemon/tools/sim_arguments.h"
 
 #include <fmt/format.h>
@@ -24,9 +25,8 @@ int list() {
 
 void writeGrid(const std::filesystem::path& file) {
     std::ofstream out(file);
-    out << fmt::format("target_type: 'aprilgrid'\ntagCols: {0}\ntagRows: {0}\n"
-                       "tagSize: {1}  # [m]\ntagSpacing: {2}  # gap / tagSize\n",
-                       synthetic::kGridTags, synthetic::kGridTagSize, synthetic::kGridSpacing);
+    out << aprilGridText(synthetic::kGridTags, synthetic::kGridTags, synthetic::kGridTagSize,
+                         synthetic::kGridSpacing);
     out.close();
     if (!out) throw std::runtime_error(file.string() + ": cannot be written");
 }

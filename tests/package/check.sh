@@ -86,7 +86,7 @@ while IFS=: read -r page link; do
     links=$((links + 1))
 done < <(grep -roP --include='*.md' '\]\(\K(?!https?:|#)[^)]+' "$root/usr/share/doc/mfar")
 holds "the documents have links" test "$links" -gt 0
-for page in man1/mfard.1 man1/mfarctl.1 man1/mfar-sim.1 man1/mfar-calibrate.1 man5/mfard.toml.5; do
+for page in man1/mfard.1 man1/mfarctl.1 man1/mfar-sim.1 man1/mfar-calibrate.1 man1/mfar-print.1 man5/mfard.toml.5; do
     holds "the manual page $page is installed" test -s "$root/usr/share/man/$page"
 done
 for program in mfard mfarctl; do

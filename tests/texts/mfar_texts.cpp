@@ -57,6 +57,7 @@ int main(int argc, char** argv) {
         write(folder / "docs/man/mfarctl.1", mfar::test::controlManPage());
         write(folder / "docs/man/mfar-sim.1", mfar::test::simManPage());
         write(folder / "docs/man/mfar-calibrate.1", mfar::test::calibrateManPage());
+        write(folder / "docs/man/mfar-print.1", mfar::test::printManPage());
         write(folder / "docs/man/mfard.toml.5", mfar::test::configManPage());
     } catch (const std::exception& error) {
         fmt::print(stderr, "mfar-texts: {}\n", error.what());

@@ -13,10 +13,11 @@ namespace mfar::test {
 
 [[nodiscard]] std::string programManPage();
 [[nodiscard]] std::string configManPage();
-/// The manual pages of mfarctl, mfar-sim and mfar-calibrate, from their parsers.
+/// The manual pages of mfarctl, mfar-sim, mfar-calibrate and mfar-print, from their parsers.
 [[nodiscard]] std::string controlManPage();
 [[nodiscard]] std::string simManPage();
 [[nodiscard]] std::string calibrateManPage();
+[[nodiscard]] std::string printManPage();
 
 /// Completions of mfard's and mfarctl's command lines in bash, from their parsers.
 [[nodiscard]] std::string bashCompletion();

@@ -1,5 +1,6 @@
 #include "daemon/tools/calibrate/arguments.h"
 #include "daemon/tools/ctl_arguments.h"
+#include "daemon/tools/print/arguments.h"
 #include "daemon/tools/sim_arguments.h"
 #include "tests/texts/pages.h"
 #include "tests/texts/troff.h"
@@ -160,6 +161,20 @@ std::string calibrateManPage() {
          {{"0", "success"},
           {"1", "no target is given, the recording or target cannot be read, the recording is not "
                 "sufficient for a calibration, or the result or standard output cannot be "
+                "written"},
+          {"64", kParser}}});
+}
+
+std::string printManPage() {
+    return page(
+        print::PrintParser().app,
+        {"draws tags and calibration targets to print",
+         "daemon/tools/print/arguments.cpp",
+         "Writes an SVG file with one page that has the size of the paper. Print it at 100 %, for "
+         "example with a web browser, and check the ruler on the print. A tag that is printed "
+         "this way can be used for poses, and an AprilGrid or checkerboard for mfar-calibrate.",
+         {{"0", "success"},
+          {"1", "the target does not fit on the paper, or the file or standard output cannot be "
                 "written"},
           {"64", kParser}}});
 }

@@ -1,0 +1,87 @@
+#include "base/whole_file.h"
+#include "daemon/exit_code.h"
+#include "daemon/output_checks.h"
+#include "daemon/tools/april_grid_text.h"
+#include "daemon/tools/print/arguments.h"
+#include "daemon/tools/print/printed_targets.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+
+namespace mfar::print {
+namespace {
+
+constexpr int kFamilySize = info(TagFamily::Tag36h11).count;
+
+void write(const std::filesystem::path& file, const std::string& text) {
+    writeWholeFile(file, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+}
+
+void printTags(const PrintArguments& a) {
+    write(a.out, tagPage(*tagFamilyNamed(a.family), a.ids, a.tagSize, paperNamed(a.paper)));
+    fmt::print("written: {}\n", a.out.string());
+}
+
+double sizeOr(double given, double largest, const std::string& paper) {
+    if (given > 0) return given;
+    if (largest > 0) return largest;
+    throw std::runtime_error(fmt::format("the target does not fit on {}, even with an edge of 1 mm",
+                                         paperNamed(paper).title));
+}
+
+void printGrid(const PrintArguments& a) {
+    if (a.columns * a.rows > kFamilySize)
+        throw std::runtime_error(
+            fmt::format("the AprilGrid has {} tags, but its family has only {}", a.columns * a.rows,
+                        kFamilySize));
+    const Paper& paper = paperNamed(a.paper);
+    const double size =
+        sizeOr(a.gridTagSize, largestTag(a.columns, a.rows, a.spacing, paper), a.paper);
+    const std::string page =
+        gridPage(calibration::aprilGrid(a.columns, a.rows, size, a.spacing), paper);
+    const std::string text = aprilGridText(a.columns, a.rows, size, a.spacing);
+    const std::filesystem::path description =
+        std::filesystem::path(a.out).replace_extension(".yaml");
+    const NewFile files[] = {{a.out, page}, {description, text}};
+    writeWholeFiles(files);
+    fmt::print("written: {} {}\n", a.out.string(), description.string());
+}
+
+void printBoard(const PrintArguments& a) {
+    const Paper& paper = paperNamed(a.paper);
+    // The size does not matter for the numbers of corners, which are checked first.
+    const calibration::Target any = calibration::checkerboard(a.board, 1);
+    const double square = sizeOr(a.square, largestSquare(any.columns, any.rows, paper), a.paper);
+    write(a.out, boardPage(calibration::checkerboard(a.board, square), paper));
+    fmt::print("written: {} (mfar-calibrate --checkerboard {} --square {:g})\n", a.out.string(),
+               a.board, square);
+}
+
+void run(const PrintParser& parser) {
+    if (parser.tags->parsed()) return printTags(parser.arguments);
+    if (parser.grid->parsed()) return printGrid(parser.arguments);
+    printBoard(parser.arguments);
+}
+
+}  // namespace
+}  // namespace mfar::print
+
+int main(int argc, char** argv) {
+    mfar::print::PrintParser parser;
+    try {
+        parser.app.parse(argc, argv);
+        mfar::print::run(parser);
+        return mfar::afterOutput(0, "mfar-print", 1);
+    } catch (const CLI::ParseError& error) {
+        if (parser.app.exit(error) != 0) return static_cast<int>(mfar::ExitCode::Usage);
+        return mfar::afterOutput(0, "mfar-print", 1);
+    } catch (const std::exception& e) {
+        fmt::print(stderr, "mfar-print: {}\n", e.what());
+        return 1;
+    }
+}
