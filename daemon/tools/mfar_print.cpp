@@ -1,3 +1,4 @@
+#include "base/calibration/calibration_error.h"
 #include "base/whole_file.h"
 #include "daemon/exit_code.h"
 #include "daemon/output_checks.h"
@@ -20,18 +21,26 @@ constexpr int kFamilySize = info(TagFamily::Tag36h11).count;
 
 void write(const std::filesystem::path& file, const std::string& text) {
     writeWholeFile(file, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+    fmt::print("written: {}\n", file.string());
 }
 
 void printTags(const PrintArguments& a) {
     write(a.out, tagPage(*tagFamilyNamed(a.family), a.ids, a.tagSize, paperNamed(a.paper)));
-    fmt::print("written: {}\n", a.out.string());
 }
 
-double sizeOr(double given, double largest, const std::string& paper) {
-    if (given > 0) return given;
-    if (largest > 0) return largest;
-    throw std::runtime_error(fmt::format("the target does not fit on {}, even with an edge of 1 mm",
-                                         paperNamed(paper).title));
+/// Throws if the description would replace another file, or cannot be written.
+void requireReplaceable(const std::filesystem::path& description) {
+    const std::string name = description.string();
+    if (const std::string fault = fileToWrite()(name); !fault.empty())
+        throw std::runtime_error(fault);
+    if (!std::filesystem::exists(description)) return;
+    try {
+        (void)calibration::readAprilGrid(description);
+    } catch (const CalibrationError&) {
+        throw std::runtime_error(
+            name + " is not the description of an AprilGrid and would be replaced; choose another "
+                   "name for --out");
+    }
 }
 
 void printGrid(const PrintArguments& a) {
@@ -41,25 +50,24 @@ void printGrid(const PrintArguments& a) {
                         kFamilySize));
     const Paper& paper = paperNamed(a.paper);
     const double size =
-        sizeOr(a.gridTagSize, largestTag(a.columns, a.rows, a.spacing, paper), a.paper);
+        a.gridTagSize > 0 ? a.gridTagSize : largestTag(a.columns, a.rows, a.spacing, paper);
     const std::string page =
         gridPage(calibration::aprilGrid(a.columns, a.rows, size, a.spacing), paper);
+    const auto description = std::filesystem::path(a.out).replace_extension(".yaml");
+    requireReplaceable(description);
     const std::string text = aprilGridText(a.columns, a.rows, size, a.spacing);
-    const std::filesystem::path description =
-        std::filesystem::path(a.out).replace_extension(".yaml");
     const NewFile files[] = {{a.out, page}, {description, text}};
     writeWholeFiles(files);
-    fmt::print("written: {} {}\n", a.out.string(), description.string());
+    fmt::print("written: {}\nwritten: {}\n", a.out.string(), description.string());
 }
 
 void printBoard(const PrintArguments& a) {
     const Paper& paper = paperNamed(a.paper);
     // The size does not matter for the numbers of corners, which are checked first.
     const calibration::Target any = calibration::checkerboard(a.board, 1);
-    const double square = sizeOr(a.square, largestSquare(any.columns, any.rows, paper), a.paper);
+    const double square = a.square > 0 ? a.square : largestSquare(any.columns, any.rows, paper);
     write(a.out, boardPage(calibration::checkerboard(a.board, square), paper));
-    fmt::print("written: {} (mfar-calibrate --checkerboard {} --square {:g})\n", a.out.string(),
-               a.board, square);
+    fmt::print("for mfar-calibrate: --checkerboard {} --square {:g}\n", a.board, square);
 }
 
 void run(const PrintParser& parser) {

@@ -8,9 +8,12 @@
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <gmock/gmock.h>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -23,6 +26,7 @@ using calibration::Target;
 
 constexpr double kPxPerMm = 5;
 constexpr double kPxPerM = 1000 * kPxPerMm;
+constexpr double kMargin = 10, kFooter = 17;  // [mm]
 
 /// Draws the black path and the size of a page. Ignores text and ruler.
 cv::Mat1b printed(const std::string& svg) {
@@ -44,7 +48,10 @@ cv::Mat1b printed(const std::string& svg) {
         }
         const cv::Rect box(pixel(left), pixel(top), pixel(right) - pixel(left),
                            pixel(bottom) - pixel(top));
-        EXPECT_EQ(box & cv::Rect({}, out.size()), box) << line;
+        EXPECT_GT(box.area(), 0) << line;
+        EXPECT_GE(std::min(left, top), kMargin - 1e-3) << line;
+        EXPECT_LE(right, width - kMargin + 1e-3) << line;
+        EXPECT_LE(bottom, height - kMargin - kFooter + 1e-3) << line;
         out(box) = 0;
     }
     // A camera never sees sharp steps, and the search for corners is made for its pictures.
@@ -56,9 +63,30 @@ ImageView viewOf(const cv::Mat1b& picture) {
     return {picture.ptr(), {picture.cols, picture.rows}, picture.step, PixelFormat::Gray8};
 }
 
+/// Expects eleven ticks with equal distances, 100 mm in all, below the target.
+void expectRuler(const std::string& svg) {
+    const std::size_t at = svg.find("<path stroke=");
+    ASSERT_NE(at, std::string::npos);
+    std::istringstream path(svg.substr(svg.find("d=\"", at) + 3));
+    double left = 0, y = 0, length = 0;
+    char letter = 0;
+    path >> letter >> left >> letter >> y >> letter >> length;
+    EXPECT_EQ(length, 100);
+    for (int cm = 0; cm <= 10; ++cm) {
+        double x = 0, top = 0, height = 0;
+        path >> letter >> x >> letter >> top >> letter >> height;
+        EXPECT_EQ(letter, 'v');
+        EXPECT_NEAR(x, left + 10 * cm, 2e-3);
+        EXPECT_NEAR(top + 0.5 * height, y, 2e-3);
+    }
+    path >> letter;
+    EXPECT_EQ(letter, '"') << "a twelfth tick";
+}
+
 /// Expects all corners of the target, at the distances that `target` gives [m].
 void expectTarget(const std::string& svg, const Target& target) {
     const cv::Mat1b picture = printed(svg);
+    expectRuler(svg);
     calibration::TargetFinder finder(target, {picture.cols, picture.rows});
     const std::vector<Corner> corners = finder.find(viewOf(picture));
     ASSERT_EQ(corners.size(), target.points.size());
@@ -76,14 +104,17 @@ void expectTarget(const std::string& svg, const Target& target) {
 TEST(PrintedTags, OfEachFamilyAreFoundWithTheirIdAndSize) {
     for (const TagFamilyInfo& family : kTagFamilies) {
         const std::vector<int> ids{0, family.count - 1, 7};
-        const cv::Mat1b picture = printed(tagPage(family.family, ids, 0.05, paperNamed("a4")));
+        const std::string svg = tagPage(family.family, ids, 0.05, paperNamed("a4"));
+        const cv::Mat1b picture = printed(svg);
+        expectRuler(svg);
         DetectorOptions options;
         options.families = {family.family};
         options.maxHamming = 0;
-        std::vector<TagDetection> tags = TagDetector(options).detect(viewOf(picture));
-        ASSERT_EQ(tags.size(), ids.size()) << family.name;
+        const std::vector<TagDetection> tags = TagDetector(options).detect(viewOf(picture));
+        std::vector<int> found;
         for (const TagDetection& tag : tags) {
-            EXPECT_NE(std::ranges::find(ids, tag.tag.id), ids.end()) << family.name;
+            found.push_back(tag.tag.id);
+            EXPECT_NE(svg.find(fmt::format(">tag {}</text>", tag.tag.id)), std::string::npos);
             for (std::size_t k = 0; k < 4; ++k)
                 EXPECT_NEAR((tag.corners[k] - tag.corners[(k + 1) % 4]).norm(), 0.05 * kPxPerM, 1)
                     << family.name;
@@ -91,7 +122,37 @@ TEST(PrintedTags, OfEachFamilyAreFoundWithTheirIdAndSize) {
             EXPECT_GT(tag.corners[0].y(), tag.corners[2].y() + 100) << family.name;
             EXPECT_LT(tag.corners[0].x(), tag.corners[1].x() - 100) << family.name;
         }
+        EXPECT_THAT(found, testing::UnorderedElementsAreArray(ids)) << family.name;
     }
+}
+
+TEST(PrintedTags, AreOnUprightPaperIfTheyFit) {
+    const auto widthOf = [](const std::string& svg) {
+        return std::stod(svg.substr(svg.find("width=\"") + 7));
+    };
+    const Paper& paper = paperNamed("a4");
+    EXPECT_EQ(widthOf(tagPage(TagFamily::Tag36h11, std::array{0}, 0.1, paper)), paper.width);
+    EXPECT_EQ(widthOf(tagPage(TagFamily::Tag36h11, std::array{0, 1}, 0.1, paper)), paper.height);
+}
+
+// The outermost cells of this family are black. Without gaps, both tags would be one shape.
+TEST(PrintedTags, HaveGaps) {
+    const cv::Mat1b picture =
+        printed(tagPage(TagFamily::TagStandard41h12, std::array{0, 1}, 0.01, paperNamed("a4")));
+    cv::Mat1b whole;
+    const cv::Mat1b black = picture < 128;
+    cv::morphologyEx(black, whole, cv::MORPH_CLOSE, cv::Mat::ones(21, 21, CV_8U));
+    cv::Mat labels;
+    EXPECT_EQ(cv::connectedComponents(whole, labels), 3) << "background and two tags";
+}
+
+TEST(PrintedTags, HaveNumbersThatDoNotOverlap) {
+    const std::string svg = tagPage(TagFamily::Tag36h11, std::array{0, 1}, 0.005, paperNamed("a4"));
+    const auto middleOf = [&](int id) {
+        const std::size_t end = svg.find(fmt::format(">tag {}</text>", id));
+        return std::stod(svg.substr(svg.rfind("x=\"", end) + 3));
+    };
+    EXPECT_GE(middleOf(1) - middleOf(0), 15);
 }
 
 TEST(PrintedAprilGrid, HasAllCornersAtTheirDistances) {
@@ -135,11 +196,30 @@ TEST_F(MfarPrint, WritesAGridAndItsDescription) {
     EXPECT_EQ(grid.columns, 5);
     EXPECT_EQ(grid.rows, 4);
     expectTarget(test::readFile(file("grid.svg")), grid);
+    EXPECT_EQ(run("aprilgrid --out " + file("grid.svg")).status, 0) << "replaces its own files";
+    EXPECT_EQ(calibration::readAprilGrid(file("grid.yaml")).rows, 8);
+}
+
+TEST_F(MfarPrint, DoesNotReplaceADescriptionOfAnythingElse) {
+    test::writeFile(file("rig.yaml"), "cam0: 1\n");
+    const test::Outcome ran = run("aprilgrid --out " + file("rig.svg"));
+    EXPECT_EQ(ran.status, 1);
+    EXPECT_NE(ran.text.find("rig.yaml is not the description of an AprilGrid"), std::string::npos)
+        << ran.text;
+    EXPECT_EQ(test::readFile(file("rig.yaml")), "cam0: 1\n");
+    EXPECT_FALSE(std::filesystem::exists(file("rig.svg")));
+    std::filesystem::create_directory(file("grid.yaml"));
+    EXPECT_EQ(run("aprilgrid --out " + file("grid.svg")).status, 1);
+    EXPECT_FALSE(std::filesystem::exists(file("grid.svg")));
 }
 
 TEST_F(MfarPrint, WritesTagsAndACheckerboard) {
-    ASSERT_EQ(run("tags 0 1 --size 0.06 --out " + file("tags.svg")).status, 0);
-    TagDetector detector({});
+    ASSERT_EQ(
+        run("tags 0 1 --family tag25h9 --size 0.06 --paper A4 --out " + file("tags.svg")).status,
+        0);
+    DetectorOptions options;
+    options.families = {TagFamily::Tag25h9};
+    TagDetector detector(options);
     EXPECT_EQ(detector.detect(viewOf(printed(test::readFile(file("tags.svg"))))).size(), 2U);
     const test::Outcome board = run("checkerboard 7x4 --paper letter --out " + file("board.svg"));
     ASSERT_EQ(board.status, 0) << board.text;
@@ -153,10 +233,11 @@ TEST_F(MfarPrint, WritesTagsAndACheckerboard) {
 TEST_F(MfarPrint, RefusesWhatCannotBePrintedAndWritesNothing) {
     const std::string out = " --out " + file("page.svg");
     const std::pair<std::string, const char*> wrong[] = {
-        {"", "tags"},
+        {"", "a command is missing; expected one of tags, aprilgrid, checkerboard"},
         {"tags" + out, "id is required"},
         {"tags 0", "--out is required"},
-        {"tags -1" + out, "-1"},
+        {"tags -1" + out, "Value -1 not in range"},
+        {"tags 010" + out, "010: ids are written without leading zeros"},
         {"tags 0 --family tag99" + out, "tag99"},
         {"tags 0 --size nan" + out, "--size"},
         {"tags 0 --paper a9" + out, "a9"},
@@ -173,14 +254,14 @@ TEST_F(MfarPrint, RefusesWhatCannotBePrintedAndWritesNothing) {
     }
     const std::pair<std::string, const char*> impossible[] = {
         {"tags 587" + out, "family tag36h11 has the tags 0 to 586, but not 587"},
-        {"tags 0 --size 0.3" + out, "a tag of 0.3 m with its white rim does not fit on A4"},
+        {"tags 0 --size 0.3" + out, "a tag of 0.3 m with the cells around it does not fit on A4"},
         {"tags 0 1 2 --size 0.1" + out, "3 tags of 0.1 m do not fit on A4, only 2"},
-        {"aprilgrid --size 0.1" + out, "6 x 8 tags with an edge of 0.1 m does not fit on A4; the "
-                                       "longest edge that fits is 0.023 m"},
+        {"aprilgrid --size 0.1" + out,
+         "6 x 8 tags with an edge of 0.1 m does not fit on A4; in whole mm, at most 0.023 m fit"},
         {"aprilgrid --columns 30 --rows 30" + out, "has 900 tags, but its family has only 587"},
         {"checkerboard 8x6" + out, "looks the same upside down"},
         {"checkerboard 9" + out, "expected the numbers of inner corners"},
-        {"checkerboard 9x6 --square 0.1" + out, "the largest squares that fit have 0.024 m"},
+        {"checkerboard 9x6 --square 0.1" + out, "in whole mm, at most 0.024 m fit"},
     };
     for (const auto& [arguments, message] : impossible) {
         const test::Outcome ran = run(arguments);
@@ -188,8 +269,8 @@ TEST_F(MfarPrint, RefusesWhatCannotBePrintedAndWritesNothing) {
         EXPECT_EQ(ran.text.find("mfar-print: "), 0U) << ran.text;
         EXPECT_NE(ran.text.find(message), std::string::npos) << ran.text;
     }
-    EXPECT_FALSE(std::filesystem::exists(file("page.svg")));
-    EXPECT_FALSE(std::filesystem::exists(file("page.yaml")));
+    for (const char* name : {"page.svg", "page.yaml", "page.png"})
+        EXPECT_FALSE(std::filesystem::exists(file(name))) << name;
 }
 
 }  // namespace

@@ -174,8 +174,9 @@ std::string printManPage() {
          "example with a web browser, and check the ruler on the print. A tag that is printed "
          "this way can be used for poses, and an AprilGrid or checkerboard for mfar-calibrate.",
          {{"0", "success"},
-          {"1", "the target does not fit on the paper, or the file or standard output cannot be "
-                "written"},
+          {"1",
+           "the family has no such tag, the checkerboard looks the same upside down, the target "
+           "does not fit on the paper, or a file or standard output cannot be written"},
           {"64", kParser}}});
 }
 

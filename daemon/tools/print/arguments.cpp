@@ -24,6 +24,17 @@ std::vector<std::string> namesOf(const Values& values) {
     return out;
 }
 
+/// Refuses ids with leading zeros. CLI11 would read them as octal numbers.
+CLI::Validator decimal() {
+    return CLI::Validator(
+        [](const std::string& text) {
+            return text.size() > 1 && text[0] == '0'
+                       ? text + ": ids are written without leading zeros"
+                       : std::string();
+        },
+        "");
+}
+
 CLI::Validator svgFile() {
     return CLI::Validator(
         [](const std::string& name) {
@@ -34,7 +45,7 @@ CLI::Validator svgFile() {
 
 void addPage(CLI::App& command, PrintArguments& a) {
     command.add_option("--paper", a.paper, "paper to print on")
-        ->check(CLI::IsMember(namesOf(kPapers)))
+        ->transform(CLI::IsMember(namesOf(kPapers), CLI::ignore_case))
         ->capture_default_str();
     command.add_option("--out", a.out, "file to write; its name must end with .svg")
         ->required()
@@ -43,44 +54,62 @@ void addPage(CLI::App& command, PrintArguments& a) {
     command.failure_message(commandFailure);
 }
 
-}  // namespace
-
-PrintParser::PrintParser() {
-    PrintArguments& a = arguments;
-    tags = app.add_subcommand("tags", "draw one page with AprilTags");
-    tags->add_option("id", a.ids, "ids of the tags")->required()->check(CLI::Range(0, kLargestId));
-    tags->add_option("--family", a.family, "family of the tags")
+CLI::App* addTags(CLI::App& app, PrintArguments& a) {
+    CLI::App* command = app.add_subcommand("tags", "draw one page with AprilTags");
+    command->add_option("id", a.ids, "ids of the tags")
+        ->required()
+        ->check(CLI::Range(0, kLargestId))
+        ->check(decimal());
+    command->add_option("--family", a.family, "family of the tags")
         ->check(CLI::IsMember(namesOf(kTagFamilies)))
         ->capture_default_str();
-    tags->add_option("--size", a.tagSize, "edge of a tag between its outer corners [m]")
+    command
+        ->add_option(
+            "--size", a.tagSize,
+            "distance between two adjacent corners of a tag [m], as tag_size in mfard.toml")
         ->check(numberFrom(kSmallest, kLargest))
         ->capture_default_str();
-    addPage(*tags, a);
+    addPage(*command, a);
+    return command;
+}
 
-    grid = app.add_subcommand("aprilgrid",
-                              "draw an AprilGrid for mfar-calibrate, and write its description for "
-                              "--aprilgrid into a file of the same name with the ending .yaml");
+CLI::App* addGrid(CLI::App& app, PrintArguments& a) {
+    CLI::App* command = app.add_subcommand(
+        "aprilgrid", "draw an AprilGrid for mfar-calibrate, and write its description for "
+                     "--aprilgrid into a file of the same name that ends with .yaml");
     for (const auto& [name, value, what] : {std::tuple("--columns", &a.columns, "tags in a row"),
                                             std::tuple("--rows", &a.rows, "rows of tags")})
-        grid->add_option(name, *value, what)
+        command->add_option(name, *value, what)
             ->check(CLI::Range(1, kMostTags))
             ->capture_default_str();
-    grid->add_option("--spacing", a.spacing, "gap between tags, divided by the edge of a tag")
+    command->add_option("--spacing", a.spacing, "gap between tags, divided by the edge of a tag")
         ->check(numberFrom(0.1, 1))
         ->capture_default_str();
-    grid->add_option("--size", a.gridTagSize,
+    command
+        ->add_option("--size", a.gridTagSize,
                      "edge of a tag [m]; default: the largest whole number of mm that fits")
         ->check(numberFrom(kSmallest, kLargest));
-    addPage(*grid, a);
+    addPage(*command, a);
+    return command;
+}
 
-    board = app.add_subcommand("checkerboard", "draw a checkerboard for mfar-calibrate");
-    board->add_option("corners", a.board, "numbers of inner corners")->capture_default_str();
-    board
+CLI::App* addBoard(CLI::App& app, PrintArguments& a) {
+    CLI::App* command =
+        app.add_subcommand("checkerboard", "draw a checkerboard for mfar-calibrate");
+    command->add_option("corners", a.board, "numbers of inner corners")->capture_default_str();
+    command
         ->add_option("--square", a.square,
                      "edge of a square [m]; default: the largest whole number of mm that fits")
         ->check(numberFrom(kSmallest, kLargest));
-    addPage(*board, a);
+    addPage(*command, a);
+    return command;
+}
 
+}  // namespace
+
+PrintParser::PrintParser()
+    : tags(addTags(app, arguments)), grid(addGrid(app, arguments)),
+      board(addBoard(app, arguments)) {
     app.require_subcommand(1);
     app.failure_message(commandFailure);
 }

@@ -25,8 +25,8 @@ struct PrintParser {
     PrintParser();
 
     CLI::App app{"Draws tags and calibration targets to print, as SVG files", "mfar-print"};
-    CLI::App *tags, *grid, *board;
     PrintArguments arguments;
+    CLI::App *tags, *grid, *board;  ///< the commands
 };
 
 }  // namespace mfar::print

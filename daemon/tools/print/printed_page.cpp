@@ -32,12 +32,12 @@ std::string pathOf(const std::vector<Box>& boxes, double left, double top) {
 
 /// Returns a ruler from x = `left` on. Its middle line is at height `y`.
 std::string rulerAt(double left, double y) {
-    std::string out = svg::line(left, y, left + kRuler, y, "#000", 0.2);
-    for (int cm = 0; cm <= 10; ++cm) {
-        const double x = left + kRuler * cm / 10;
-        out += svg::line(x, y - kTick, x, y + kTick, "#000", 0.2);
-    }
-    return out;
+    std::string out = fmt::format(
+        "<path stroke=\"#000\" stroke-width=\"0.2\" d=\"M{:.3f},{:.3f}h{:g}", left, y, kRuler);
+    for (int cm = 0; cm <= 10; ++cm)
+        fmt::format_to(std::back_inserter(out), "M{:.3f},{:.3f}v{:g}", left + kRuler * cm / 10,
+                       y - kTick, 2 * kTick);
+    return out + "\"/>\n";
 }
 
 }  // namespace
@@ -47,9 +47,9 @@ const Paper& paperNamed(std::string_view name) {
 }
 
 Page::Page(const Paper& paper, bool turned)
-    : size_(sizeOf(paper, turned)), free_(free(paper, turned)) {}
+    : size_(sizeOf(paper, turned)), free_(freeArea(paper, turned)) {}
 
-Area Page::free(const Paper& paper, bool turned) {
+Area Page::freeArea(const Paper& paper, bool turned) {
     const Area page = sizeOf(paper, turned);
     return {page.width - 2 * kMargin, page.height - 2 * kMargin - kFooter};
 }

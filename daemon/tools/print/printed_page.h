@@ -43,7 +43,7 @@ public:
 
     /// The part of the page that is free for a target. Printers cannot print up to the edge, and
     /// the lowest part has a ruler and the description.
-    [[nodiscard]] static Area free(const Paper& paper, bool turned);
+    [[nodiscard]] static Area freeArea(const Paper& paper, bool turned);
 
     /// Adds a rectangle to the target. The coordinates are relative to the target's upper left
     /// corner.

@@ -11,9 +11,10 @@
 namespace mfar::print {
 namespace {
 
-constexpr double kMm = 1000;        // mm per m
-constexpr double kLabelHeight = 7;  // of a tag's number, below the tag
-constexpr double kRounding = 1e-6;  // tolerance for rounding errors
+constexpr double kMm = 1000;                          // mm per m
+constexpr double kLabelHeight = 7, kLabelWidth = 16;  // of a tag's number, below the tag
+constexpr double kGap = 5;                            // between tags, to cut them apart
+constexpr double kRounding = 1e-6;                    // tolerance for rounding errors
 
 bool fits(const Area& target, const Area& free) {
     return target.width <= free.width + kRounding && target.height <= free.height + kRounding;
@@ -22,11 +23,11 @@ bool fits(const Area& target, const Area& free) {
 /// Returns true if the target needs the paper turned by 90 degrees. Returns false if it fits
 /// upright or not at all.
 bool isTurned(const Area& target, const Paper& paper) {
-    return !fits(target, Page::free(paper, false)) && fits(target, Page::free(paper, true));
+    return !fits(target, Page::freeArea(paper, false)) && fits(target, Page::freeArea(paper, true));
 }
 
 bool fits(const Area& target, const Paper& paper) {
-    return fits(target, Page::free(paper, isTurned(target, paper)));
+    return fits(target, Page::freeArea(paper, isTurned(target, paper)));
 }
 
 /// Returns the largest whole number of mm [m] for which a target fits, if its sides are `perUnit`
@@ -34,7 +35,7 @@ bool fits(const Area& target, const Paper& paper) {
 double largestUnit(const Area& perUnit, const Paper& paper) {
     double out = 0;
     for (const bool turned : {false, true}) {
-        const Area free = Page::free(paper, turned);
+        const Area free = Page::freeArea(paper, turned);
         const double mm =
             std::min(free.width / perUnit.width, free.height / perUnit.height) + kRounding;
         out = std::max(out, std::floor(mm));
@@ -61,22 +62,26 @@ Area gridPerTag(int columns, int rows, double spacing) {
     return {columns * (1 + spacing) + spacing, rows * (1 + spacing) + spacing};
 }
 
-/// The places of several tags on a page. Each has the size `block`.
+/// The places of several tags on a page. Each has the size `block`, and there are gaps between
+/// them.
 struct Places {
     bool turned = false;
     int columns = 0, rows = 0;
 
     [[nodiscard]] int count() const { return columns * rows; }
 };
-Places placesFor(const Area& block, const Paper& paper) {
+/// Returns the places on the paper: turned by 90 degrees only if `wanted` places do not fit
+/// upright.
+Places placesFor(int wanted, const Area& block, const Paper& paper) {
     Places best;
     for (const bool turned : {false, true}) {
-        const Area free = Page::free(paper, turned);
+        const Area free = Page::freeArea(paper, turned);
         const auto count = [](double length, double part) {
-            return static_cast<int>(std::floor(length / part + kRounding));
+            return static_cast<int>(std::floor((length + kGap) / (part + kGap) + kRounding));
         };
         const Places own{turned, count(free.width, block.width), count(free.height, block.height)};
         if (own.count() > best.count()) best = own;
+        if (best.count() >= wanted) break;
     }
     return best;
 }
@@ -84,7 +89,7 @@ Places placesFor(const Area& block, const Paper& paper) {
 void requirePlaces(int count, const Places& places, double size, const Paper& paper) {
     if (places.count() == 0)
         throw std::runtime_error(fmt::format(
-            "a tag of {:g} m with its white rim does not fit on {}", size, paper.title));
+            "a tag of {:g} m with the cells around it does not fit on {}", size, paper.title));
     if (count > places.count())
         throw std::runtime_error(fmt::format("{} tags of {:g} m do not fit on {}, only {}", count,
                                              size, paper.title, places.count()));
@@ -105,24 +110,24 @@ std::string tagPage(TagFamily family, std::span<const int> ids, double size, con
     requireIds(of, ids);
     const TagPicture first = drawTag({family, ids.front()});
     const double cell = size * kMm / (first.size - 2 * first.corner);
-    const Area block{first.size * cell, first.size * cell + kLabelHeight};
-    const Places places = placesFor(block, paper);
+    const double side = first.size * cell;
+    const Area block{std::max(side, kLabelWidth), side + kLabelHeight};
     const auto count = static_cast<int>(ids.size());
+    const Places places = placesFor(count, block, paper);
     requirePlaces(count, places, size, paper);
     Page page(paper, places.turned);
-    const int columns = std::min(count, places.columns);
+    const int columns = std::min(count, places.columns), rows = (count + columns - 1) / columns;
     for (int i = 0; i < count; ++i) {
-        const int id = ids[static_cast<std::size_t>(i)];
-        const int row = i / columns;
-        const double left = i % columns * block.width, top = row * block.height;
-        addTag(page, drawTag({family, id}), left, top, cell);
-        page.add(
-            Label{left + 0.5 * block.width, top + block.height - 2, fmt::format("tag {}", id)});
+        const int id = ids[static_cast<std::size_t>(i)], row = i / columns;
+        const double left = i % columns * (block.width + kGap), top = row * (block.height + kGap);
+        const double middle = left + 0.5 * block.width;
+        addTag(page, drawTag({family, id}), middle - 0.5 * side, top, cell);
+        page.add(Label{middle, top + block.height - 2, fmt::format("tag {}", id)});
     }
-    const int rows = (count + columns - 1) / columns;
-    return page.svg(
-        {columns * block.width, rows * block.height},
-        fmt::format("{}, {:g} mm between the outer corners of a tag", of.name, size * kMm));
+    const char* const edge =
+        of.brightInside ? "along the inner white square" : "between the outer corners";
+    return page.svg({columns * (block.width + kGap) - kGap, rows * (block.height + kGap) - kGap},
+                    fmt::format("{}, {:g} mm {} of a tag", of.name, size * kMm, edge));
 }
 
 std::string gridPage(const calibration::Target& grid, const Paper& paper) {
@@ -131,8 +136,8 @@ std::string gridPage(const calibration::Target& grid, const Paper& paper) {
     const Area area{perTag.width * tag, perTag.height * tag};
     if (!fits(area, paper))
         throw std::runtime_error(fmt::format(
-            "an AprilGrid of {} x {} tags with an edge of {:g} m does not fit on {}; the longest "
-            "edge that fits is {:g} m",
+            "an AprilGrid of {} x {} tags with an edge of {:g} m does not fit on {}; in "
+            "whole mm, at most {:g} m fit",
             grid.columns, grid.rows, grid.size, paper.title,
             largestTag(grid.columns, grid.rows, grid.spacing, paper)));
     Page page(paper, isTurned(area, paper));
@@ -148,9 +153,11 @@ std::string gridPage(const calibration::Target& grid, const Paper& paper) {
             addTag(page, picture, gap + column * pitch - picture.corner * cell,
                    gap + row * pitch - picture.corner * cell, cell);
         }
-    return page.svg(area,
-                    fmt::format("AprilGrid of {} x {} tags, edge of a tag {:g} mm, gap {:g} mm",
-                                grid.columns, grid.rows, tag, gap));
+    return page.svg(
+        area,
+        fmt::format(
+            "AprilGrid of {} x {} tags, edge of a tag {:g} mm, gap {:g} mm, in all {:g} x {:g} mm",
+            grid.columns, grid.rows, tag, gap, area.width, area.height));
 }
 
 std::string boardPage(const calibration::Target& board, const Paper& paper) {
@@ -159,16 +166,18 @@ std::string boardPage(const calibration::Target& board, const Paper& paper) {
     const Area area{columns * square, rows * square};
     if (!fits(area, paper))
         throw std::runtime_error(fmt::format(
-            "a checkerboard of {}x{} inner corners with squares of {:g} m does not fit on {}; the "
-            "largest squares that fit have {:g} m",
+            "a checkerboard of {}x{} inner corners with squares of {:g} m does not fit on {}; in "
+            "whole mm, at most {:g} m fit",
             board.columns, board.rows, board.size, paper.title,
             largestSquare(board.columns, board.rows, paper)));
     Page page(paper, isTurned(area, paper));
     for (int row = 0; row < rows; ++row)
         for (int column = row % 2; column < columns; column += 2)
             page.add(Box{column * square, row * square, (column + 1) * square, (row + 1) * square});
-    return page.svg(area, fmt::format("Checkerboard of {}x{} inner corners, squares of {:g} mm",
-                                      board.columns, board.rows, square));
+    return page.svg(
+        area, fmt::format(
+                  "Checkerboard of {}x{} inner corners, squares of {:g} mm, in all {:g} x {:g} mm",
+                  board.columns, board.rows, square, area.width, area.height));
 }
 
 double largestTag(int columns, int rows, double spacing, const Paper& paper) {
