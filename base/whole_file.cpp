@@ -82,6 +82,10 @@ std::filesystem::path replacedBy(const std::filesystem::path& file) {
     return error ? file : target;
 }
 
+std::span<const std::uint8_t> bytesOf(std::string_view text) {
+    return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
+}
+
 int renamePart(const std::filesystem::path& file) {
     return std::rename(partOf(file).c_str(), file.c_str()) == 0 ? 0 : errno;
 }
@@ -99,6 +103,11 @@ void writeWholeFile(const std::filesystem::path& file, std::span<const std::uint
     if (durability == Durability::OnReturn) syncFolder(target.parent_path());
 }
 
+void writeWholeFile(const std::filesystem::path& file, std::string_view text,
+                    Durability durability) {
+    writeWholeFile(file, bytesOf(text), durability);
+}
+
 void writeWholeFiles(std::span<const NewFile> files) {
     std::vector<NewFile> targets(files.begin(), files.end());
     for (NewFile& one : targets)
@@ -112,10 +121,7 @@ void writeWholeFiles(std::span<const NewFile> files) {
             check(files[i].file, error);
         }
     };
-    run([](const NewFile& one) {
-        const auto* const bytes = reinterpret_cast<const std::uint8_t*>(one.text.data());
-        return writePart(one.file, {bytes, one.text.size()}, true);
-    });
+    run([](const NewFile& one) { return writePart(one.file, bytesOf(one.text), true); });
     run([](const NewFile& one) { return renamePart(one.file); });
     for (const NewFile& one : targets)
         syncFolder(one.file.parent_path());
@@ -130,7 +136,7 @@ void appendToFile(const std::filesystem::path& file, std::string_view text) {
     const int fd = open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
     if (fd < 0) check(file, errno);
     const off_t before = lseek(fd, 0, SEEK_END);
-    int error = writeAll(fd, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+    int error = writeAll(fd, bytesOf(text));
     // Remove the part that was written, because half a line would make the whole file unreadable.
     // If ftruncate() fails as well, nothing more can be done.
     if (error != 0) [[maybe_unused]]

@@ -20,6 +20,9 @@ enum class Durability {
 /// may be written. Thread-safe. Throws std::runtime_error "file: reason", also if the disk is full.
 void writeWholeFile(const std::filesystem::path& file, std::span<const std::uint8_t> bytes,
                     Durability durability = Durability::OnReturn);
+/// The same for a text.
+void writeWholeFile(const std::filesystem::path& file, std::string_view text,
+                    Durability durability = Durability::OnReturn);
 
 struct NewFile {
     std::filesystem::path file;

@@ -240,9 +240,7 @@ void App::writeReport(const nlohmann::ordered_json& results) {
     const std::string page =
         reportPage(results, stats_.history(), stats_.pictures(), "written " + written);
     try {
-        writeWholeFile(*options_.report,
-                       {reinterpret_cast<const std::uint8_t*>(page.data()), page.size()},
-                       Durability::WithSync);
+        writeWholeFile(*options_.report, page, Durability::WithSync);
     } catch (const std::runtime_error& error) {
         throw std::runtime_error(fmt::format("the report cannot be written: {}", error.what()));
     }

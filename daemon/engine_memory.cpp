@@ -53,7 +53,7 @@ bool rememberEngines(const std::filesystem::path& file, const std::string& key,
     all[key] = describe(choice);
     const std::string text = all.dump(2) + '\n';
     try {
-        writeWholeFile(file, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+        writeWholeFile(file, text);
         return true;
     } catch (const std::runtime_error&) {
         return false;

@@ -62,7 +62,7 @@ void noteTakenLine(const std::filesystem::path& file, const TriggerLineConfig& l
         throw std::runtime_error("the name of the GPIO chip or line is too long or not printable");
     const std::string text =
         fmt::format("chip={}\nline={}\nactive_low={}\n", line.chip, line.line, line.activeLow);
-    writeWholeFile(file, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+    writeWholeFile(file, text);
 }
 
 std::optional<TriggerLineConfig> takenLine(const std::filesystem::path& file) {

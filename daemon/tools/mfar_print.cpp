@@ -17,10 +17,8 @@
 namespace mfar::print {
 namespace {
 
-constexpr int kFamilySize = info(TagFamily::Tag36h11).count;
-
 void write(const std::filesystem::path& file, const std::string& text) {
-    writeWholeFile(file, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+    writeWholeFile(file, text);
     fmt::print("written: {}\n", file.string());
 }
 
@@ -44,10 +42,10 @@ void requireReplaceable(const std::filesystem::path& description) {
 }
 
 void printGrid(const PrintArguments& a) {
-    if (a.columns * a.rows > kFamilySize)
+    if (a.columns * a.rows > calibration::kGridFamily.count)
         throw std::runtime_error(
             fmt::format("the AprilGrid has {} tags, but its family has only {}", a.columns * a.rows,
-                        kFamilySize));
+                        calibration::kGridFamily.count));
     const Paper& paper = paperNamed(a.paper);
     const double size =
         a.gridTagSize > 0 ? a.gridTagSize : largestTag(a.columns, a.rows, a.spacing, paper);

@@ -106,9 +106,7 @@ float readFloat(const char* p, bool bigEndian) {
 
 void save(const fs::path& file, const std::string& content) {
     try {
-        writeWholeFile(file,
-                       {reinterpret_cast<const std::uint8_t*>(content.data()), content.size()},
-                       Durability::WithSync);
+        writeWholeFile(file, content, Durability::WithSync);
     } catch (const std::runtime_error& e) {
         throw ImageFileError(e.what());
     }

@@ -171,6 +171,10 @@ protected:
             ASSERT_EQ(with.last.size, whole.last.size);
             EXPECT_LT(meanDifference(with.last, whole.last), 0.1);
         }
+        int all = 0;
+        for (const auto& [call, count] : losses)
+            all += count;
+        EXPECT_GT(all, 10);
         for (const std::string_view call : calls)
             EXPECT_GT(losses[std::string(call)], 0) << "no context was lost at " << call;
     }

@@ -8,7 +8,8 @@ namespace {
 struct Heard final : MatchListener {
     int times = 0, replacements = 0;
     int weighed = 0;  ///< cells of all reports with a weight above 0.5
-    // Of the last report of replaced():
+    // Values of the last report by replaced(): number of such cells, a level of the video and one
+    // of the still.
     int lastWeighed = 0, lastLuma = -1, lastStill = -1;
     void replaced(const RgbPlanes& video, Rows<const std::uint8_t> still,
                   Rows<const LookUpCell> lookUps,

@@ -11,9 +11,6 @@
 namespace mfar::calibration {
 namespace {
 
-constexpr int kMaxSide = 50;
-constexpr int kFamilySize = 587;
-
 int wholeNumber(const YamlReader& in, const char* key, int least, int most) {
     const YAML::Node node = in.at(key);
     const double value = in.number(node, key);
@@ -49,9 +46,9 @@ Target aprilGrid(int columns, int rows, double tagSize, double spacing, int firs
 }
 
 Target checkerboard(int columns, int rows, double square) {
-    if (!(columns >= 3 && columns <= kMaxSide && rows >= 3 && rows <= kMaxSide))
-        throw std::runtime_error(
-            fmt::format("a checkerboard needs 3 to {} inner corners along each side", kMaxSide));
+    if (!(columns >= 3 && columns <= kMostPerSide && rows >= 3 && rows <= kMostPerSide))
+        throw std::runtime_error(fmt::format(
+            "a checkerboard needs 3 to {} inner corners along each side", kMostPerSide));
     if ((columns + rows) % 2 == 0)
         throw std::runtime_error(
             fmt::format("a checkerboard of {}x{} inner corners looks the same upside down: one "
@@ -87,13 +84,13 @@ Target readAprilGrid(const std::filesystem::path& file) {
         if (const std::string type = in.word(kind, "target_type"); type != "aprilgrid")
             in.fail(kind,
                     fmt::format("target_type '{}' is not supported; expected aprilgrid", type));
-        const int columns = wholeNumber(in, "tagCols", 1, kMaxSide);
-        const int rows = wholeNumber(in, "tagRows", 1, kMaxSide);
-        if (columns * rows > kFamilySize)
+        const int columns = wholeNumber(in, "tagCols", 1, kMostPerSide);
+        const int rows = wholeNumber(in, "tagRows", 1, kMostPerSide);
+        if (columns * rows > kGridFamily.count)
             in.fail(fmt::format("the target has {} tags, but family 36h11 has only {}",
-                                columns * rows, kFamilySize));
+                                columns * rows, kGridFamily.count));
         const int first = in.has("codeOffset")
-                              ? wholeNumber(in, "codeOffset", 0, kFamilySize - columns * rows)
+                              ? wholeNumber(in, "codeOffset", 0, kGridFamily.count - columns * rows)
                               : 0;
         out = aprilGrid(columns, rows, length(in, "tagSize", 10), length(in, "tagSpacing", 10),
                         first);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/time.h"
+#include "pipeline/track/tag_family.h"
 
 #include <Eigen/Core>
 
@@ -9,6 +10,11 @@
 #include <vector>
 
 namespace mfar::calibration {
+
+/// Largest number of tags or inner corners along a side of a target.
+inline constexpr int kMostPerSide = 50;
+/// Family of the tags of an AprilGrid.
+inline constexpr const TagFamilyInfo& kGridFamily = info(TagFamily::Tag36h11);
 
 enum class TargetKind { AprilGrid, Checkerboard };
 

@@ -2,6 +2,7 @@
 
 #include "daemon/number_range.h"
 #include "daemon/output_checks.h"
+#include "daemon/tools/calibrate/target.h"
 #include "daemon/tools/command_failure.h"
 #include "daemon/tools/print/printed_page.h"
 #include "pipeline/track/tag_family.h"
@@ -13,7 +14,6 @@ namespace mfar::print {
 namespace {
 
 constexpr double kSmallest = 0.002, kLargest = 1;  // limits of the edges of tags and squares [m]
-constexpr int kMostTags = 50;                      // along a side of an AprilGrid
 constexpr int kLargestId = std::ranges::max(kTagFamilies, {}, &TagFamilyInfo::count).count - 1;
 
 template <class Values>
@@ -80,7 +80,7 @@ CLI::App* addGrid(CLI::App& app, PrintArguments& a) {
     for (const auto& [name, value, what] : {std::tuple("--columns", &a.columns, "tags in a row"),
                                             std::tuple("--rows", &a.rows, "rows of tags")})
         command->add_option(name, *value, what)
-            ->check(CLI::Range(1, kMostTags))
+            ->check(CLI::Range(1, calibration::kMostPerSide))
             ->capture_default_str();
     command->add_option("--spacing", a.spacing, "gap between tags, divided by the edge of a tag")
         ->check(numberFrom(0.1, 1))

@@ -16,20 +16,6 @@ constexpr double kLabelHeight = 7, kLabelWidth = 16;  // of a tag's number, belo
 constexpr double kGap = 5;                            // between tags, to cut them apart
 constexpr double kRounding = 1e-6;                    // tolerance for rounding errors
 
-bool fits(const Area& target, const Area& free) {
-    return target.width <= free.width + kRounding && target.height <= free.height + kRounding;
-}
-
-/// Returns true if the target needs the paper turned by 90 degrees. Returns false if it fits
-/// upright or not at all.
-bool isTurned(const Area& target, const Paper& paper) {
-    return !fits(target, Page::freeArea(paper, false)) && fits(target, Page::freeArea(paper, true));
-}
-
-bool fits(const Area& target, const Paper& paper) {
-    return fits(target, Page::freeArea(paper, isTurned(target, paper)));
-}
-
 /// Returns the largest whole number of mm [m] for which a target fits, if its sides are `perUnit`
 /// times as long.
 double largestUnit(const Area& perUnit, const Paper& paper) {
@@ -62,8 +48,7 @@ Area gridPerTag(int columns, int rows, double spacing) {
     return {columns * (1 + spacing) + spacing, rows * (1 + spacing) + spacing};
 }
 
-/// The places of several tags on a page. Each has the size `block`, and there are gaps between
-/// them.
+/// The places of blocks of one size on a page, with gaps between them.
 struct Places {
     bool turned = false;
     int columns = 0, rows = 0;
@@ -134,13 +119,14 @@ std::string gridPage(const calibration::Target& grid, const Paper& paper) {
     const double tag = grid.size * kMm, gap = grid.spacing * tag, pitch = tag + gap;
     const Area perTag = gridPerTag(grid.columns, grid.rows, grid.spacing);
     const Area area{perTag.width * tag, perTag.height * tag};
-    if (!fits(area, paper))
+    const Places places = placesFor(1, area, paper);
+    if (places.count() == 0)
         throw std::runtime_error(fmt::format(
             "an AprilGrid of {} x {} tags with an edge of {:g} m does not fit on {}; in "
             "whole mm, at most {:g} m fit",
             grid.columns, grid.rows, grid.size, paper.title,
             largestTag(grid.columns, grid.rows, grid.spacing, paper)));
-    Page page(paper, isTurned(area, paper));
+    Page page(paper, places.turned);
     for (int row = 0; row <= grid.rows; ++row)
         for (int column = 0; column <= grid.columns; ++column)
             page.add(Box{column * pitch, row * pitch, column * pitch + gap, row * pitch + gap});
@@ -148,7 +134,7 @@ std::string gridPage(const calibration::Target& grid, const Paper& paper) {
         for (int column = 0; column < grid.columns; ++column) {
             // The lowest row has the first tags.
             const int id = grid.firstId + (grid.rows - 1 - row) * grid.columns + column;
-            const TagPicture picture = drawTag({TagFamily::Tag36h11, id});
+            const TagPicture picture = drawTag({calibration::kGridFamily.family, id});
             const double cell = tag / (picture.size - 2 * picture.corner);
             addTag(page, picture, gap + column * pitch - picture.corner * cell,
                    gap + row * pitch - picture.corner * cell, cell);
@@ -164,13 +150,14 @@ std::string boardPage(const calibration::Target& board, const Paper& paper) {
     const double square = board.size * kMm;
     const int columns = board.columns + 1, rows = board.rows + 1;
     const Area area{columns * square, rows * square};
-    if (!fits(area, paper))
+    const Places places = placesFor(1, area, paper);
+    if (places.count() == 0)
         throw std::runtime_error(fmt::format(
             "a checkerboard of {}x{} inner corners with squares of {:g} m does not fit on {}; in "
             "whole mm, at most {:g} m fit",
             board.columns, board.rows, board.size, paper.title,
             largestSquare(board.columns, board.rows, paper)));
-    Page page(paper, isTurned(area, paper));
+    Page page(paper, places.turned);
     for (int row = 0; row < rows; ++row)
         for (int column = row % 2; column < columns; column += 2)
             page.add(Box{column * square, row * square, (column + 1) * square, (row + 1) * square});
