@@ -320,27 +320,6 @@ Film::Means Film::means(std::size_t pixel) const {
     return meansOf(at(pixel));
 }
 
-void Film::remember(std::size_t pixel, const LightPixel& light) {
-    if (light.id == 0 || !(light.firstCount > 0 && light.secondCount > 0)) return;
-    if (!isSeen(pixel)) return;
-    Pixel& p = begun(pixel);
-    if (p.taken > 0) return;
-    KnownLight& carried = p.carried;
-    if (!(carried.firstCount > 0)) {
-        carried.first = light.first.matrix();
-        // On the shadow catcher, `first` is the change of the light by objects. If it is zero, the
-        // pixel counts as untouched by objects.
-        const bool untouched = light.id == kCatcherId && carried.first.isZero(0);
-        carried.firstSquare =
-            untouched ? 0 : squared(luminanceOf(carried.first)) + light.firstVariance;
-        carried.firstCount = untouched ? kEnough : 1;
-    }
-    if (carried.secondCount > 0) return;
-    carried.second = light.second.matrix();
-    carried.secondSquare = squared(luminanceOf(carried.second)) + light.secondVariance;
-    carried.secondCount = 1;
-}
-
 LightPixel Film::light(std::size_t pixel, const Exposure& exposure) const {
     // Noise up to this limit is invisible [grey levels].
     constexpr float kUnseen = 0.3F;

@@ -133,10 +133,6 @@ public:
     /// Returns a pixel's light as input of a NoiseFilter. resolvedFrom() converts the filter's
     /// output to a pixel.
     [[nodiscard]] LightPixel light(std::size_t pixel, const Exposure& exposure) const;
-    /// Stores filtered light as carried light in a pixel that shows a surface and has no samples.
-    /// If the pixel already carries a part of its light (`first` or `second`), this part stays
-    /// unchanged.
-    void remember(std::size_t pixel, const LightPixel& light);
     /// Returns a pixel of the picture from filtered light. At an edge, the pixel shows a mixture of
     /// all its surfaces. If `layered` is true, it shows only the surface that has the filtered
     /// light.

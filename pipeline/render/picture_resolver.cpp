@@ -13,10 +13,9 @@ constexpr int kAhead = 4;
 
 void PictureResolver::begin(const Film& film, const RenderView& view, const PixelRect& traced,
                             const Exposure& exposure, bool filter, RenderedPicture& out,
-                            Film* memory, bool layered) {
+                            bool layered) {
     const Size size = film.size();
     film_ = &film;
-    memory_ = filter ? memory : nullptr;
     traced_ = common(traced, {0, 0, size.width, size.height});
     if (traced_.empty()) traced_ = {};
     exposure_ = exposure;
@@ -92,7 +91,7 @@ void PictureResolver::prepare(int row) {
     for (int x = traced_.x0; x < traced_.x1; ++x) {
         const std::size_t i = begin + x;
         if (x + kAhead < traced_.x1) film_->prefetch(i + kAhead);
-        if (film_->isSeen(i) || film_->samples(i) > 0)
+        if (isTraced(i))
             filter_.pixels()[i] = film_->light(i, exposure_);
         else
             filter_.pixels()[i].id = 0;
@@ -125,13 +124,9 @@ void PictureResolver::write(int row) {
     }
 }
 
-Film::Resolved PictureResolver::filtered(int x, int y) {
+Film::Resolved PictureResolver::filtered(int x, int y) const {
     const std::size_t i = static_cast<std::size_t>(y) * film_->size().width + x;
-    if (memory_ == nullptr || film_->isSeen(i)) {
-        const LightPixel& light = filter_.filtered()[i];
-        if (memory_ != nullptr) memory_->remember(i, light);
-        return film_->resolvedFrom(light, i, exposure_, out_->layered);
-    }
+    if (isTraced(i)) return film_->resolvedFrom(filter_.filtered()[i], i, exposure_, out_->layered);
     const LightPixel light = between(x, y);
     Film::Resolved out = film_->resolvedFrom(light, i, exposure_, true);
     if (out.colour != std::array<std::uint8_t, 4>{}) out.hit = {light.depth, light.id};

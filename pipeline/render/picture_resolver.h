@@ -22,14 +22,10 @@ public:
     /// Begins a picture. Pixels outside `traced` become empty. `film` and `out` must exist until
     /// the picture is complete.
     /// `layered` has an effect only if `filter` is true; see RenderedPicture.
-    /// `memory` must be null or the film. If it is the film and `filter` is true, the resolver does
-    /// two more things. First, it stores the filter's result as carried light in each pixel that
-    /// shows a surface, has no samples and carries no light yet (Film::remember()). Second,
-    /// a pixel through whose centre no ray was traced gets the mean of its neighbours with even
-    /// column and even row that show the shadow catcher.
+    /// With a filter, a pixel through which no ray was traced gets the mean of its neighbours with
+    /// even column and even row that show the shadow catcher.
     void begin(const Film& film, const RenderView& view, const PixelRect& traced,
-               const Exposure& exposure, bool filter, RenderedPicture& out, Film* memory = nullptr,
-               bool layered = false);
+               const Exposure& exposure, bool filter, RenderedPicture& out, bool layered = false);
 
     /// Resizes the arrays for a later begin(), which then takes little time.
     void reserve(Size size, bool filter, RenderedPicture& out);
@@ -55,11 +51,13 @@ private:
     [[nodiscard]] int rowsEnd() const;
     void prepare(int row);
     void write(int row);
-    [[nodiscard]] Film::Resolved filtered(int x, int y);
+    [[nodiscard]] bool isTraced(std::size_t pixel) const {
+        return film_->isSeen(pixel) || film_->samples(pixel) > 0;
+    }
+    [[nodiscard]] Film::Resolved filtered(int x, int y) const;
     [[nodiscard]] LightPixel between(int x, int y) const;
 
     const Film* film_ = nullptr;
-    Film* memory_ = nullptr;
     PixelRect traced_;
     Exposure exposure_;
     bool filters_ = false;

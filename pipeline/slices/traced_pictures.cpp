@@ -22,6 +22,16 @@ constexpr double kBack = 0.5;
 constexpr double kHopeless = 3;
 // The shown picture is converted again when its number of samples has grown by this factor.
 constexpr int kSamplesRatio = 2;
+// A conversion takes about as long as sampling a tenth to a half of the pixels. So the next
+// conversion begins only after tracing took this many times as long as the last conversion. While
+// the camera moves, factors of 2.5 to 4 gave the best pictures; 6 and 0 were 0.2 dB worse.
+constexpr double kTracedPerConverted = 4;
+// After this number of turns (passes over the pixels, see Slices), a quarter of the pixels has a
+// sample. From then on, a picture may be shown. While an object moves, the next picture does not
+// begin earlier. If there is no usable picture yet and sampling has taken kLongWait [s], a picture
+// with samples in one pixel of 16 may be shown, one turn earlier.
+constexpr int kQuarterTurn = 3;
+constexpr double kLongWait = 0.25;
 // The camera rests if it moves by less than kRestPixels in kRestLooks calls of look(). At rest, the
 // shown picture should not need to be warped. So a new picture begins if objects in the shown
 // picture are more than kElsewherePixels away from their present places.
@@ -31,14 +41,9 @@ constexpr int kRestLooks = 10;
 // [samples]. The second limit applies after a change of lighting. It is low, so that new samples
 // soon outweigh the old light.
 constexpr float kMostCarried = 64, kMostCarriedElsewhere = 4;
-constexpr int kLookTurn = 1;
 // Tolerated motion of an object's shadow since the shown picture [px], see motionSince(). The
 // shadow is assumed to move as far as the object.
 constexpr double kShadowPixels = 1;
-// While an object moves, the next picture does not begin before the shown picture has this number
-// of complete turns (passes over the pixels, see Slices). By then, a quarter of the pixels has a
-// sample.
-constexpr int kMovingTurns = 3;
 // Light on the shadow catcher is traced again if moving objects may have changed it by more than
 // this share (see MovedLight::diffuseChange()).
 constexpr float kVisible = 0.003F;
@@ -123,7 +128,7 @@ TracedStep TracedPictures::chosenStep() const {
     // So the shown picture gets these samples first, if it still is near enough to the present
     // view.
     const bool lacksSamples =
-        scene_->moves() ? shown.slices.turns() < kMovingTurns : shown.slices.samples() == 0;
+        scene_->moves() ? shown.slices.turns() < kQuarterTurn : shown.slices.samples() == 0;
     if (step == TracedStep::Start && !hasBegun && serves && lacksSamples) return TracedStep::Refine;
     // The next picture is kept while objects move: even if they are now near their positions in the
     // shown picture, they will soon be elsewhere.
@@ -259,21 +264,20 @@ PixelState TracedPictures::Picture::state(std::uint32_t pixel, const Exposure& e
             film->isUntouched(pixel)};
 }
 
-void TracedPictures::done(const Portion& portion, const Exposure& exposure) {
+void TracedPictures::done(const Portion& portion, const Exposure& exposure, double ms) {
     Picture& picture = pictures_[portion.picture];
     --picture.portions;
+    tracedMs_ += ms;
     picture.slices.done(portion.slice,
                         [&](std::uint32_t pixel) { return picture.state(pixel, exposure); });
 }
 
-int TracedPictures::leastSamples(const Picture& picture) const {
-    if (picture.wasShown) return std::max(kSamplesRatio * picture.shownSamples, 1);
+/// True if no shown picture is of use in the present view, or if it has hardly any samples.
+bool TracedPictures::isUrgent(const Picture& picture) const {
     const Picture& shown = pictures_[shown_];
-    if (!shown.scene || shown.scene->objects != picture.scene->objects ||
-        scene_->changeOf(shown.view, now_, policy_.limits) >= kHopeless)
-        return 1;
-    return nextRests_ ? std::max(policy_.samplesToReplace, shown.shownSamples)
-                      : policy_.samplesToReplace;
+    return !shown.scene || shown.shownTurns < kQuarterTurn ||
+           shown.scene->objects != picture.scene->objects ||
+           scene_->changeOf(shown.view, now_, policy_.limits) >= kHopeless;
 }
 
 bool TracedPictures::toShow() const {
@@ -281,14 +285,32 @@ bool TracedPictures::toShow() const {
     if (toBegin_ || !picture.scene || !picture.slices.turnComplete()) return false;
     if (pictures_[1 - working()].portions > 0) return false;
     if (picture.slices.finished()) return !picture.counted;
-    if (isSparse(picture)) return picture.slices.turns() > std::max(picture.shownTurns, kLookTurn);
-    return picture.slices.samples() >= leastSamples(picture);
+    const bool urgent = isUrgent(picture);
+    if (!urgent && tracedMs_ < kTracedPerConverted * convertedMs_) return false;
+    if (picture.slices.samples() > 0)
+        return picture.slices.samples() >= leastSamples(picture, urgent);
+    return maybeSparse(picture) && picture.slices.turns() >= leastTurns(picture, urgent);
+}
+
+/// Number of samples per pixel from which the picture may be shown.
+int TracedPictures::leastSamples(const Picture& picture, bool urgent) const {
+    if (picture.wasShown) return std::max(kSamplesRatio * picture.shownSamples, 1);
+    if (urgent || maybeSparse(picture)) return 1;
+    return nextRests_ ? std::max(policy_.samplesToReplace, pictures_[shown_].shownSamples)
+                      : policy_.samplesToReplace;
+}
+
+/// Number of turns from which a sparsely sampled picture may be shown.
+int TracedPictures::leastTurns(const Picture& picture, bool urgent) const {
+    if (picture.wasShown) return std::max(picture.shownTurns + 1, kQuarterTurn);
+    const double seconds = static_cast<double>((time_ - picture.chosen).count()) * 1e-9;
+    return urgent && seconds > kLongWait ? kQuarterTurn - 1 : kQuarterTurn;
 }
 
 // True if the picture may be shown before every pixel has a sample. While the camera moves,
 // filtered light of few samples is better than no picture or a picture of another view.
-bool TracedPictures::isSparse(const Picture& picture) const {
-    if (picture.rests || !policy_.filter || picture.slices.samples() > 0) return false;
+bool TracedPictures::maybeSparse(const Picture& picture) const {
+    if (picture.rests || !policy_.filter) return false;
     const Picture& shown = pictures_[shown_];
     return &picture == &shown || !shown.scene || (policy_.soon && picture.history);
 }
@@ -296,11 +318,13 @@ bool TracedPictures::isSparse(const Picture& picture) const {
 void TracedPictures::beginShow(const Exposure& exposure, RenderedPicture& out) {
     const Picture& picture = pictures_[working()];
     resolver_.begin(*picture.film, picture.view, picture.traced, exposure, policy_.filter, out,
-                    picture.film.get(), !picture.rests);
+                    !picture.rests);
 }
 
-void TracedPictures::endShow(RenderedPicture& out) {
+void TracedPictures::endShow(RenderedPicture& out, double ms) {
     Picture& picture = pictures_[working()];
+    convertedMs_ = ms;
+    tracedMs_ = 0;
     out.scene = picture.scene->source;
     out.poses = picture.scene->poses;
     out.mirrors = picture.scene->tracer->mirrorLight();

@@ -90,16 +90,19 @@ public:
     };
     [[nodiscard]] Portion next(std::int64_t mostSamples);
     void trace(const Portion& portion);
-    void done(const Portion& portion, const Exposure& exposure);
+    /// `ms`: processor time of trace().
+    void done(const Portion& portion, const Exposure& exposure, double ms);
 
-    /// True if the picture in progress is complete enough to be shown.
+    /// True if the picture in progress should be shown now: it is complete enough, and most of the
+    /// time is spent on tracing, not on showing.
     [[nodiscard]] bool toShow() const;
     /// Begins to convert the picture in progress to `out`. The caller then lets resolver() do the
     /// work in portions. The caller must not call next() until resolver().complete() is true and
     /// endShow() was called.
     void beginShow(const Exposure& exposure, RenderedPicture& out);
     [[nodiscard]] PictureResolver& resolver() { return resolver_; }
-    void endShow(RenderedPicture& out);
+    /// `ms`: processor time of the conversion.
+    void endShow(RenderedPicture& out, double ms);
 
     /// True if the last turn of the picture in progress is complete; see Slices::turnComplete().
     [[nodiscard]] bool turnComplete() const { return pictures_[working()].slices.turnComplete(); }
@@ -141,8 +144,10 @@ private:
     [[nodiscard]] Slices::Density densityOf(const PixelRect& tile, const Picture& picture,
                                             const PixelRect& objects) const;
     [[nodiscard]] bool showsNothing(const PixelRect& tile, const Picture& picture) const;
-    [[nodiscard]] int leastSamples(const Picture& picture) const;
-    [[nodiscard]] bool isSparse(const Picture& picture) const;
+    [[nodiscard]] bool isUrgent(const Picture& picture) const;
+    [[nodiscard]] int leastSamples(const Picture& picture, bool urgent) const;
+    [[nodiscard]] int leastTurns(const Picture& picture, bool urgent) const;
+    [[nodiscard]] bool maybeSparse(const Picture& picture) const;
 
     const SliceOptions slices_;
     const TracedPolicy policy_;
@@ -160,6 +165,8 @@ private:
     std::vector<RigidTransform> posesNow_;  // empty if no object moves
     double period_ = 0;  // time from the start of a picture until it is shown [s], smoothed
     std::uint64_t finished_ = 0;
+    double convertedMs_ = 0;  // processor time of the last conversion [ms]
+    double tracedMs_ = 0;     // processor time of tracing since then [ms]
 };
 
 }  // namespace mfar

@@ -285,7 +285,7 @@ void TracedWorkers::finish(const Job& job, double ms) {
         budget_.spentElsewhere(ms);
         break;
     case Job::Kind::Trace:
-        pictures_.done(job.portion, options_.exposure);
+        pictures_.done(job.portion, options_.exposure, ms);
         budget_.spent(job.grant, samples, ms);
         if (!exclusive_ && pictures_.turnComplete()) wakeOthers();
         return;
@@ -304,9 +304,10 @@ void TracedWorkers::finishRows(const Job& job, double ms) {
     resolveMs_[static_cast<std::size_t>(job.rows.stage)] =
         ms / static_cast<double>(resolver.pixelsOf(job.rows));
     budget_.spent(job.grant, 0, ms);
+    convertedMs_ += ms;
     resolver.done(job.rows);
     if (resolver.complete()) {
-        pictures_.endShow(mail_.pictures.back());
+        pictures_.endShow(mail_.pictures.back(), std::exchange(convertedMs_, 0));
         mail_.pictures.publish();
         shownScene_ = pictures_.shownScene();
         ++counters_.shown;

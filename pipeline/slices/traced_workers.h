@@ -111,6 +111,7 @@ private:
     bool exclusive_ = false;  // true while a Provide or Begin job runs or a picture is resolved
     bool resolves_ = false;
     std::array<double, PictureResolver::kStages> resolveMs_{};  // [ms per pixel]
+    double convertedMs_ = 0;       // time spent so far on the picture that is being resolved [ms]
     bool holesExclusive_ = false;  // true while a PrepareHoles or AnswerHoles job runs
     bool toLook_ = false, workAtBegin_ = false;
     double tickSeconds_ = 1.0 / 30;

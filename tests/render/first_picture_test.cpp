@@ -33,7 +33,7 @@ TEST(FirstPicture, MemoryIsProvidedOncePerScene) {
     while (!pictures.toShow()) {
         const TracedPictures::Portion portion = pictures.next(1000);
         pictures.trace(portion);
-        pictures.done(portion, {});
+        pictures.done(portion, {}, 0);
     }
     const std::size_t used = provided - memory->ready();
     EXPECT_GT(used, 100U);

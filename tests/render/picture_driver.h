@@ -42,9 +42,9 @@ public:
         pictures.setScene(preparedStillLife(1, 1));
     }
 
-    void look(double azimuth) {
+    void look(double azimuth, Timestamp time = {}) {
         const RenderView view = render_scenes::viewFrom(size, azimuth);
-        pictures.look(view, view, {});
+        pictures.look(view, view, time);
     }
     bool step() {
         if (pictures.toBegin()) {
@@ -59,13 +59,14 @@ public:
                 pictures.resolver().run(rows);
                 pictures.resolver().done(rows);
             }
-            pictures.endShow(out);
+            pictures.endShow(out, showMs);
             return true;
         }
         const TracedPictures::Portion portion = pictures.next(1000);
         if (portion.slice.pixels.empty()) return false;
         pictures.trace(portion);
-        pictures.done(portion, {});
+        pictures.done(portion, {}, portionMs);
+        tracedMs += portionMs;
         return true;
     }
     void settle() {
@@ -82,6 +83,9 @@ public:
     }
 
     Size size = kTracedSize;
+    // Pretended processor times [ms]. With 0, a picture is shown as soon as it is good enough.
+    double portionMs = 0, showMs = 0;
+    double tracedMs = 0;  ///< sum over all portions so far
     TracedPictures pictures;
     std::vector<RenderedPicture> shown;
 };

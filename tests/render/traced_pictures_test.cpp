@@ -221,7 +221,7 @@ TEST(TracedPictures, NothingIsTracedWhileADroppedPictureReadsTheShownFilm) {
     driver.look(20.2);
     EXPECT_TRUE(driver.pictures.next(1000).slice.pixels.empty());
     driver.pictures.trace(dropped);
-    driver.pictures.done(dropped, {});
+    driver.pictures.done(dropped, {}, 0);
     EXPECT_FALSE(driver.pictures.next(1000).slice.pixels.empty());
 }
 
@@ -236,7 +236,7 @@ TEST(TracedPictures, WaitsForPortionsOfTheReplacedPicture) {
     EXPECT_FALSE(driver.pictures.toBegin()) << "the film of the replaced picture is in use";
     EXPECT_TRUE(driver.pictures.next(1000).slice.pixels.empty());
     driver.pictures.trace(out);
-    driver.pictures.done(out, {});
+    driver.pictures.done(out, {}, 0);
     EXPECT_TRUE(driver.pictures.toBegin());
 }
 
