@@ -161,22 +161,41 @@ void NoiseFilter::estimateNoise(int x, int y) {
         variances_[i].second = found(second, pixel.second, pixel.secondCount);
 }
 
-// A variance estimated from few samples is inaccurate, so the mean over neighbours is used.
+NoiseFilter::Variances NoiseFilter::meanAround(int x, int y, int reach, int& known) const {
+    Variances sum;
+    int firsts = 0, seconds = 0;
+    forNeighbours(x, y, reach, 1, [&](std::size_t j) {
+        if (pixels_[j].firstCount > 0) {
+            sum.first += variances_[j].first;
+            ++firsts;
+        }
+        if (pixels_[j].secondCount > 0) {
+            sum.second += variances_[j].second;
+            ++seconds;
+        }
+    });
+    known = std::min(firsts, seconds);
+    return {sum.first / static_cast<float>(std::max(firsts, 1)),
+            sum.second / static_cast<float>(std::max(seconds, 1))};
+}
+
+// A variance estimated from few samples is inaccurate, so the mean over neighbours is used. If only
+// a few of the nine nearest pixels have samples, the mean over 25 pixels counts, too, if it is
+// larger. Otherwise, pixels whose few samples agree by chance would count as exact, and shadows
+// would have spots. (The mean over 25 pixels alone leaves bright grains.)
 void NoiseFilter::meanVariance(int x, int y) {
+    constexpr int kFewKnown = 4;
     const std::size_t i = static_cast<std::size_t>(y) * size_.width + x;
     LightPixel& pixel = pixels_[i];
     if (pixel.id != 0) {
-        Variances sum;
-        float firsts = 0, seconds = 0;
-        forNeighbours(x, y, 1, 1, [&](std::size_t j) {
-            const bool first = pixels_[j].firstCount > 0, second = pixels_[j].secondCount > 0;
-            sum.first += first ? variances_[j].first : 0;
-            sum.second += second ? variances_[j].second : 0;
-            firsts += first ? 1 : 0;
-            seconds += second ? 1 : 0;
-        });
-        pixel.firstVariance = firsts > 0 ? sum.first / firsts : 0;
-        pixel.secondVariance = seconds > 0 ? sum.second / seconds : 0;
+        int known = 0;
+        Variances mean = meanAround(x, y, 1, known);
+        if (known <= kFewKnown) {
+            const Variances wide = meanAround(x, y, 2, known);
+            mean = {std::max(mean.first, wide.first), std::max(mean.second, wide.second)};
+        }
+        pixel.firstVariance = mean.first;
+        pixel.secondVariance = mean.second;
         limit(pixel.first, limits_[i].first, variances_[i].first);
         limit(pixel.second, limits_[i].second, variances_[i].second);
     }

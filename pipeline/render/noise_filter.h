@@ -66,6 +66,9 @@ private:
     [[nodiscard]] Limits limitsAt(int x, int y) const;
     /// Sets the limits of a pixel. Estimates its variances if they are unknown.
     void estimateNoise(int x, int y);
+    /// Means of the variances of pixels up to `reach` pixels away on the same surface. Pixels
+    /// without samples do not count. `known` becomes the number of pixels that count.
+    [[nodiscard]] Variances meanAround(int x, int y, int reach, int& known) const;
     void meanVariance(int x, int y);
     void pack(std::size_t pixel);
     void unpack(std::size_t pixel, int set);

@@ -221,7 +221,10 @@ void TracedPictures::begin() {
     picture.wasShown = picture.counted = false;
     picture.history.reset();
     const Picture& shown = pictures_[shown_];
-    if (policy_.history && shown.scene && shown.scene->objects == scene_->objects)
+    // Light with samples in fewer than a quarter of the pixels is of no use for the next picture:
+    // its shadows would have spots.
+    if (policy_.history && shown.scene && shown.scene->objects == scene_->objects &&
+        shown.slices.turns() >= kQuarterTurn)
         picture.history.emplace(picture.scene->tracer->historyOf(
             *shown.film, shown.view,
             shown.scene->light == scene_->light ? kMostCarried : kMostCarriedElsewhere,
@@ -312,7 +315,7 @@ int TracedPictures::leastTurns(const Picture& picture, bool urgent) const {
 bool TracedPictures::maybeSparse(const Picture& picture) const {
     if (picture.rests || !policy_.filter) return false;
     const Picture& shown = pictures_[shown_];
-    return &picture == &shown || !shown.scene || (policy_.soon && picture.history);
+    return &picture == &shown || !shown.scene || (policy_.soon && policy_.history);
 }
 
 void TracedPictures::beginShow(const Exposure& exposure, RenderedPicture& out) {

@@ -64,6 +64,21 @@ TEST(CarriedLight, FirstPictureThatTakesLongIsShownAfterEvenFewerSamples) {
     EXPECT_LT(driver.shown[1].samples, 0.4) << "the next turn must be shown, too";
 }
 
+TEST(CarriedLight, LightOfHardlyAnySamplesIsNotReused) {
+    Driver fresh(kThirtyTwo, kProduct), going(kThirtyTwo, kProduct);
+    fresh.look(26);
+    fresh.untilShown(1);
+    going.look(20);
+    ASSERT_TRUE(going.step());
+    going.look(20, Timestamp::fromSeconds(0.3));
+    going.untilShown(1);
+    ASSERT_LT(going.shown[0].samples, 0.15);
+    going.look(26, Timestamp::fromSeconds(0.3));
+    going.untilShown(2);
+    ASSERT_TRUE(going.shows(26));
+    EXPECT_EQ(going.shown[1].colour, fresh.shown[0].colour);
+}
+
 // Showing a picture takes time from tracing.
 TEST(CarriedLight, PicturesAreShownSoSeldomThatMostOfTheTimeIsLeftForTracing) {
     Driver driver({Slicing::Time, 256, 1, 0, 2}, kProduct);

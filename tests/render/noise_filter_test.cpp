@@ -121,7 +121,7 @@ TEST(NoiseFilter, SamplesOfASoftShadowLeaveFewerSpotsOnTheCatcherThanOnObjects) 
 TEST(NoiseFilter, MoreSamplesOfASoftShadowHardlyIncreaseTheSpots) {
     static_assert(LightPixel::kFew == 4);
     EXPECT_LT(meanSpotsOf(kCatcherId, 2), meanSpotsOf(kCatcherId, 1));
-    EXPECT_LT(meanSpotsOf(kCatcherId, 4), 1.3 * meanSpotsOf(kCatcherId, 2));
+    EXPECT_LT(meanSpotsOf(kCatcherId, 4), 1.05 * meanSpotsOf(kCatcherId, 2));
     EXPECT_LT(meanSpotsOf(kCatcherId, 16), meanSpotsOf(kCatcherId, 4));
 }
 
