@@ -5,6 +5,7 @@
 #include <system_error>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <ctime>
 #include <filesystem>
@@ -13,10 +14,12 @@
 namespace mfar {
 
 bool lowerThreadPriority() {
-    constexpr int kNice = 10;
+    constexpr int kLower = 10, kLowest = 19;
     const sched_param none{};
+    const auto thread = static_cast<id_t>(gettid());
     const bool batch = pthread_setschedparam(pthread_self(), SCHED_BATCH, &none) == 0;
-    return setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNice) == 0 && batch;
+    const int nice = std::min(getpriority(PRIO_PROCESS, thread) + kLower, kLowest);
+    return setpriority(PRIO_PROCESS, thread, nice) == 0 && batch;
 }
 
 void raiseThreadPriorities() noexcept {

@@ -2,8 +2,9 @@
 
 namespace mfar {
 
-/// Lowers the calling thread's priority to SCHED_BATCH and nice +10. With SCHED_BATCH, a thread
-/// that wakes up does not preempt others. Returns false if the system refuses either.
+/// Lowers the calling thread's priority to SCHED_BATCH, and raises its nice value by 10 (to at most
+/// 19). With SCHED_BATCH, a thread that wakes up does not preempt others. Returns false if the
+/// system refuses either.
 bool lowerThreadPriority();
 
 /// Sets all threads of the process to nice 0 if the system permits it. To be called before the

@@ -5,11 +5,30 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <future>
 #include <thread>
 
 namespace mfar {
 namespace {
+
+// mfard itself may run at a low priority. A fixed nice value could then raise the thread's
+// priority, which most users may not do.
+TEST(ThreadPriority, IsLoweredRelativeToThePriorityBefore) {
+    const auto loweredFrom = [](int nice) {
+        int out = 0;
+        std::jthread([&] {
+            const auto id = static_cast<id_t>(gettid());
+            EXPECT_EQ(setpriority(PRIO_PROCESS, id, nice), 0);
+            EXPECT_TRUE(lowerThreadPriority());
+            out = getpriority(PRIO_PROCESS, id);
+        }).join();
+        return out;
+    };
+    const int own = getpriority(PRIO_PROCESS, 0);
+    EXPECT_EQ(loweredFrom(std::min(own + 2, 19)), std::min(own + 12, 19));
+    EXPECT_EQ(loweredFrom(std::min(own + 12, 19)), 19);
+}
 
 TEST(ThreadPriority, IsRaisedForThreadsThatLoweredIt) {
     ASSERT_TRUE(lowerThreadPriority());
