@@ -83,7 +83,8 @@ synthetic::Viewpoint viewpoint(const SyntheticStudio& studio, const StereoRig& r
 }  // namespace
 
 SyntheticBoard::SyntheticBoard(const SyntheticOptions& options)
-    : rig_(synthetic::boardRig()), world_(synthetic::makeWorld(options.scene, options.seed)),
+    : rig_(options.rig.value_or(synthetic::boardRig())),
+      world_(synthetic::makeWorld(options.scene, options.seed)),
       studio_(std::make_unique<SyntheticStudio>(withPath(options), world_, rig_)),
       video_(std::make_unique<VideoSensor>(*studio_,
                                            CameraInfo{"synthetic video sensor", rig_.video.size,

@@ -24,6 +24,9 @@ struct SyntheticOptions {
     int frames = 0;  ///< 0: unlimited
     double rateHz = 30;
     double noise = 1;  ///< factor of the standard deviation of both sensors' noise
+    /// Lenses, picture sizes and relative position of the two sensors. Not set:
+    /// synthetic::boardRig(). The time to render a picture grows with the number of its pixels.
+    std::optional<StereoRig> rig{};
     /// Number of buffers for pictures that are in use or ready.
     int videoBuffers = 8;
     int stillBuffers = 4;
@@ -37,8 +40,9 @@ struct SyntheticOptions {
 class SyntheticStudio;
 
 /// A simulated board with a video camera of 640x480 pixels and, 14 mm from it, a triggered still
-/// camera of 2304x1728 pixels. Each has its own lens, gain, gamma, blur and noise, but no motion
-/// blur and no rolling shutter. They see a generated world with exact ground truth at any time.
+/// camera of 2304x1728 pixels (unless SyntheticOptions::rig differs). Each has its own lens, gain,
+/// gamma, blur and noise, but no motion blur and no rolling shutter. They see a generated world
+/// with exact ground truth at any time.
 ///
 /// Pace::Realtime: the clock is Timestamp::now(), and frames come at rateHz. If the renderer or the
 /// consumer is too slow, frames are skipped. Stills are rendered in steps between video frames. The

@@ -108,4 +108,9 @@ StereoRig boardRig() {
     return rig;
 }
 
+StereoRig boardRig(Size video, Size still) {
+    const StereoRig rig = boardRig();
+    return {rig.video.scaledTo(video), rig.still.scaledTo(still), rig.T_still_video};
+}
+
 }  // namespace mfar::synthetic

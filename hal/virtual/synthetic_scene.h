@@ -144,5 +144,7 @@ inline constexpr double kGridSpacing = 0.25;   ///< gap between tags, divided by
 /// The cameras of the simulated board: video of 640x480 and stills of 2304x1728 pixels, 14 mm
 /// apart.
 [[nodiscard]] StereoRig boardRig();
+/// Returns boardRig() with other picture sizes and the same fields of view.
+[[nodiscard]] StereoRig boardRig(Size video, Size still);
 
 }  // namespace mfar::synthetic
