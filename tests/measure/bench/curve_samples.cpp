@@ -49,8 +49,7 @@ std::vector<CurveSample> syntheticCurveSamples(Size video, std::size_t most) {
     std::vector<CurveSample> out;
     for (const synthetic::Scene scene : {synthetic::Scene::Office, synthetic::Scene::Shelf}) {
         if (out.size() == most) break;
-        SyntheticBoard board(
-            {.scene = scene, .path = synthetic::Path::Handheld, .pace = Pace::Consumer});
+        SyntheticBoard board(handheldOptions(scene, video, still));
         const Workload work = handheldWorkload(board, video, still, 3);
         const Pose &frame = *work.framePoses.back(), &reference = *work.stillPoses[0];
         out.push_back(

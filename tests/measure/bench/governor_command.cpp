@@ -40,6 +40,8 @@ GovernorCommand::GovernorCommand(CLI::App& app)
                      "clock of the measurement: wall, or processor (processor time divided by the "
                      "number of cores; use it if other programs run at the same time)")
         ->transform(CLI::CheckedTransformer(clocks));
+    command_->add_flag("--quick", request_.quick,
+                       "measure small pictures, only to check that the program runs");
 }
 
 void GovernorCommand::run(Progress& progress) {

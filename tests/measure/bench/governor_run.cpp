@@ -22,11 +22,12 @@ struct Shots {
     std::vector<SceneFrame> frames;
 };
 
-Shots shotsOf(synthetic::Scene which, synthetic::Path path, const char* name, int count,
+Shots shotsOf(synthetic::Scene which, synthetic::Path path, const char* name, bool quick, int count,
               StereoRig& rig) {
     SyntheticOptions options;
     options.scene = which;
     options.path = path;
+    if (quick) options.rig = synthetic::boardRig(kQuickVideo, kQuickStill);
     eval::SceneRun scene(options, eval::PoseSource::Recorded);
     rig = scene.rig();
     Shots out{name, {}};
@@ -97,10 +98,12 @@ std::vector<GovernedRun> measureGovernor(const GovernorRequest& request,
     const int distinct = std::max(request.frames / 2, 1);
     StereoRig rig;
     std::vector<Shots> scenes;
-    scenes.push_back(shotsOf(Scene::Office, Path::Handheld, "office", distinct, rig));
-    scenes.push_back(shotsOf(Scene::Still, Path::Rest, "still", distinct, rig));
-    scenes.push_back(shotsOf(Scene::Flat, Path::Handheld, "flat", distinct, rig));
-    scenes.push_back(shotsOf(Scene::Moving, Path::Handheld, "moving", distinct, rig));
+    scenes.push_back(
+        shotsOf(Scene::Office, Path::Handheld, "office", request.quick, distinct, rig));
+    scenes.push_back(shotsOf(Scene::Still, Path::Rest, "still", request.quick, distinct, rig));
+    scenes.push_back(shotsOf(Scene::Flat, Path::Handheld, "flat", request.quick, distinct, rig));
+    scenes.push_back(
+        shotsOf(Scene::Moving, Path::Handheld, "moving", request.quick, distinct, rig));
     std::vector<GovernedRun> out;
     for (const double deadline : request.deadlinesMs) {
         const ProgressPart progress = request.progress.part(

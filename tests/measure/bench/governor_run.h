@@ -25,6 +25,7 @@ struct GovernedRun {
 struct GovernorRequest {
     std::vector<double> deadlinesMs{33, 66, 133};
     int frames = 120;
+    bool quick = false;  ///< small pictures
     Clock clock = Clock::Wall;
     ProgressPart progress{};
 };

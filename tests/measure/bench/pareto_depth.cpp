@@ -152,9 +152,8 @@ std::vector<DepthSample> depthSamplesOf(const std::vector<std::filesystem::path>
 std::vector<DepthSample> syntheticDepthSamples(Size video, std::size_t most) {
     std::vector<DepthSample> out;
     for (CurveSample& shots : syntheticCurveSamples(video, most)) {
-        SyntheticBoard board({.scene = *synthetic::sceneNamed(shots.name),
-                              .path = synthetic::Path::Handheld,
-                              .pace = Pace::Consumer});
+        SyntheticBoard board(
+            handheldOptions(*synthetic::sceneNamed(shots.name), video, shots.rig.still.size));
         FloatImage image = board.inverseDepth(shots.frame.time);
         cv::Mat inverseDepth(image.size.height, image.size.width, CV_32F, image.values.data());
         cv::resize(inverseDepth, inverseDepth, {video.width, video.height}, 0, 0,

@@ -134,8 +134,7 @@ std::vector<SequenceSample> syntheticSequences(Size video, Size still, int frame
     std::vector<SequenceSample> out;
     for (const synthetic::Scene scene : {synthetic::Scene::Office, synthetic::Scene::Shelf}) {
         if (out.size() == most) break;
-        SyntheticBoard board(
-            {.scene = scene, .path = synthetic::Path::Handheld, .pace = Pace::Consumer});
+        SyntheticBoard board(handheldOptions(scene, video, still));
         SequenceSample sample{handheldWorkload(board, video, still, frames, kLessons), {}};
         sample.work.name = name(scene);
         for (std::size_t i = 0; i < sample.work.frames.size(); ++i)

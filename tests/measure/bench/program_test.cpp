@@ -172,7 +172,7 @@ TEST(MfarBench, SkipMeasuresTheRequestedCasesAndSkips) {
     const mfar::test::TempFolder folder;
     const auto csv = folder / "skip.csv", svg = folder / "skip.svg";
     const std::string command =
-        fmt::format("{} skip --cases still --skips unchanged-tiles --frames 2 --csv '{}' "
+        fmt::format("{} skip --quick --cases still --skips unchanged-tiles --frames 2 --csv '{}' "
                     "--svg '{}' >/dev/null",
                     MFAR_BENCH, csv.string(), svg.string());
     ASSERT_EQ(std::system(command.c_str()), 0);
@@ -193,7 +193,7 @@ TEST(MfarBench, GovernorIsMeasuredWithTheRequestedDeadline) {
     const mfar::test::TempFolder folder;
     const auto out = folder / "governor.txt", svg = folder / "governor.svg";
     const std::string command =
-        fmt::format("{} governor --deadlines 5000 --frames 2 --svg '{}' >'{}'", MFAR_BENCH,
+        fmt::format("{} governor --quick --deadlines 5000 --frames 2 --svg '{}' >'{}'", MFAR_BENCH,
                     svg.string(), out.string());
     ASSERT_EQ(std::system(command.c_str()), 0);
     EXPECT_TRUE(test::isWellFormed(mfar::test::readFile(svg)));

@@ -32,6 +32,8 @@ SkipCommand::SkipCommand(CLI::App& app)
                      "clock of the measurement: wall, or processor (processor time divided by the "
                      "number of cores; use it if other programs run at the same time)")
         ->transform(CLI::CheckedTransformer(clocks));
+    command_->add_flag("--quick", request_.quick,
+                       "measure small pictures, only to check that the program runs");
     command_->add_option("--csv", csv_, "file to write all results into")->check(fileToWrite());
     command_->add_option("--svg", svg_, "file to write a plot into")->check(fileToWrite());
 }

@@ -262,6 +262,7 @@ void measureCase(const Case& one, const SkipRequest& request, SkipReport& report
     SyntheticOptions options;
     options.scene = one.scene;
     options.path = one.path;
+    if (request.quick) options.rig = synthetic::boardRig(kQuickVideo, kQuickStill);
     const auto [rig, frames] = [&] {
         eval::SceneRun scene(options, eval::PoseSource::Recorded);
         return std::pair(scene.rig(), framesOf(one, scene, request.frames));

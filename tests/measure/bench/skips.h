@@ -41,6 +41,7 @@ struct SkipReport {
 struct SkipRequest {
     std::vector<std::string> cases, skips;  ///< names to measure; empty: all
     int frames = 20;
+    bool quick = false;  ///< small pictures
     Clock clock = Clock::Wall;
     ProgressPart progress{};
 };

@@ -1,7 +1,6 @@
 #include "tests/measure/bench/workload.h"
 
 #include "hal/virtual/recording.h"
-#include "hal/virtual/synthetic_board.h"
 #include "tests/measure/eval/picture.h"
 #include "tests/measure/eval/report.h"
 #include "tests/measure/eval/shot.h"
@@ -104,10 +103,17 @@ Workload syntheticWorkload(Size video, Size still, int frames, int lessons) {
     return out;
 }
 
+SyntheticOptions handheldOptions(synthetic::Scene scene, Size video, Size still) {
+    SyntheticOptions out;
+    out.scene = scene;
+    out.path = synthetic::Path::Handheld;
+    out.pace = Pace::Consumer;
+    out.rig = synthetic::boardRig(video, still);
+    return out;
+}
+
 Workload handheldWorkload(Size video, Size still, int frames, int lessons) {
-    SyntheticBoard board({.scene = synthetic::Scene::Office,
-                          .path = synthetic::Path::Handheld,
-                          .pace = Pace::Consumer});
+    SyntheticBoard board(handheldOptions(synthetic::Scene::Office, video, still));
     Workload out = handheldWorkload(board, video, still, frames, lessons);
     out.name = "office, hand-held";
     return out;

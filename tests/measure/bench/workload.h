@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/geometry.h"
+#include "hal/virtual/synthetic_board.h"
 
 #include <opencv2/core.hpp>
 
@@ -13,7 +14,6 @@
 
 namespace mfar {
 class FilterBank;
-class SyntheticBoard;
 }  // namespace mfar
 
 namespace mfar::bench {
@@ -46,6 +46,10 @@ inline constexpr int kLessons = 4;
 /// Consecutive frames differ by up to 5 video pixels at 640x480, a small rotation and sensor noise.
 /// Repeated calls give equal pictures.
 [[nodiscard]] Workload syntheticWorkload(Size video, Size still, int frames, int lessons = 0);
+
+/// Options of a board whose camera is hand-held and whose sensors have these picture sizes. Sizes
+/// smaller than the defaults take less time to render.
+[[nodiscard]] SyntheticOptions handheldOptions(synthetic::Scene scene, Size video, Size still);
 
 /// The synthetic board's office seen by a hand-held camera, with exact poses: one still, then
 /// frames, resized to the given sizes. `lessons`: number of entries of Workload::lessons. Needs no
