@@ -84,7 +84,7 @@ TEST(MfarCalibrate, RecoversTheRigFromARecording) {
     const TempFolder folder;
     const std::string recording = (folder / "recording").string(), out = (folder / "out").string();
     const Outcome made = execute(
-        folder, fmt::format("{} --scene calibration --seconds 5 --rate 8 --stills 2 --no-truth "
+        folder, fmt::format("{} --scene calibration --seconds 4 --rate 8 --stills 2 --no-truth "
                             "--out {}",
                             MFAR_SIM, recording));
     ASSERT_EQ(made.status, 0) << made.text;
