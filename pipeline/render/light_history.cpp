@@ -109,7 +109,8 @@ KnownLight LightHistory::at(const SeenSurface& seen, const Eigen::Vector3f& poin
 
 KnownLight LightHistory::found(const SeenSurface& seen, const Eigen::Vector3f& point,
                                const Eigen::Vector3f& eye) const {
-    if (seen.hit.id == 0) return {};
+    const bool catches = seen.hit.id == kCatcherId;
+    if (seen.hit.id == 0 || (catches && !knowsCatcher_)) return {};
     const Eigen::Vector3f there = rotation_.transpose() * (point - eye_);
     if (!(there.z() > kNearest)) return {};
     const Eigen::Vector2d pixel = camera_.project(there.hnormalized().cast<double>());
@@ -119,12 +120,12 @@ KnownLight LightHistory::found(const SeenSurface& seen, const Eigen::Vector3f& p
     // In parts of the shadow catcher, the earlier picture may have sampled only every second column
     // and row. There, samples 2 px apart are used, and elsewhere adjacent pixels. If this finds no
     // light on the catcher, at the border of such a part, the other spacing is tried.
-    const bool catches = seen.hit.id == kCatcherId, isSparse = catches && isSparseAt(pixel);
+    const bool isSparse = catches && isSparseAt(pixel);
     KnownLight out = between(pixel, isSparse ? 2 : 1, seen, point);
     if (catches && !(out.firstCount > 0)) out = between(pixel, isSparse ? 1 : 2, seen, point);
     out.firstCount = std::min(out.firstCount, mostSamples_);
     out.secondCount = std::min(out.secondCount, mostSamples_);
-    if (seen.hit.id == kCatcherId) return out;
+    if (catches) return out;
     const float cosine = (point - eye_).normalized().dot((point - eye).normalized());
     const float turn = std::acos(std::clamp(cosine, -1.0F, 1.0F));
     const float lobes = turn / (kLobeTurn * alphaOf(seen.roughness));

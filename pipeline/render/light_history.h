@@ -30,6 +30,10 @@ public:
     /// may have caused. If no pixel shows the surface, the result has no samples.
     [[nodiscard]] KnownLight at(const SeenSurface& seen, const Eigen::Vector3f& point,
                                 const Eigen::Vector3f& eye) const;
+    /// Makes at() return no light for the shadow catcher. To be called if the lighting has changed:
+    /// the catcher's light is a radiance, but an object's light is a multiple of the distant light
+    /// (see KnownLight).
+    void forgetCatcher() { knowsCatcher_ = false; }
     /// Null if the constructor got no `moved`.
     [[nodiscard]] const MovedLight* moved() const { return moved_ ? &*moved_ : nullptr; }
 
@@ -49,6 +53,7 @@ private:
     Eigen::Vector3f eye_;
     float mostSamples_;
     std::optional<MovedLight> moved_;
+    bool knowsCatcher_ = true;
 };
 
 }  // namespace mfar

@@ -224,11 +224,13 @@ void TracedPictures::begin() {
     // Light with samples in fewer than a quarter of the pixels is of no use for the next picture:
     // its shadows would have spots.
     if (policy_.history && shown.scene && shown.scene->objects == scene_->objects &&
-        shown.slices.turns() >= kQuarterTurn)
+        shown.slices.turns() >= kQuarterTurn) {
+        const bool sameLight = shown.scene->light == scene_->light;
         picture.history.emplace(picture.scene->tracer->historyOf(
-            *shown.film, shown.view,
-            shown.scene->light == scene_->light ? kMostCarried : kMostCarriedElsewhere,
+            *shown.film, shown.view, sameLight ? kMostCarried : kMostCarriedElsewhere,
             shown.scene->poses));
+        if (!sameLight) picture.history->forgetCatcher();
+    }
     if (!picture.film || !(picture.film->size() == wanted_.camera.size))
         picture.film = std::make_unique<Film>(wanted_.camera.size, memory_);
     picture.traced = picture.scene->tracer->bounds(wanted_);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <memory>
 
 namespace mfar {
@@ -148,6 +149,36 @@ TEST(CarriedLight, NewSamplesSoonOutweighTheLightFromBeforeAChangeOfLighting) {
     fresh.look(20);
     fresh.settle();
     EXPECT_LT(errorOf(driver.shown.back(), 20), errorOf(fresh.shown.back(), 20) + 2);
+}
+
+std::shared_ptr<const PictureScene> stillLifeLitBy(const Eigen::Vector3f& light,
+                                                   std::uint64_t number) {
+    auto environment = std::make_shared<Environment>();
+    environment->size = {8, 4};
+    environment->radiance.assign(32, light);
+    const auto scene = std::make_shared<Scene>(*render_scenes::stillLife());
+    scene->lighting = {environment, {}};
+    return prepared(scene, 1, number);
+}
+
+TEST(CarriedLight, AfterAChangeOfLightingTheRealSurfaceKeepsNothingOfTheOldLight) {
+    Driver driver(kThirtyTwo, kProduct);
+    driver.pictures.setScene(stillLifeLitBy({3, 0, 0}, 1));
+    for (int i = 0; i < 12; ++i)
+        driver.look(20);
+    driver.settle();
+    driver.pictures.setScene(stillLifeLitBy({0, 3, 0}, 2));
+    driver.look(20);
+    driver.settle();
+    const RenderedPicture& shown = driver.shown.back();
+    int shaded = 0, red = 0;
+    for (std::size_t i = 0; i < shown.id.size(); ++i) {
+        if (shown.id[i] != kCatcherId) continue;
+        shaded += shown.colour[i][3] > 20 ? 1 : 0;
+        red += shown.colour[i][0] > 0 ? 1 : 0;
+    }
+    EXPECT_GT(shaded, 20);
+    EXPECT_EQ(red, 0);
 }
 
 TEST(CarriedLight, SurfacesWithUnchangedLightAreTracedOnce) {
