@@ -29,7 +29,8 @@ constexpr double kTracedPerConverted = 4;
 // After this number of turns (passes over the pixels, see Slices), a quarter of the pixels has a
 // sample. From then on, a picture may be shown. While an object moves, the next picture does not
 // begin earlier. If there is no usable picture yet and sampling has taken kLongWait [s], a picture
-// with samples in one pixel of 16 may be shown, one turn earlier.
+// with samples in one pixel of 16 may be shown, one turn earlier. If the camera rests, it may not,
+// because a picture for the camera at rest follows, which could not reuse so few samples.
 constexpr int kQuarterTurn = 3;
 constexpr double kLongWait = 0.25;
 // The camera rests if it moves by less than kRestPixels in kRestLooks calls of look(). At rest, the
@@ -309,7 +310,8 @@ int TracedPictures::leastSamples(const Picture& picture, bool urgent) const {
 int TracedPictures::leastTurns(const Picture& picture, bool urgent) const {
     if (picture.wasShown) return std::max(picture.shownTurns + 1, kQuarterTurn);
     const double seconds = static_cast<double>((time_ - picture.chosen).count()) * 1e-9;
-    return urgent && seconds > kLongWait ? kQuarterTurn - 1 : kQuarterTurn;
+    const bool isLate = urgent && seconds > kLongWait && restLooks_ < kRestLooks;
+    return isLate ? kQuarterTurn - 1 : kQuarterTurn;
 }
 
 // True if the picture may be shown before every pixel has a sample. While the camera moves,
