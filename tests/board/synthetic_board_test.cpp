@@ -190,7 +190,7 @@ TEST(SyntheticBoard, DifferentThreadsMayUseCamerasTriggerAndGroundTruth) {
     }
     consumer.join();
     EXPECT_EQ(frames, 12);
-    EXPECT_EQ(truth, board.rig().video.size);
+    EXPECT_EQ(truth, (Size{160, 120}));
     EXPECT_EQ(stills, 1);
 }
 

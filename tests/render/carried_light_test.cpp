@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <memory>
 
 namespace mfar {
@@ -151,23 +150,13 @@ TEST(CarriedLight, NewSamplesSoonOutweighTheLightFromBeforeAChangeOfLighting) {
     EXPECT_LT(errorOf(driver.shown.back(), 20), errorOf(fresh.shown.back(), 20) + 2);
 }
 
-std::shared_ptr<const PictureScene> stillLifeLitBy(const Eigen::Vector3f& light,
-                                                   std::uint64_t number) {
-    auto environment = std::make_shared<Environment>();
-    environment->size = {8, 4};
-    environment->radiance.assign(32, light);
-    const auto scene = std::make_shared<Scene>(*render_scenes::stillLife());
-    scene->lighting = {environment, {}};
-    return prepared(scene, 1, number);
-}
-
 TEST(CarriedLight, AfterAChangeOfLightingTheRealSurfaceKeepsNothingOfTheOldLight) {
     Driver driver(kThirtyTwo, kProduct);
-    driver.pictures.setScene(stillLifeLitBy({3, 0, 0}, 1));
+    driver.pictures.setScene(prepared(render_scenes::stillLifeLitBy({3, 0, 0}), 1, 1));
     for (int i = 0; i < 12; ++i)
         driver.look(20);
     driver.settle();
-    driver.pictures.setScene(stillLifeLitBy({0, 3, 0}, 2));
+    driver.pictures.setScene(prepared(render_scenes::stillLifeLitBy({0, 3, 0}), 1, 2));
     driver.look(20);
     driver.settle();
     const RenderedPicture& shown = driver.shown.back();

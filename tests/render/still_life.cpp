@@ -64,6 +64,15 @@ std::shared_ptr<const Scene> stillLife() {
     return scene;
 }
 
+std::shared_ptr<const Scene> stillLifeLitBy(const Eigen::Vector3f& radiance) {
+    auto environment = std::make_shared<Environment>();
+    environment->size = {8, 4};
+    environment->radiance.assign(32, radiance);
+    auto out = std::make_shared<Scene>(*stillLife());
+    out->lighting = {environment, {}};
+    return out;
+}
+
 RenderView viewFrom(Size size, double azimuth, double elevation, double distance) {
     const double a = azimuth * std::numbers::pi / 180, e = elevation * std::numbers::pi / 180;
     const Eigen::Vector3d direction{std::cos(e) * std::cos(a), std::cos(e) * std::sin(a),

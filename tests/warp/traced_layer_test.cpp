@@ -19,15 +19,6 @@ using TracedLayerGl = GlTest;
 constexpr Size kTraced{96, 72};
 constexpr int kBright = 60;  // [grey levels of 255]
 
-std::shared_ptr<const Scene> litBy(const Scene& scene, const Eigen::Vector3f& light) {
-    auto environment = std::make_shared<Environment>();
-    environment->size = {8, 4};
-    environment->radiance.assign(32, light);
-    auto out = std::make_shared<Scene>(scene);
-    out->lighting = {environment, {}};
-    return out;
-}
-
 /// Options with which a picture from one view is warped to all views. Pixels that the picture does
 /// not show are rendered individually, and are empty until then.
 TracedLayerOptions rerendering() {
@@ -76,7 +67,7 @@ struct Frames {
 
 TEST_F(TracedLayerGl, AMovingObjectIsDrawnWhereItIsNow) {
     Frames frames;
-    auto scene = std::make_shared<Scene>(*litBy(*render_scenes::stillLife(), {3, 3, 3}));
+    auto scene = std::make_shared<Scene>(*render_scenes::stillLifeLitBy({3, 3, 3}));
     RigidPath path;
     path.length = 200;
     path.joints.resize(1);
@@ -101,8 +92,7 @@ TEST_F(TracedLayerGl, NoPixelKeepsTheOldLightIfOnlyTheLightChanges) {
     constexpr double kFront = 0, kAside = 40, kSway = 0.5;
     constexpr std::size_t kRed = 0, kGreen = 1;
     Frames frames;
-    const std::shared_ptr<const Scene> scene = render_scenes::stillLife();
-    frames.layer.setScene(litBy(*scene, {3, 0, 0}));
+    frames.layer.setScene(render_scenes::stillLifeLitBy({3, 0, 0}));
     ASSERT_TRUE(frames.until(
         kFront, 0, [&] { return frames.layer.rests() && frames.brightPixels(kRed) > 0; }));
     frames.show(kAside);
@@ -114,7 +104,7 @@ TEST_F(TracedLayerGl, NoPixelKeepsTheOldLightIfOnlyTheLightChanges) {
     frames.show(kAside);
     EXPECT_TRUE(showsRendered());
 
-    frames.layer.setScene(litBy(*scene, {0, 3, 0}));
+    frames.layer.setScene(render_scenes::stillLifeLitBy({0, 3, 0}));
     ASSERT_TRUE(frames.until(kFront, 0, [&] { return frames.brightPixels(kGreen) > 0; }));
     EXPECT_EQ(frames.brightPixels(kRed), 0);
     // Individually rendered pixels can be shown before the first picture with the new light.

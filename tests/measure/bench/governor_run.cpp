@@ -98,12 +98,13 @@ std::vector<GovernedRun> measureGovernor(const GovernorRequest& request,
     const int distinct = std::max(request.frames / 2, 1);
     StereoRig rig;
     std::vector<Shots> scenes;
-    scenes.push_back(
-        shotsOf(Scene::Office, Path::Handheld, "office", request.quick, distinct, rig));
-    scenes.push_back(shotsOf(Scene::Still, Path::Rest, "still", request.quick, distinct, rig));
-    scenes.push_back(shotsOf(Scene::Flat, Path::Handheld, "flat", request.quick, distinct, rig));
-    scenes.push_back(
-        shotsOf(Scene::Moving, Path::Handheld, "moving", request.quick, distinct, rig));
+    const auto add = [&](Scene scene, Path path, const char* name) {
+        scenes.push_back(shotsOf(scene, path, name, request.quick, distinct, rig));
+    };
+    add(Scene::Office, Path::Handheld, "office");
+    add(Scene::Still, Path::Rest, "still");
+    add(Scene::Flat, Path::Handheld, "flat");
+    add(Scene::Moving, Path::Handheld, "moving");
     std::vector<GovernedRun> out;
     for (const double deadline : request.deadlinesMs) {
         const ProgressPart progress = request.progress.part(
