@@ -28,7 +28,7 @@ TagMap tagMapOf(const synthetic::World& world) {
 }
 
 SceneRun::SceneRun(SyntheticOptions options, PoseSource poses)
-    : poses_(poses), board_(startedBoard(options)) {
+    : poses_(poses), board_(startedBoard(std::move(options))) {
     if (poses != PoseSource::Tags) return;
     TrackerOptions tracking;
     tracking.map = tagMapOf(board_->world());
