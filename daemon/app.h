@@ -43,8 +43,8 @@ namespace mfar {
 ///   - Otherwise, writing to slow readers of the display's pipe is cancelled 0.4 s after the
 ///     signal, and the process ends at most 0.5 s later.
 /// A second signal ends the process at once, except the same signal within 0.1 s. If the main
-/// thread itself hangs during the shutdown, LastResort ends the process 2.5 s after the first
-/// signal.
+/// thread itself hangs during the shutdown, LastResort logs after 2.5 s that output may be missing,
+/// and ends the process.
 ///
 /// If a run ends without a signal, mfard waits without a limit until all output is written, and
 /// then at most 2.5 s for the devices. If the picture thread hangs at the end of --seconds, mfard
@@ -86,6 +86,7 @@ private:
     void onReady();
     void onOver();
     void onSignal(int signal);
+    [[noreturn]] void endUnfinished(int signal);
     void onDeadline();
     void stop(const std::string& reason);
     [[nodiscard]] bool writes();
@@ -126,7 +127,7 @@ private:
     void writeReport(const nlohmann::ordered_json& results);
 
     const Timestamp started_ = Timestamp::now();
-    LastResort lastResort_;
+    LastResort lastResort_, unfinished_;
     const Options options_;
     Log& log_;
     Config config_;

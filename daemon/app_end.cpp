@@ -39,6 +39,7 @@ constexpr Seconds kFlushTime{0.4};
 constexpr std::chrono::milliseconds kSameSignal{100};
 constexpr Seconds kCancelTime{0.5};
 constexpr std::chrono::milliseconds kLastResort{2500};
+constexpr std::chrono::milliseconds kLogTime{200};
 
 [[noreturn]] void endProcess(int status) {
     raiseThreadPriorities();
@@ -63,10 +64,20 @@ void App::onSignal(int signal) {
     }
     stopSignal_ = signal;
     stopSignalAt_ = Timestamp::now();
-    // No message is logged here: even if the log itself hangs, the signal must end the process.
-    lastResort_.arm(kLastResort, [] { endProcess(static_cast<int>(ExitCode::Ok)); });
+    // No message is logged in this thread: even if the log itself hangs, the signal must end the
+    // process.
+    lastResort_.arm(kLastResort + kLogTime, [] { endProcess(static_cast<int>(ExitCode::Ok)); });
+    unfinished_.arm(kLastResort, [this, signal] { endUnfinished(signal); });
     stop(signalName(signal));
     events_.deadlineIn(writes() ? kFlushTime : options_.report ? kReportTime : kLeaveTime);
+}
+
+void App::endUnfinished(int signal) {
+    log_.warning(fmt::format("shutdown after {} took longer than {} s; ended without waiting. The "
+                             "last pictures, the summary or the report may be missing",
+                             signalName(signal), Seconds(kLastResort).count()),
+                 {}, {message::kEnded});
+    endProcess(static_cast<int>(ExitCode::Ok));
 }
 
 void App::onDeadline() {

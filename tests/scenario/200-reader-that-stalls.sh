@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # The program that reads the display's pipe stalls. With a live source, the pictures must continue,
 # and the status must report that the reader stalls. With a recording, mfard must wait for the
-# reader and report this. mfard must end when the reader closes the pipe.
+# reader and report this. mfard must end when the reader closes the pipe, and after a signal. It
+# must report output that it could not write.
 . "$(dirname "$0")/lib.sh"
 
 ctl="$(dirname "$sim")/mfarctl"
@@ -43,3 +44,13 @@ start --recording run --display y4m:pipe --control control 3>&-
 until_true status_says 'waiting for the reader of the pipe'
 kill -TERM "$pid"
 ends_with 0 1500
+
+echo "the reader of the summary accepts no data: SIGTERM ends mfard, which reports the missing output"
+mkfifo full
+exec 3<>full
+head -c 65000 /dev/zero >&3
+start --source synthetic:flat,rest --display none --summary full 3>&-
+until_true started
+kill -TERM "$pid"
+ends_with 0 3500
+says err 'warning: shutdown after SIGTERM took longer than 2.5 s; ended without waiting'
