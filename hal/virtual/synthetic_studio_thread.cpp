@@ -144,7 +144,8 @@ void SyntheticStudio::stepStill(Views& views) {
     frame.exposure = options_.stillExposure;
     // If the camera was stopped in the meantime, stills_ does not contain this still, and the
     // rendered picture is discarded.
-    const auto at = std::ranges::find(stills_, time, &Still::time);
+    const auto at =
+        std::ranges::find_if(stills_, [&](const Still& s) { return s.time == time && !s.frame; });
     if (at != stills_.end()) at->frame = std::move(frame);
 }
 
