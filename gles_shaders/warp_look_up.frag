@@ -1,8 +1,10 @@
 // Second pass of the warp for simple pixels. A pixel is simple if one surface fills it, and if the
 // four texels around the looked-up position in the traced picture show this surface at the same
-// depth. The shadow catcher is simple also where these texels show no surface. All other pixels
-// with a surface are left to warp_rest.comp. An object's colour is its paint in the traced light,
-// or the traced colour if the picture has no light.
+// depth. The shadow catcher is simple also where these texels show no surface. If it is a plane, it
+// is simple wherever each of the texels shows the catcher or no surface: no depths are compared,
+// because all points of a plane belong to the same surface. All other pixels with a surface are
+// left to warp_rest.comp. An object's colour is its paint in the traced light, or the traced colour
+// if the picture has no light.
 // In: silhouette and paint at twice the layer's resolution; the traced picture.
 // Out: colour, RGBA8 premultiplied; z [m], 0 if the colour is empty; state = (0, 1 if the pixel is
 // left to warp_rest.comp, 0, number of the surface that fills a simple pixel).
@@ -44,7 +46,9 @@ void main() {
     uvec4 t = textureGather(surfaces, corner / vec2(tracedSize()));
     vec4 off = abs(uintBitsToFloat(t & 0xffffff00u) - at.z);
     bool same = all(equal(t & 0xffu, uvec4(id))) && all(lessThan(off, vec4(kSameDepth * at.z)));
-    bool bare = id == kCatcher && (t.x | t.y | t.z | t.w) == 0u;
+    uint plane = params.plane.offset != 0.0 ? kCatcher : 0u;
+    uvec4 others = mix(t, uvec4(0u), equal(t & 0xffu, uvec4(plane)));
+    bool bare = id == kCatcher && all(equal(others, uvec4(0u)));
     bool inner = all(greaterThan(corner, vec2(0.0))) && all(lessThan(corner, vec2(tracedSize())));
     bool plain = whole && !empty && at.z > 0.0 && inner && (same || bare);
     vec2 texel = (at.xy + 0.5) / vec2(tracedSize());

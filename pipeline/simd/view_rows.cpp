@@ -43,8 +43,23 @@ HWY_INLINE M AllShow(const Four& s, VU number) {
     return AsFloats(hn::Eq(bits, hn::Zero(DU())));
 }
 
-HWY_INLINE M IsClose(VU word, V z, V tolerance) {
-    return hn::Lt(hn::Abs(hn::Sub(DepthOf(word), z)), tolerance);
+/// True where each of the four words shows the shadow catcher or no surface.
+HWY_INLINE M AllOfCatcher(const Four& s) {
+    const DU du;
+    const auto shows = [&](VU word) HWY_ATTR {
+        const VU number = hn::And(word, hn::Set(du, 0xFFU));
+        return hn::Or(hn::Eq(number, hn::Set(du, kCatcherNumber)), hn::Eq(word, hn::Zero(du)));
+    };
+    return AsFloats(hn::And(hn::And(shows(s.a), shows(s.b)), hn::And(shows(s.c), shows(s.d))));
+}
+
+/// True where all four words have about the depth `z`.
+HWY_INLINE M AllClose(const Four& s, V z) {
+    const V tolerance = hn::Mul(z, hn::Set(D(), kSameDepth));
+    const auto isClose = [&](VU word) HWY_ATTR {
+        return hn::Lt(hn::Abs(hn::Sub(DepthOf(word), z)), tolerance);
+    };
+    return hn::And(hn::And(isClose(s.a), isClose(s.b)), hn::And(isClose(s.c), isClose(s.d)));
 }
 
 /// Interpolates RGBA8 texels bilinearly, with weights in 1/256.
@@ -254,12 +269,11 @@ HWY_INLINE void ReadReference(const ViewLookUpInput& in, const Asked& a, const P
     const VI at = hn::Add(hn::Mul(row, hn::ConvertTo(DI(), width)),
                           hn::ConvertTo(DI(), hn::IfThenElseZero(a.asked, a.lowX)));
     const Four t = GatherFour(in.packed, at, in.tracedSize.width);
-    const V tolerance = hn::Mul(a.thereZ, hn::Set(d, kSameDepth));
-    const M close =
-        hn::And(hn::And(IsClose(t.a, a.thereZ, tolerance), IsClose(t.b, a.thereZ, tolerance)),
-                hn::And(IsClose(t.c, a.thereZ, tolerance), IsClose(t.d, a.thereZ, tolerance)));
     const M nothing = AsFloats(hn::Eq(hn::Or(hn::Or(t.a, t.b), hn::Or(t.c, t.d)), hn::Zero(du)));
-    const M shown = hn::Or(hn::And(close, AllShow(t, a.id)), hn::And(a.ofCatcher, nothing));
+    // All texels of a plane show the same surface, so their z need not be compared.
+    const M known = in.plane.w != 0 ? AllOfCatcher(t) : nothing;
+    const M shown =
+        hn::Or(hn::And(AllClose(t, a.thereZ), AllShow(t, a.id)), hn::And(a.ofCatcher, known));
     const M plain = hn::And(a.asked, shown);
     const M coloured = hn::AndNot(nothing, plain);
     if (!hn::AllFalse(d, coloured)) {

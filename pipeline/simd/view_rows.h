@@ -58,8 +58,10 @@ struct ViewRow {
 
 /// Looks up the plain pixels of a row (warp_look_up.frag). In a plain pixel, a single surface fills
 /// the pixel, and the four texels around the surface's position in the traced picture show it at
-/// the same depth. A pixel without any surface also counts as plain. Returns the number of pixels
-/// that are not plain. Writes into the rows' padding of AlignedRows::kPadding bytes.
+/// the same depth. On a planar shadow catcher, the depths are not compared, and texels without a
+/// surface count as catcher without shadow. A pixel without any surface also counts as plain.
+/// Returns the number of pixels that are not plain. Writes into the rows' padding of
+/// AlignedRows::kPadding bytes.
 [[nodiscard]] int lookUpRow(const ViewRow& row, const ViewLookUpInput& input);
 
 }  // namespace mfar::simd
