@@ -136,14 +136,6 @@ float slopeAlong(std::span<const WarpSurface> surface, Size size, int x, int y, 
     return least;
 }
 
-// The format must be that of warp_surface.glsl.
-std::uint32_t packedSurface(const WarpSurface& s) {
-    if (!(s.known > 0)) return kUnknownId;
-    if (s.id == 0) return 0;
-    return ((std::bit_cast<std::uint32_t>(s.z) + 0x80U) & 0xFFFFFF00U) |
-           static_cast<std::uint32_t>(s.id);
-}
-
 void finishPixel(const PictureGrid& grid, std::span<const LightWords> light, TracedPicture& r,
                  int x, int y) {
     const std::size_t i = grid.index(x, y);
@@ -236,6 +228,14 @@ TracedPicture withSurfaces(const RenderedPicture& picture) {
 }
 
 }  // namespace
+
+// The format must be that of warp_surface.glsl.
+std::uint32_t packedSurface(const WarpSurface& s) {
+    if (!(s.known > 0)) return kUnknownId;
+    if (s.id == 0) return 0;
+    return ((std::bit_cast<std::uint32_t>(s.z) + 0x80U) & 0xFFFFFF00U) |
+           static_cast<std::uint32_t>(s.id);
+}
 
 float toleranceAt(std::span<const WarpSurface> surface, Size size, int x, int y) {
     const float steps =

@@ -26,6 +26,9 @@ struct WarpSurface {
     float known = 0;
 };
 
+/// Returns the surface's entry of TracedPicture::packed.
+[[nodiscard]] std::uint32_t packedSurface(const WarpSurface& surface);
+
 /// A finished picture, prepared on the CPU for warping. Any thread may prepare it. Each array is
 /// row-major and has camera.size pixels.
 struct TracedPicture {

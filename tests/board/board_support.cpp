@@ -21,6 +21,16 @@ SyntheticBoard& sharedBoard(synthetic::Scene scene) {
     return *board;
 }
 
+SyntheticOptions smallBoard(int frames, std::uint64_t seed) {
+    SyntheticOptions out;
+    out.scene = synthetic::Scene::Flat;
+    out.pace = Pace::Consumer;
+    out.frames = frames;
+    out.seed = seed;
+    out.rig = synthetic::boardRig({160, 120}, {576, 432});
+    return out;
+}
+
 cv::Mat1b grey(const ImageView& image) {
     const cv::Mat4b rgba(image.size.height, image.size.width,
                          reinterpret_cast<cv::Vec4b*>(const_cast<std::uint8_t*>(image.data)),

@@ -6,6 +6,7 @@
 #include <opencv2/core.hpp>
 
 #include <array>
+#include <cstdint>
 #include <map>
 
 namespace mfar::test {
@@ -13,6 +14,9 @@ namespace mfar::test {
 /// Returns the simulated board that shows this scene. The board delivers pictures as fast as they
 /// are fetched, and it lives until the program ends.
 SyntheticBoard& sharedBoard(synthetic::Scene scene);
+
+/// Options of a board with small pictures, which take less time to render and to write.
+SyntheticOptions smallBoard(int frames = 0, std::uint64_t seed = 1);
 
 cv::Mat1b grey(const ImageView& image);
 /// Copy of a picture with values in [0, 1], in the picture's order of channels.

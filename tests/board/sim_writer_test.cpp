@@ -1,5 +1,6 @@
 #include "daemon/tools/sim_writer.h"
 #include "hal/virtual/recording.h"
+#include "tests/board/board_support.h"
 #include "tests/unit/temp_folder.h"
 
 #include <gtest/gtest.h>
@@ -12,16 +13,6 @@ namespace mfar::test {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A board with small pictures, which take less time to render and to write.
-SyntheticOptions smallBoard(int frames) {
-    SyntheticOptions options;
-    options.scene = synthetic::Scene::Flat;
-    options.pace = Pace::Consumer;
-    options.frames = frames;
-    options.rig = synthetic::boardRig({160, 120}, {576, 432});
-    return options;
-}
 
 TEST(SimWriter, ARecordingIsReadBackWithItsGroundTruth) {
     const TempFolder folder;

@@ -12,16 +12,12 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// With Pace::Consumer, the pictures are small, so that they take less time to render. With
-/// Pace::Realtime, they have their usual sizes: such a still is rendered in several steps, which
+/// A board with pictures of the usual sizes: such a still is rendered in several steps, which
 /// alternate with video frames.
-SyntheticOptions flat(Pace pace, int frames = 0, std::uint64_t seed = 1) {
+SyntheticOptions realtimeBoard() {
     SyntheticOptions options;
     options.scene = synthetic::Scene::Flat;
-    options.pace = pace;
-    options.frames = frames;
-    options.seed = seed;
-    if (pace == Pace::Consumer) options.rig = synthetic::boardRig({160, 120}, {576, 432});
+    options.pace = Pace::Realtime;
     return options;
 }
 
@@ -61,8 +57,7 @@ Delivery runBoard(SyntheticBoard& board, const std::vector<std::size_t>& pulses)
 }
 
 TEST(SyntheticBoard, EqualSeedsGiveEqualPicturesAndOtherSeedsDifferentOnes) {
-    SyntheticBoard a(flat(Pace::Consumer, 5, 1)), b(flat(Pace::Consumer, 5, 1)),
-        c(flat(Pace::Consumer, 5, 2));
+    SyntheticBoard a(smallBoard(5, 1)), b(smallBoard(5, 1)), c(smallBoard(5, 2));
     const Delivery first = runBoard(a, {1}), second = runBoard(b, {1}), other = runBoard(c, {1});
     ASSERT_EQ(first.pictures.size(), 6U);
     EXPECT_EQ(first.pictures, second.pictures);
@@ -72,7 +67,7 @@ TEST(SyntheticBoard, EqualSeedsGiveEqualPicturesAndOtherSeedsDifferentOnes) {
 }
 
 TEST(SyntheticBoard, AStillArrivesOneLatencyAfterItsTriggerPulse) {
-    SyntheticBoard board(flat(Pace::Consumer, 8));
+    SyntheticBoard board(smallBoard(8));
     const Delivery run = runBoard(board, {2});
     ASSERT_EQ(run.videoTimes.size(), 8U);
     ASSERT_EQ(run.stillTimes.size(), 1U);
@@ -85,30 +80,30 @@ TEST(SyntheticBoard, AStillArrivesOneLatencyAfterItsTriggerPulse) {
 }
 
 TEST(SyntheticBoard, WithoutAPulseNoStillArrives) {
-    SyntheticBoard board(flat(Pace::Consumer, 4));
+    SyntheticBoard board(smallBoard(4));
     EXPECT_TRUE(runBoard(board, {}).stillTimes.empty());
 }
 
 TEST(SyntheticBoard, APulseDuringTheExposureIsLost) {
-    SyntheticBoard board(flat(Pace::Consumer, 6));
+    SyntheticBoard board(smallBoard(6));
     EXPECT_EQ(runBoard(board, {1, 1, 2}).stillTimes.size(), 2U);
 }
 
 TEST(SyntheticBoard, APulseBeforeTheStillSensorStartsIsLost) {
-    SyntheticBoard board(flat(Pace::Consumer, 6));
+    SyntheticBoard board(smallBoard(6));
     board.trigger().fire();
     EXPECT_TRUE(runBoard(board, {}).stillTimes.empty());
 }
 
 TEST(SyntheticBoard, AStillTriggeredAtTheLastFrameArrivesAfterTheEndOfTheVideo) {
-    SyntheticBoard board(flat(Pace::Consumer, 3));
+    SyntheticBoard board(smallBoard(3));
     EXPECT_EQ(runBoard(board, {3}).stillTimes.size(), 1U);
 }
 
 TEST(SyntheticBoard, FramesOutliveTheBoard) {
     std::optional<Frame> frame;
     {
-        SyntheticBoard board(flat(Pace::Consumer, 3));
+        SyntheticBoard board(smallBoard(3));
         board.video().start();
         frame = board.video().next(1s);
     }
@@ -117,7 +112,7 @@ TEST(SyntheticBoard, FramesOutliveTheBoard) {
 }
 
 TEST(SyntheticBoard, WaitingForAFrameTimesOutIfAllVideoBuffersAreInUse) {
-    SyntheticOptions options = flat(Pace::Consumer);
+    SyntheticOptions options = smallBoard();
     options.videoBuffers = 2;
     SyntheticBoard board(options);
     board.video().start();
@@ -129,7 +124,7 @@ TEST(SyntheticBoard, WaitingForAFrameTimesOutIfAllVideoBuffersAreInUse) {
 }
 
 TEST(SyntheticBoard, AtRealtimePaceFrameTimesIncreaseAndLieBetweenStartAndNow) {
-    SyntheticBoard board(flat(Pace::Realtime));
+    SyntheticBoard board(realtimeBoard());
     const Timestamp before = Timestamp::now();
     board.video().start();
     Timestamp last = before - 1ns;
@@ -143,7 +138,7 @@ TEST(SyntheticBoard, AtRealtimePaceFrameTimesIncreaseAndLieBetweenStartAndNow) {
 }
 
 TEST(SyntheticBoard, RealtimeStillArrivesWhileVideoRuns) {
-    SyntheticBoard board(flat(Pace::Realtime));
+    SyntheticBoard board(realtimeBoard());
     board.video().start();
     board.stills().start();
     ASSERT_TRUE(board.video().next(20s));
@@ -160,7 +155,7 @@ TEST(SyntheticBoard, RealtimeStillArrivesWhileVideoRuns) {
 }
 
 TEST(SyntheticBoard, StopWakesWaitingThreads) {
-    SyntheticBoard board(flat(Pace::Realtime));
+    SyntheticBoard board(realtimeBoard());
     board.stills().start();
     std::optional<Frame> got;
     std::thread waiter([&] { got = board.stills().next(std::chrono::hours(1)); });
@@ -172,7 +167,7 @@ TEST(SyntheticBoard, StopWakesWaitingThreads) {
 }
 
 TEST(SyntheticBoard, DifferentThreadsMayUseCamerasTriggerAndGroundTruth) {
-    SyntheticBoard board(flat(Pace::Consumer, 12));
+    SyntheticBoard board(smallBoard(12));
     board.video().start();
     board.stills().start();
     int stills = 0;

@@ -4,11 +4,11 @@
 #include "pipeline/simd/surface_raster.h"
 #include "pipeline/simd/view_rows.h"
 #include "pipeline/warp/pass_params.h"
+#include "pipeline/warp/traced_picture.h"
 #include "tests/engine/gl_test.h"
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -25,7 +25,7 @@ constexpr int kObjectX = 10, kObjectY = 5;
 constexpr int kShadow = 100;  // alpha of the shadow
 
 std::uint32_t surfaceWord(float z, std::uint32_t number) {
-    return ((std::bit_cast<std::uint32_t>(z) + 0x80U) & 0xFFFFFF00U) | number;
+    return packedSurface({.z = z, .id = static_cast<float>(number), .known = 1});
 }
 
 /// A slanted shadow catcher, whose z changes by 7 % from row to row, as seen in the traced picture
