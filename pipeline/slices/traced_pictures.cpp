@@ -14,10 +14,6 @@ namespace {
 // With TracedPolicy::soon, a new picture begins when the change of the view since the shown picture
 // reaches this share of ViewLimits. Otherwise, it begins at the full ViewLimits.
 constexpr double kSoon = 0.75;
-// While the next picture is traced, the camera may return towards the view of the shown picture.
-// The next picture is discarded if the change of the view falls below kBack times the change that
-// started it.
-constexpr double kBack = 0.5;
 // From this multiple of ViewLimits on, a noisy new picture is better than the shown picture.
 constexpr double kHopeless = 3;
 // The shown picture is converted again when its number of samples has grown by this factor.
@@ -33,11 +29,9 @@ constexpr double kTracedPerConverted = 4;
 // because a picture for the camera at rest follows, which could not reuse so few samples.
 constexpr int kQuarterTurn = 3;
 constexpr double kLongWait = 0.25;
-// The camera rests if it moves by less than kRestPixels in kRestLooks calls of look(). At rest, the
-// shown picture should not need to be warped. So a new picture begins if objects in the shown
-// picture are more than kElsewherePixels away from their present places.
-constexpr double kRestPixels = 0.1, kElsewherePixels = 0.2;
-constexpr int kRestLooks = 10;
+// While the camera rests, the shown picture should not need to be warped. So a new picture begins
+// if objects in the shown picture are more than this distance away from their present places [px].
+constexpr double kElsewherePixels = 0.2;
 // Upper limits of the weight with which the light of an earlier picture counts in a new one
 // [samples]. The second limit applies after a change of lighting. It is low, so that new samples
 // soon outweigh the old light.
@@ -52,16 +46,6 @@ constexpr double kFarthestAhead = 0.5;  // longest prediction of the motion of o
 constexpr double kPeriodShare = 0.3;
 
 }  // namespace
-
-TracedStep nextStep(std::optional<double> sinceShown, std::optional<double> sinceNext,
-                    double renewed) {
-    if (!sinceNext)
-        return sinceShown && *sinceShown < renewed ? TracedStep::Refine : TracedStep::Start;
-    // The first picture is finished even if the camera moves away.
-    if (!sinceShown) return TracedStep::Continue;
-    if (*sinceShown < kBack * renewed) return TracedStep::Drop;
-    return *sinceNext >= 1 && *sinceNext > *sinceShown ? TracedStep::Start : TracedStep::Continue;
-}
 
 TracedPictures::TracedPictures(const SliceOptions& slices, const TracedPolicy& policy,
                                std::shared_ptr<FilmMemory> memory)
@@ -98,23 +82,12 @@ double TracedPictures::motionSince(const Picture& picture) const {
     return change;
 }
 
-void TracedPictures::watchRest() {
-    if (scene_->moves())
-        restLooks_ = 0;
-    else if (pixelChange(restsAt_, now_, scene_->balls) < kRestPixels) {
-        restLooks_ = std::min(restLooks_ + 1, kRestLooks);
-    } else {
-        restsAt_ = now_;
-        restLooks_ = 0;
-    }
-}
-
 TracedStep TracedPictures::chosenStep() const {
     std::optional<double> sinceShown = changeSince(pictures_[shown_]);
     const bool serves = sinceShown && *sinceShown < 1;
     if (sinceShown && scene_->moves())
         sinceShown = std::max(*sinceShown, motionSince(pictures_[shown_]));
-    const bool rests = restLooks_ == kRestLooks;
+    const bool rests = rest_.rests();
     const bool hasBegun = hasNext_ && !toBegin_;
     const std::optional<double> sinceNext =
         hasBegun ? changeSince(pictures_[1 - shown_]) : std::nullopt;
@@ -142,8 +115,11 @@ void TracedPictures::look(const RenderView& now, const RenderView& predicted, Ti
     time_ = time;
     if (!scene_) return;
     if (scene_->moves()) posesNow_ = posesAt(*scene_->source, time);
-    watchRest();
-    const bool rests = restLooks_ == kRestLooks;
+    if (scene_->moves())
+        rest_.reset();
+    else
+        rest_.look(now_, scene_->balls);
+    const bool rests = rest_.rests();
     switch (chosenStep()) {
     case TracedStep::Start:
         hasNext_ = toBegin_ = true;
@@ -310,7 +286,7 @@ int TracedPictures::leastSamples(const Picture& picture, bool urgent) const {
 int TracedPictures::leastTurns(const Picture& picture, bool urgent) const {
     if (picture.wasShown) return std::max(picture.shownTurns + 1, kQuarterTurn);
     const double seconds = static_cast<double>((time_ - picture.chosen).count()) * 1e-9;
-    const bool isLate = urgent && seconds > kLongWait && restLooks_ < kRestLooks;
+    const bool isLate = urgent && seconds > kLongWait && !rest_.rests();
     return isLate ? kQuarterTurn - 1 : kQuarterTurn;
 }
 

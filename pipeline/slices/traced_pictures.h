@@ -2,8 +2,10 @@
 
 #include "pipeline/render/picture_resolver.h"
 #include "pipeline/slices/picture_scene.h"
+#include "pipeline/slices/rest_watch.h"
 #include "pipeline/slices/slices.h"
 #include "pipeline/slices/touched_tiles.h"
+#include "pipeline/slices/traced_step.h"
 #include "pipeline/slices/view_change.h"
 
 #include <array>
@@ -13,23 +15,6 @@
 #include <vector>
 
 namespace mfar {
-
-/// The next action for the shown and the next traced picture.
-enum class TracedStep : unsigned char {
-    Refine,    ///< trace more samples of the shown picture
-    Continue,  ///< trace more samples of the next picture
-    Start,     ///< begin a next picture, and discard an unfinished one
-    Drop,      ///< discard the next picture: the view is near the shown picture's again
-};
-
-/// `sinceShown` is the change since the shown picture. It is the larger of two numbers: changeOf()
-/// of PictureScene, from this picture's view to the present view, and the motion of objects divided
-/// by its limit. `sinceNext` is PictureScene::changeOf() for the next picture. A value is empty if
-/// its picture does not exist or shows other objects; `sinceShown` is also empty if the light has
-/// changed. If there is no next picture, one begins when `sinceShown` is empty or at least
-/// `renewed`.
-[[nodiscard]] TracedStep nextStep(std::optional<double> sinceShown, std::optional<double> sinceNext,
-                                  double renewed);
 
 struct TracedPolicy {
     ViewLimits limits;
@@ -139,7 +124,6 @@ private:
     [[nodiscard]] std::optional<double> changeSince(const Picture& picture) const;
     [[nodiscard]] double motionSince(const Picture& picture) const;
     [[nodiscard]] TracedStep chosenStep() const;
-    void watchRest();
     [[nodiscard]] std::shared_ptr<const PictureScene> sceneOfNext() const;
     [[nodiscard]] Slices::Density densityOf(const PixelRect& tile, const Picture& picture,
                                             const PixelRect& objects) const;
@@ -159,8 +143,8 @@ private:
     std::size_t shown_ = 0;
     bool hasNext_ = false, toBegin_ = false;
     bool nextRests_ = false;
-    RenderView now_, wanted_, restsAt_;
-    int restLooks_ = 0;
+    RenderView now_, wanted_;
+    RestWatch rest_;
     Timestamp chosen_, time_;
     std::vector<RigidTransform> posesNow_;  // empty if no object moves
     double period_ = 0;  // time from the start of a picture until it is shown [s], smoothed
