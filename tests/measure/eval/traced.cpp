@@ -31,7 +31,7 @@ using Rgb = std::array<float, 3>;
 using Picture = std::vector<Rgb>;
 
 constexpr double kRate = 30;
-constexpr int kFirstFrames = 15;  // not scored, because the first picture is still being traced
+constexpr int kFirstFrames = 15;  // not compared, because the first picture is still being traced
 constexpr float kPaper = 200;     // grey level of the background under the layer
 constexpr double kFill = 0.5;     // largest side of the objects' bounding box / picture's height
 constexpr auto kPatience = std::chrono::seconds(20);
@@ -236,7 +236,9 @@ public:
     }
 
 private:
-    [[nodiscard]] bool isCompared(int frame) const { return frame % request_.every == 0; }
+    [[nodiscard]] bool isCompared(int frame) const {
+        return frame >= kFirstFrames && frame % request_.every == 0;
+    }
 
     [[nodiscard]] PosedPicture posed(int frame, const RenderedPicture& truth) const {
         return {truth, posesAt(*course_.scene(), timeOf(frame))};
@@ -253,16 +255,16 @@ private:
             progress.show(done, count, frameOf(done, count));
             const Picture shown = frames.next();
             if (!request_.video.empty()) all.push_back(shown);
-            const bool follows = i > 0 && isCompared(i - 1);
+            const bool follows = i > kFirstFrames && isCompared(i - 1);
             if (!isCompared(i) && !follows) continue;
             const RenderedPicture& truth = truth_.at(i, course_.at(i), timeOf(i));
             const Picture exact = overPaper(truth);
             Picture error = differenceOf(shown, exact);
             std::optional<double> flicker;
-            if (follows && errorBefore && i > kFirstFrames)
+            if (follows)
                 flicker =
                     flickerOf(*errorBefore, posed(i - 1, *truthBefore), error, posed(i, truth));
-            if (isCompared(i) && i >= kFirstFrames)
+            if (isCompared(i))
                 compare(method, i, {shown, exact, error, flicker}, truth, frames);
             else if (flicker)
                 report_.add(label_, std::to_string(i), method, valuesOf({.flicker = flicker}));

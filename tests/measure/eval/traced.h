@@ -18,8 +18,8 @@ struct TracedRequest {
     Size size{640, 480};
     double budgetMs = 8;  ///< processor time of the path tracer per frame
     int frames = 90;      ///< frames per path, at 30 per second
-    /// One of this many frames is compared. Flicker is measured from a compared frame to the next
-    /// compared frame.
+    /// One of this many frames is compared. Flicker is measured from a compared frame to the frame
+    /// after it.
     int every = 10;
     int truthSamples = 256;
     bool hdrVdp = false;
@@ -34,7 +34,7 @@ struct TracedRequest {
 /// Measures how mfard shows path-traced objects while the camera moves. In compared frames,
 /// the layer that was made within the budget is compared with a picture traced for the same view,
 /// both over grey paper. Rows are SCENE/PATH, frame and method. Frames of the first half
-/// second have no rows.
+/// second are not compared.
 ///
 /// Columns: psnr_db, of pixels where the truth shows an object; shadow_psnr_db, of pixels where the
 /// truth shows a shadow or light of an object on the real surface; flicker of the luma error of

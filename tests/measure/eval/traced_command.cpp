@@ -20,7 +20,7 @@ constexpr const char* kTracedHelp =
     "change of the luma error of objects from a frame to the next along their motion, root\n"
     "mean square over the square root of two; pictures: number of traced pictures shown so\n"
     "far; warp_ms: time of drawing the layer; hdrvdp_q: HDR-VDP-2's quality of the whole frame,\n"
-    "100 if it equals the truth. Frames of the first half second are not scored.";
+    "100 if it equals the truth. Frames of the first half second are not compared.";
 
 constexpr const char* kTruthHelp =
     "folder that keeps the truth for later runs; if another version of mfar-eval has made its "
@@ -55,7 +55,7 @@ CLI::App* addTracedCommand(CLI::App& app, TracedRequest& request) {
         ->capture_default_str();
     sub->add_option("--every", request.every,
                     "compare one of this many frames; flicker is measured from a compared frame "
-                    "to the next one")
+                    "to the frame after it")
         ->check(CLI::Range(1, 100000))
         ->capture_default_str();
     sub->add_flag("--hdrvdp", request.hdrVdp, "compute HDR-VDP-2 as well, which takes longer");
