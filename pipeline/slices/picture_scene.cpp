@@ -2,14 +2,27 @@
 
 #include "pipeline/scene/scene_parts.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace mfar {
+namespace {
+
+double areaOf(const PixelRect& r) {
+    return r.empty() ? 0 : static_cast<double>(r.x1 - r.x0) * static_cast<double>(r.y1 - r.y0);
+}
+
+}  // namespace
 
 double PictureScene::changeOf(const RenderView& from, const RenderView& to,
                               const ViewLimits& limits) const {
     if (!shaded || isSeen(balls, to)) return viewChange(from, to, balls, limits);
     return viewChange(from, to, {&*shaded, 1}, limits);
+}
+
+double PictureScene::tracedPixels(const RenderView& view) const {
+    const double objects = areaOf(tracer->objectBounds(view));
+    return objects + 0.25 * std::max(0.0, areaOf(tracer->bounds(view)) - objects);
 }
 
 PictureScene pictureScene(std::shared_ptr<const Scene> source, const PathTracerOptions& options) {

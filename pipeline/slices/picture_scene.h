@@ -34,6 +34,9 @@ struct PictureScene {
     /// shadow catcher instead, because shadows and glow can be visible without the objects.
     [[nodiscard]] double changeOf(const RenderView& from, const RenderView& to,
                                   const ViewLimits& limits) const;
+    /// Estimated number of pixels through which rays are traced: all pixels around the objects, and
+    /// a quarter of those that can only show a shadow.
+    [[nodiscard]] double tracedPixels(const RenderView& view) const;
 };
 
 /// Throws the same exceptions as PathTracer.

@@ -50,7 +50,7 @@ constexpr double kPeriodShare = 0.3;
 TracedPictures::TracedPictures(const SliceOptions& slices, const TracedPolicy& policy,
                                std::shared_ptr<FilmMemory> memory)
     : slices_(slices), policy_(policy), memory_(std::move(memory)),
-      pictures_{Picture(slices), Picture(slices)} {}
+      pictures_{Picture(slices), Picture(slices)}, coarseness_(policy.shownWithin) {}
 
 // Returns the change from the picture's view to the present view. Returns nothing if the objects
 // have changed. For the shown picture, also returns nothing if the lighting has changed. For the
@@ -61,7 +61,7 @@ std::optional<double> TracedPictures::changeSince(const Picture& picture) const 
     if (!picture.scene || picture.scene->objects != scene_->objects ||
         (isShown && picture.scene->light != scene_->light))
         return {};
-    return picture.scene->changeOf(picture.view, now_, policy_.limits);
+    return picture.scene->changeOf(picture.wanted, now_, policy_.limits);
 }
 
 /// Returns the largest motion of an object since a picture, divided by its limit. The warp can move
@@ -76,7 +76,7 @@ double TracedPictures::motionSince(const Picture& picture) const {
         // object at its present pose.
         const RenderView view{now_.camera,
                               T_world_then * posesNow_[object].inverse() * now_.T_world_camera};
-        change = std::max({change, viewChange(picture.view, view, {&ball, 1}, policy_.limits),
+        change = std::max({change, viewChange(picture.wanted, view, {&ball, 1}, policy_.limits),
                            pixelChange(now_, view, {&ball, 1}) / kShadowPixels});
     }
     return change;
@@ -93,11 +93,12 @@ TracedStep TracedPictures::chosenStep() const {
         hasBegun ? changeSince(pictures_[1 - shown_]) : std::nullopt;
     if (sinceNext && nextRests_ && rests) return TracedStep::Continue;
     const bool isElsewhere =
-        sinceShown && pixelChange(pictures_[shown_].view, now_, scene_->balls) > kElsewherePixels;
+        sinceShown && pixelChange(pictures_[shown_].wanted, now_, scene_->balls) > kElsewherePixels;
     const Picture& shown = pictures_[shown_];
     if (!hasBegun && rests && (isElsewhere || (shown.wasShown && !shown.rests)))
         return TracedStep::Start;
     const TracedStep step = nextStep(sinceShown, sinceNext, policy_.soon ? kSoon : 1);
+    if (step == TracedStep::Refine && isTooCoarse(shown)) return TracedStep::Start;
     // A new picture reuses the light of the shown picture, which has none before its first samples.
     // So the shown picture gets these samples first, if it still is near enough to the present
     // view.
@@ -105,9 +106,46 @@ TracedStep TracedPictures::chosenStep() const {
         scene_->moves() ? shown.slices.turns() < kQuarterTurn : shown.slices.samples() == 0;
     if (step == TracedStep::Start && !hasBegun && serves && lacksSamples) return TracedStep::Refine;
     // The next picture is kept while objects move: even if they are now near their positions in the
-    // shown picture, they will soon be elsewhere.
-    if (step == TracedStep::Drop && scene_->moves()) return TracedStep::Continue;
+    // shown picture, they will soon be elsewhere. It is also kept if it has a higher resolution.
+    const bool isFiner = hasBegun && pictures_[1 - shown_].coarseness < shown.coarseness;
+    if (step == TracedStep::Drop && (isFiner || scene_->moves())) return TracedStep::Continue;
     return step;
+}
+
+double TracedPictures::secondsSince(Timestamp begin) const {
+    return static_cast<double>((time_ - begin).count()) * 1e-9;
+}
+
+PictureCoarseness::Begun TracedPictures::begunOf(const Picture& picture) const {
+    const auto pixels = static_cast<double>(std::max<std::size_t>(picture.slices.pixels(), 1));
+    return {secondsSince(picture.chosen), static_cast<double>(picture.looked) / pixels};
+}
+
+/// True if the next picture should be replaced by one of lower resolution, because nothing usable
+/// is shown until it is complete, and it takes too long.
+bool TracedPictures::isNextTooSlow() const {
+    const Picture& next = pictures_[1 - shown_];
+    return hasNext_ && !toBegin_ && !changeSince(pictures_[shown_]) && next.slices.turns() == 0 &&
+           coarseness_.isTooSlow(next.coarseness, begunOf(next));
+}
+
+/// True if the shown picture should be replaced by one of higher resolution of about the same view.
+bool TracedPictures::isTooCoarse(const Picture& shown) const {
+    return shown.coarseness > 0 && shown.wasShown && shown.slices.turns() >= kQuarterTurn &&
+           coarsenessOfNext(now_) < shown.coarseness;
+}
+
+/// Coarseness of a picture for a moving camera, finer than a shown one that got many samples.
+int TracedPictures::coarsenessOfNext(const RenderView& view) const {
+    const Picture& shown = pictures_[shown_];
+    const int chosen = coarseness_.chosen(scene_->tracedPixels(view));
+    const bool hadTime = changeSince(shown) && shown.wasShown && shown.coarseness > 0 &&
+                         shown.slices.samples() >= policy_.samplesToReplace;
+    return hadTime ? std::min(chosen, shown.coarseness - 1) : chosen;
+}
+
+void TracedPictures::learnSpeed(const Picture& picture, double seconds) {
+    coarseness_.learn(picture.scene->tracedPixels(picture.wanted), picture.coarseness, seconds);
 }
 
 void TracedPictures::look(const RenderView& now, const RenderView& predicted, Timestamp time) {
@@ -119,12 +157,14 @@ void TracedPictures::look(const RenderView& now, const RenderView& predicted, Ti
         rest_.reset();
     else
         rest_.look(now_, scene_->balls);
-    const bool rests = rest_.rests();
-    switch (chosenStep()) {
+    const bool isTooSlow = isNextTooSlow();
+    if (isTooSlow)
+        learnSpeed(pictures_[1 - shown_], begunOf(pictures_[1 - shown_]).expectedSeconds());
+    switch (isTooSlow ? TracedStep::Start : chosenStep()) {
     case TracedStep::Start:
         hasNext_ = toBegin_ = true;
-        nextRests_ = rests;
-        wanted_ = rests ? now : predicted;
+        nextRests_ = rest_.rests() && !isTooSlow;
+        wanted_ = nextRests_ ? now : predicted;
         chosen_ = time;
         break;
     case TracedStep::Refine:
@@ -191,10 +231,14 @@ std::shared_ptr<const PictureScene> TracedPictures::sceneOfNext() const {
 void TracedPictures::begin() {
     Picture& picture = pictures_[1 - shown_];
     picture.scene = sceneOfNext();
-    picture.view = wanted_;
+    picture.wanted = wanted_;
+    picture.coarseness = nextRests_ ? 0 : coarsenessOfNext(wanted_);
+    if (!nextRests_) coarseness_.begin(picture.coarseness);
+    picture.view = coarsened(wanted_, picture.coarseness);
     picture.chosen = chosen_;
     picture.rests = nextRests_;
     picture.shownSamples = picture.shownTurns = 0;
+    picture.looked = 0;
     picture.wasShown = picture.counted = false;
     picture.history.reset();
     const Picture& shown = pictures_[shown_];
@@ -208,12 +252,13 @@ void TracedPictures::begin() {
             shown.scene->poses));
         if (!sameLight) picture.history->forgetCatcher();
     }
-    if (!picture.film || !(picture.film->size() == wanted_.camera.size))
-        picture.film = std::make_unique<Film>(wanted_.camera.size, memory_);
-    picture.traced = picture.scene->tracer->bounds(wanted_);
+    const Size size = picture.view.camera.size;
+    if (!picture.film || !(picture.film->size() == size))
+        picture.film = std::make_unique<Film>(size, memory_);
+    picture.traced = picture.scene->tracer->bounds(picture.view);
     picture.film->begin();
-    const PixelRect objects = picture.scene->tracer->objectBounds(wanted_);
-    picture.slices.begin(picture.traced, wanted_.camera.size,
+    const PixelRect objects = picture.scene->tracer->objectBounds(picture.view);
+    picture.slices.begin(picture.traced, size,
                          [&](const PixelRect& tile) { return densityOf(tile, picture, objects); });
     picture.touched.clear();
     toBegin_ = false;
@@ -249,6 +294,7 @@ PixelState TracedPictures::Picture::state(std::uint32_t pixel, const Exposure& e
 void TracedPictures::done(const Portion& portion, const Exposure& exposure, double ms) {
     Picture& picture = pictures_[portion.picture];
     --picture.portions;
+    if (portion.slice.samples == 0) picture.looked += portion.slice.pixels.size();
     tracedMs_ += ms;
     picture.slices.done(portion.slice,
                         [&](std::uint32_t pixel) { return picture.state(pixel, exposure); });
@@ -259,7 +305,7 @@ bool TracedPictures::isUrgent(const Picture& picture) const {
     const Picture& shown = pictures_[shown_];
     return !shown.scene || shown.shownTurns < kQuarterTurn ||
            shown.scene->objects != picture.scene->objects ||
-           scene_->changeOf(shown.view, now_, policy_.limits) >= kHopeless;
+           scene_->changeOf(shown.wanted, now_, policy_.limits) >= kHopeless;
 }
 
 bool TracedPictures::toShow() const {
@@ -278,15 +324,17 @@ bool TracedPictures::toShow() const {
 int TracedPictures::leastSamples(const Picture& picture, bool urgent) const {
     if (picture.wasShown) return std::max(kSamplesRatio * picture.shownSamples, 1);
     if (urgent || maybeSparse(picture)) return 1;
-    return nextRests_ ? std::max(policy_.samplesToReplace, pictures_[shown_].shownSamples)
-                      : policy_.samplesToReplace;
+    if (!nextRests_) return policy_.samplesToReplace;
+    // Compared with a coarse picture, fewer samples give the same noise of an area.
+    const Picture& shown = pictures_[shown_];
+    return std::max(shown.coarseness > 0 ? 1 : policy_.samplesToReplace,
+                    shown.shownSamples >> shown.coarseness);
 }
 
 /// Number of turns from which a sparsely sampled picture may be shown.
 int TracedPictures::leastTurns(const Picture& picture, bool urgent) const {
     if (picture.wasShown) return std::max(picture.shownTurns + 1, kQuarterTurn);
-    const double seconds = static_cast<double>((time_ - picture.chosen).count()) * 1e-9;
-    const bool isLate = urgent && seconds > kLongWait && !rest_.rests();
+    const bool isLate = urgent && secondsSince(picture.chosen) > kLongWait && !rest_.rests();
     return isLate ? kQuarterTurn - 1 : kQuarterTurn;
 }
 
@@ -314,9 +362,11 @@ void TracedPictures::endShow(RenderedPicture& out, double ms) {
     picture.touched.set(out);
     picture.shownSamples = picture.slices.samples();
     picture.shownTurns = picture.slices.turns();
-    if (!picture.wasShown)
-        period_ +=
-            kPeriodShare * (static_cast<double>((time_ - picture.chosen).count()) * 1e-9 - period_);
+    if (!picture.wasShown) {
+        const double seconds = secondsSince(picture.chosen);
+        period_ += kPeriodShare * (seconds - period_);
+        if (!picture.rests) learnSpeed(picture, seconds);
+    }
     picture.wasShown = true;
     if (picture.slices.finished()) {
         picture.counted = true;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "pipeline/render/picture_resolver.h"
+#include "pipeline/slices/picture_coarseness.h"
 #include "pipeline/slices/picture_scene.h"
 #include "pipeline/slices/rest_watch.h"
 #include "pipeline/slices/slices.h"
@@ -20,9 +21,9 @@ struct TracedPolicy {
     ViewLimits limits;
     /// Samples per pixel that the next picture needs to replace the shown picture. Fewer suffice if
     /// the shown picture has other objects or a very different view, or if `soon` permits it. If
-    /// the camera rests, the next picture also needs as many as the shown picture. Four filtered
-    /// samples gave root mean square errors of 3.2 grey levels (of 255) on one scene and 4.4 on
-    /// another; 16 unfiltered samples gave 3.3 and 3.1.
+    /// the camera rests, the next picture also needs as many as the shown picture, or fewer if that
+    /// has a lower resolution. Four filtered samples gave root mean square errors of 3.2 grey
+    /// levels (of 255) on one scene and 4.4 on another; 16 unfiltered samples gave 3.3 and 3.1.
     int samplesToReplace = 4;
     bool filter = true;   ///< true: noise is filtered when a picture is converted to be shown
     bool history = true;  ///< true: a new picture begins with the light of the shown picture
@@ -32,6 +33,10 @@ struct TracedPolicy {
     /// viewChange() reaches 1. A caller that shows the colours of the picture, and not just its
     /// light, must set `soon` to false.
     bool soon = true;
+    /// While the camera moves, a picture should be shown within about this time after its start
+    /// [s]. On a slow processor it is therefore traced at a lower resolution, at least a quarter of
+    /// the camera's width and height. 0: always at the camera's resolution.
+    double shownWithin = 0;
     bool operator==(const TracedPolicy&) const = default;
 };
 
@@ -104,7 +109,10 @@ private:
         explicit Picture(const SliceOptions& slices) : slices(slices) {}
 
         std::shared_ptr<const PictureScene> scene;  // null if there is no picture
-        RenderView view;
+        RenderView wanted;                          // at the camera's resolution
+        RenderView view;                            // the same view at the picture's resolution
+        int coarseness = 0;
+        std::size_t looked = 0;  // pixels with a ray through their centre
         Timestamp chosen;
         std::unique_ptr<Film> film;
         std::optional<LightHistory> history;
@@ -124,6 +132,12 @@ private:
     [[nodiscard]] std::optional<double> changeSince(const Picture& picture) const;
     [[nodiscard]] double motionSince(const Picture& picture) const;
     [[nodiscard]] TracedStep chosenStep() const;
+    [[nodiscard]] PictureCoarseness::Begun begunOf(const Picture& picture) const;
+    [[nodiscard]] bool isNextTooSlow() const;
+    [[nodiscard]] bool isTooCoarse(const Picture& shown) const;
+    [[nodiscard]] int coarsenessOfNext(const RenderView& view) const;
+    void learnSpeed(const Picture& picture, double seconds);
+    [[nodiscard]] double secondsSince(Timestamp begin) const;
     [[nodiscard]] std::shared_ptr<const PictureScene> sceneOfNext() const;
     [[nodiscard]] Slices::Density densityOf(const PixelRect& tile, const Picture& picture,
                                             const PixelRect& objects) const;
@@ -139,6 +153,7 @@ private:
     const std::shared_ptr<FilmMemory> memory_;
     std::shared_ptr<const PictureScene> providedFor_;
     std::array<Picture, 2> pictures_;
+    PictureCoarseness coarseness_;
     PictureResolver resolver_;
     std::size_t shown_ = 0;
     bool hasNext_ = false, toBegin_ = false;

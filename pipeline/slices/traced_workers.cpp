@@ -32,6 +32,8 @@ TracedRendererOptions checked(const TracedRendererOptions& o) {
         throw std::invalid_argument(
             "path tracer: turnDegrees and zoom must be above 0, lightChange must not be negative, "
             "and samplesToReplace must be at least 1");
+    if (!(std::isfinite(o.policy.shownWithin) && o.policy.shownWithin >= 0))
+        throw std::invalid_argument("path tracer: shownWithin must be finite and not negative");
     if (!(o.holeShare >= 0 && o.holeShare <= 1))
         throw std::invalid_argument("path tracer: holeShare must be from 0 to 1");
     if (!positive(o.exposure.scale))

@@ -52,6 +52,8 @@ TEST(VirtualConfig, EveryOptionReachesThePathTracerAndTheWarp) {
     EXPECT_EQ(out.renderer.threads, 3);
     EXPECT_FALSE(out.renderer.policy.filter);
     EXPECT_EQ(out.renderer.policy.limits.turnDegrees, 2);
+    EXPECT_EQ(out.renderer.policy.shownWithin, 0) << "tiles must have the final resolution";
+    EXPECT_GT(tracedLayerOptions({}, 1).renderer.policy.shownWithin, 0);
     EXPECT_EQ(out.renderer.exposure.scale, 2);
     EXPECT_EQ(out.renderer.tracer.fireflyClamp, 0.5F);
     EXPECT_EQ(layerSize(options, {200, 150}, {1000, 1000}), (Size{100, 75}));

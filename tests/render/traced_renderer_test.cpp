@@ -377,6 +377,8 @@ TEST(TracedRenderer, OptionsOutOfRangeAreRefused) {
     refused([](TracedRendererOptions& o) { o.tracer.maxDepth = 0; });
     refused([](TracedRendererOptions& o) { o.policy.limits.turnDegrees = 0; });
     refused([](TracedRendererOptions& o) { o.policy.samplesToReplace = 0; });
+    refused([](TracedRendererOptions& o) { o.policy.shownWithin = -1; });
+    refused([](TracedRendererOptions& o) { o.policy.shownWithin = std::nan(""); });
     refused([](TracedRendererOptions& o) { o.lightChange = std::nan(""); });
     refused([](TracedRendererOptions& o) { o.holeShare = 1.5; });
     refused([](TracedRendererOptions& o) { o.exposure.scale = 0; });

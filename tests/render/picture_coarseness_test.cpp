@@ -1,0 +1,176 @@
+#include "pipeline/slices/picture_coarseness.h"
+#include "tests/render/picture_driver.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+
+namespace mfar {
+namespace {
+
+using namespace traced_pictures;
+
+constexpr double kWithin = 0.8, kPixels = 10000;
+constexpr Size kCoarsestSize{kTracedSize.width / 4, kTracedSize.height / 4};
+
+Timestamp at(double seconds) {
+    return Timestamp{} + std::chrono::nanoseconds(std::llround(1e9 * seconds));
+}
+
+TracedPolicy timed() {
+    TracedPolicy out = kProduct;
+    out.shownWithin = kWithin;
+    return out;
+}
+
+TEST(PictureCoarseness, WithoutALimitEveryPictureHasFullResolution) {
+    PictureCoarseness coarseness(0);
+    coarseness.learn(kPixels, 0, 1000);
+    EXPECT_EQ(coarseness.chosen(kPixels), 0);
+    EXPECT_FALSE(coarseness.isTooSlow(0, {1000, 0}));
+}
+
+TEST(PictureCoarseness, PictureIsAsFineAsTheTimeAllows) {
+    PictureCoarseness coarseness(kWithin);
+    EXPECT_EQ(coarseness.chosen(kPixels), 0) << "the speed is unknown";
+    // Each level halves the number of pixels.
+    coarseness.learn(kPixels, 0, 3 * kWithin);
+    EXPECT_EQ(coarseness.chosen(kPixels), 2);
+    EXPECT_EQ(coarseness.chosen(kPixels / 4), 0);
+    EXPECT_EQ(coarseness.chosen(4 * kPixels), PictureCoarseness::kCoarsest);
+    EXPECT_EQ(coarseness.chosen(1e9), PictureCoarseness::kCoarsest);
+    coarseness.learn(kPixels, 2, kWithin / 4);
+    EXPECT_EQ(coarseness.chosen(kPixels), 0);
+    // A picture that is shown in the frame in which it began takes no measurable time.
+    coarseness.learn(kPixels, 2, 0);
+    EXPECT_EQ(coarseness.chosen(kPixels), 0);
+    coarseness.learn(0, 2, 1000);
+    EXPECT_EQ(coarseness.chosen(kPixels), 0) << "a picture without objects tells no speed";
+}
+
+TEST(PictureCoarseness, SmallChangesOfTheSpeedKeepTheResolution) {
+    PictureCoarseness coarseness(kWithin);
+    coarseness.begin(1);
+    for (const double change : {0.75, 0.95}) {
+        coarseness.learn(kPixels, 0, change * kWithin);
+        EXPECT_EQ(coarseness.chosen(kPixels), 1) << change;
+    }
+    coarseness.learn(kPixels, 0, 0.6 * kWithin);
+    EXPECT_EQ(coarseness.chosen(kPixels), 0);
+    coarseness.begin(0);
+    coarseness.learn(kPixels, 0, 0.95 * kWithin);
+    EXPECT_EQ(coarseness.chosen(kPixels), 0);
+}
+
+TEST(PictureCoarseness, UnfinishedPictureIsTooSlowIfItWillTakeTooLong) {
+    const PictureCoarseness coarseness(kWithin);
+    EXPECT_TRUE(coarseness.isTooSlow(0, {0.2, 0.1}));
+    EXPECT_TRUE(coarseness.isTooSlow(0, {0.2, 0})) << "not a single ray was traced";
+    EXPECT_FALSE(coarseness.isTooSlow(0, {0.2, 0.9}));
+    EXPECT_FALSE(coarseness.isTooSlow(0, {0.01, 0})) << "too early for an estimate";
+    EXPECT_FALSE(coarseness.isTooSlow(PictureCoarseness::kCoarsest, {0.2, 0}));
+}
+
+TEST(PictureCoarseness, CoarserViewShowsTheSamePartOfTheWorld) {
+    const RenderView view = render_scenes::viewFrom({640, 480}, 20);
+    EXPECT_EQ(coarsened(view, 0).camera, view.camera);
+    const RenderView half = coarsened(view, 2);
+    EXPECT_EQ(half.camera.size, (Size{320, 240}));
+    EXPECT_EQ(coarsened(view, 1).camera.size, (Size{453, 339}));
+    EXPECT_EQ(coarsened(view, 4).camera.size, (Size{160, 120}));
+    EXPECT_EQ(half.T_world_camera.translation, view.T_world_camera.translation);
+    // Corners of the pictures, half a pixel outside the centres of the outermost pixels.
+    const Eigen::Vector2d corner(639.5, 479.5), coarseCorner(319.5, 239.5);
+    EXPECT_LT((half.camera.unproject(coarseCorner) - view.camera.unproject(corner)).norm(), 1e-9);
+}
+
+TEST(TracedPictures, SlowFirstPictureIsReplacedByACoarserOne) {
+    Driver driver(kThirtyTwo, timed());
+    driver.look(20);
+    EXPECT_TRUE(driver.step()) << "begins the picture, but traces nothing";
+    driver.look(20, at(0.5));
+    driver.untilShown(1);
+    EXPECT_EQ(driver.shown.back().camera.size, kCoarsestSize);
+    EXPECT_EQ(driver.shown.back().colour.size(), 12U * 9U);
+    EXPECT_TRUE(driver.shows(20));
+}
+
+TEST(TracedPictures, FastFirstPictureHasFullResolution) {
+    Driver driver(kThirtyTwo, timed());
+    driver.look(20);
+    driver.untilShown(1);
+    EXPECT_EQ(driver.shown.back().camera.size, kTracedSize);
+}
+
+TEST(TracedPictures, CoarsePictureIsReplacedByAFinerOneOfTheSameView) {
+    Driver driver(kThirtyTwo, timed());
+    driver.look(20);
+    driver.step();
+    driver.look(20, at(0.5));
+    driver.settle();
+    ASSERT_EQ(driver.shown.back().camera.size, kCoarsestSize);
+    const std::size_t before = driver.shown.size();
+    driver.look(20, at(0.6));
+    driver.step();
+    driver.look(20, at(0.7));
+    driver.untilShown(before + 1);
+    EXPECT_EQ(driver.shown.back().camera.size, kTracedSize);
+    EXPECT_TRUE(driver.shows(20));
+}
+
+TEST(TracedPictures, ManySamplesOfOldObjectsDoNotMakeAPictureOfNewObjectsFiner) {
+    Driver driver(kThirtyTwo, timed());
+    driver.look(20);
+    driver.step();
+    driver.look(20, at(0.5));
+    driver.settle();
+    ASSERT_EQ(driver.shown.back().samples, 32);
+    driver.pictures.setScene(preparedStillLife(2, 2));
+    driver.look(20, at(1));
+    driver.step();
+    const std::size_t before = driver.shown.size();
+    driver.look(20, at(1.5));
+    driver.untilShown(before + 1);
+    EXPECT_EQ(driver.shown.back().camera.size, kCoarsestSize);
+}
+
+TEST(TracedPictures, SlowPicturesOfAMovingCameraAreCoarse) {
+    Driver driver(kThirtyTwo, timed());
+    driver.look(20);
+    driver.untilShown(1);
+    driver.settle();
+    // The next picture takes almost twice the time allowed, so the one after it has half the
+    // pixels.
+    driver.look(23.5, at(1));
+    driver.step();
+    driver.look(24, at(1 + 1.8 * kWithin));
+    driver.settle();
+    EXPECT_TRUE(driver.shows(23.5));
+    EXPECT_EQ(driver.shown.back().camera.size, kTracedSize);
+    driver.look(27.5, at(3));
+    driver.settle();
+    EXPECT_TRUE(driver.shows(27.5));
+    EXPECT_EQ(driver.shown.back().camera.size, (Size{34, 25}));
+}
+
+TEST(TracedPictures, CameraAtRestGetsFullResolutionOnASlowProcessor) {
+    Driver driver(kThirtyTwo, timed());
+    double now = 0;
+    // In each frame of 0.5 s, one portion of work is done: a ray through each pixel of a tile.
+    for (int i = 0; i < 400; ++i) {
+        driver.look(20, at(now += 0.5));
+        driver.step();
+    }
+    EXPECT_EQ(driver.shown.front().camera.size, kCoarsestSize);
+    EXPECT_EQ(driver.shown.back().camera.size, kTracedSize);
+    EXPECT_LE(driver.shown.at(1).samples, 2) << "full resolution must not wait for many samples";
+    EXPECT_EQ(driver.shown.at(1).camera.size, kTracedSize);
+    driver.settle();
+    driver.look(20, at(now + 0.5));
+    EXPECT_FALSE(driver.step());
+    EXPECT_TRUE(driver.pictures.settled());
+}
+
+}  // namespace
+}  // namespace mfar
