@@ -27,8 +27,10 @@ constexpr float kTolerance = 2.5F;
 constexpr float kCatcherTolerance = 4;
 constexpr int kBefore = 2;               // number of stages before the filter's first level
 constexpr float kLeastVariance = 1e-7F;  // about (0.04 grey levels)^2 at white
-// Upper limit of the relative change of depth per pixel on one surface.
+// Upper limit of the relative change of depth per pixel on one surface. On the shadow catcher it is
+// larger with a focal length below kFineFocal [px], where a pixel covers more of the floor.
 constexpr float kDepthSlope = 0.01F;
+constexpr double kFineFocal = 280;
 
 struct Spread {
     float sum = 0, squares = 0, count = 0;
@@ -76,8 +78,9 @@ void limit(Eigen::Array3f& light, float most, float variance) {
 
 }  // namespace
 
-void NoiseFilter::begin(Size size, const PixelRect& where) {
+void NoiseFilter::begin(Size size, const PixelRect& where, double focal) {
     size_ = size;
+    catcherSlope_ = kDepthSlope * static_cast<float>(std::max(1.0, kFineFocal / focal));
     where_ = common(where, {0, 0, size.width, size.height});
     const std::size_t count =
         static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
@@ -108,6 +111,7 @@ void NoiseFilter::run(int stage, int firstRow, int lastRow) {
 template <class Use>
 void NoiseFilter::forNeighbours(int x, int y, int reach, int step, Use use) const {
     const LightPixel& centre = pixels_[static_cast<std::size_t>(y) * size_.width + x];
+    const float slope = centre.id == kCatcherId ? catcherSlope_ : kDepthSlope;
     for (int dy = -reach; dy <= reach; ++dy) {
         const int v = y + dy * step;
         if (v < where_.y0 || v >= where_.y1) continue;
@@ -118,7 +122,7 @@ void NoiseFilter::forNeighbours(int x, int y, int reach, int step, Use use) cons
             const LightPixel& there = pixels_[i];
             if (there.id != centre.id) continue;
             const auto away = static_cast<float>(step * std::max(std::abs(dx), std::abs(dy)));
-            if (std::abs(there.depth - centre.depth) <= kDepthSlope * away * centre.depth) use(i);
+            if (std::abs(there.depth - centre.depth) <= slope * away * centre.depth) use(i);
         }
     }
 }
@@ -258,7 +262,8 @@ void NoiseFilter::filterRow(int level, int y) {
                           .catcherTolerance = kCatcherTolerance,
                           .catcherId = kCatcherId,
                           .leastVariance = kLeastVariance,
-                          .depthSlope = kDepthSlope});
+                          .depthSlope = kDepthSlope,
+                          .catcherDepthSlope = catcherSlope_});
     if (level + 1 < kLevels) return;
     const std::size_t row = static_cast<std::size_t>(y) * size_.width;
     for (int x = where_.x0; x < where_.x1; ++x)

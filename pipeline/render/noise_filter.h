@@ -46,9 +46,9 @@ public:
     static constexpr int kLevels = 4;
     static constexpr int kStages = kLevels + 2;
 
-    /// Begins a picture of `size`. Only the pixels in `where` are filtered. Memory is reused for
-    /// the next picture.
-    void begin(Size size, const PixelRect& where);
+    /// Begins a picture of `size` with the focal length `focal` [px]. Only the pixels in `where`
+    /// are filtered. Memory is reused for the next picture.
+    void begin(Size size, const PixelRect& where, double focal);
     /// Input, row-major. The caller must fill the pixels in `where` before the first stage.
     [[nodiscard]] std::span<LightPixel> pixels() { return pixels_; }
     void run(int stage, int firstRow, int lastRow);
@@ -94,6 +94,7 @@ private:
 
     Size size_;
     PixelRect where_;
+    float catcherSlope_ = 0;
     std::vector<LightPixel> pixels_;
     std::vector<Variances> variances_;
     std::vector<Limits> limits_;

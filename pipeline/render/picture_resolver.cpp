@@ -28,7 +28,7 @@ void PictureResolver::begin(const Film& film, const RenderView& view, const Pixe
     out.layered = filter && layered;
     taken_.assign(static_cast<std::size_t>(size.height), 0);
     seen_ = taken_;
-    if (filters_) filter_.begin(size, traced_);
+    if (filters_) filter_.begin(size, traced_, view.camera.fx);
     stage_ = filters_ && !traced_.empty() ? kPrepare : kLastStage;
     nextRow_ = rowsBegin();
     rowsOut_ = 0;
@@ -42,7 +42,7 @@ void PictureResolver::reserve(Size size, bool filter, RenderedPicture& out) {
     out.id.resize(pixels);
     out.light.resize(pixels);
     out.gloss.resize(pixels);
-    if (filter) filter_.begin(size, {});
+    if (filter) filter_.begin(size, {}, 1);
 }
 
 // The last stage also clears pixels outside `traced_`, where `out_` still holds an earlier picture.

@@ -94,9 +94,13 @@ class SameSurface {
 public:
     using V = hn::Vec<D>;
 
-    HWY_INLINE SameSurface(D d, const LightSurfaces& surfaces, std::ptrdiff_t centre, float slope)
+    HWY_INLINE SameSurface(D d, const LightSurfaces& surfaces, std::ptrdiff_t centre,
+                           const NoiseRule& rule)
         : d_(d), surfaces_(surfaces), depth_(hn::LoadU(d, surfaces.depth + centre)),
-          id_(hn::LoadU(d, surfaces.id + centre)), slope_(hn::Mul(hn::Set(d, slope), depth_)) {
+          id_(hn::LoadU(d, surfaces.id + centre)) {
+        const auto ofCatcher = hn::Eq(id_, hn::Set(d, rule.catcherId));
+        slope_ = hn::Mul(depth_, hn::IfThenElse(ofCatcher, hn::Set(d, rule.catcherDepthSlope),
+                                                hn::Set(d, rule.depthSlope)));
         for (std::size_t c = 0; c < 3; ++c)
             normal_[c] = hn::LoadU(d, surfaces.normal[c] + centre);
     }
@@ -161,7 +165,7 @@ void FilterNoiseRow(const NoiseRow& row, const NoiseRule& rule) {
         using D = decltype(d);
         const int x = row.where.x0 + static_cast<int>(first);
         const std::ptrdiff_t centre = static_cast<std::ptrdiff_t>(row.y) * row.width + x;
-        const SameSurface<D> surface(d, row.surfaces, centre, rule.depthSlope);
+        const SameSurface<D> surface(d, row.surfaces, centre, rule);
         const auto tolerance2 = squaredTolerance(d, rule, surface.id());
         const auto leastVariance = hn::Set(d, rule.leastVariance);
         PartMean<D> a(d, row.from[0], centre, tolerance2), b(d, row.from[1], centre, tolerance2);

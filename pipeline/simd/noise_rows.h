@@ -27,7 +27,8 @@ struct NoiseRule {
     /// the difference]. It is `catcherTolerance` on surface `catcherId`, else `tolerance`.
     float tolerance, catcherTolerance, catcherId;
     float leastVariance;  ///< added to the variance of each luminance difference
-    float depthSlope;     ///< largest change of depth within a surface [fraction of depth per px]
+    /// Largest change of depth within a surface [fraction of depth per px], also for `catcherId`.
+    float depthSlope, catcherDepthSlope;
 };
 
 /// filterNoiseRow() reads up to this number of values before and after each array.

@@ -47,10 +47,12 @@ double errorOf(const Pixels& pixels, Value value) {
     return std::sqrt(squares / static_cast<double>(2 * pixels.size()));
 }
 
+constexpr double kFocal = 560;  // [px]
+
 /// Runs each stage in several portions, the last rows first.
-Pixels filtered(Size size, const Pixels& pixels) {
+Pixels filtered(Size size, const Pixels& pixels, double focal = kFocal) {
     NoiseFilter filter;
-    filter.begin(size, {0, 0, size.width, size.height});
+    filter.begin(size, {0, 0, size.width, size.height}, focal);
     std::ranges::copy(pixels, filter.pixels().begin());
     for (int stage = 0; stage < NoiseFilter::kStages; ++stage)
         for (const int row : {5, 2, 0})
@@ -69,6 +71,19 @@ TEST(NoiseFilter, SmoothsNoise) {
     Pixels pixels = noisyPicture(flat);
     pixels = filtered(kNoisySize, pixels);
     EXPECT_LT(errorOf(pixels, flat), kSigma / 2);
+}
+
+TEST(NoiseFilter, SmoothsAFloorAlsoWhereItsPixelsAreLarge) {
+    Pixels pixels = noisyPicture(flat);
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        const std::size_t row = i / kNoisySize.width;
+        pixels[i].id = kCatcherId;
+        pixels[i].depth = std::exp(0.02F * static_cast<float>(row));
+    }
+    const double alongRows = errorOf(filtered(kNoisySize, pixels), flat);
+    const double everywhere = errorOf(filtered(kNoisySize, pixels, kFocal / 8), flat);
+    EXPECT_LT(everywhere, kSigma / 2);
+    EXPECT_LT(everywhere, 0.7 * alongRows);
 }
 
 TEST(NoiseFilter, EstimatesUnknownVariances) {
@@ -251,7 +266,7 @@ TEST(NoiseFilter, ReadsNothingOutsideTheGivenRectangle) {
     };
     const auto filteredWith = [&](float outside, bool varianceIsKnown) {
         NoiseFilter filter;
-        filter.begin(kNoisySize, where);
+        filter.begin(kNoisySize, where, kFocal);
         std::ranges::copy(noisyPicture(flat), filter.pixels().begin());
         for (std::size_t i = 0; i < filter.pixels().size(); ++i) {
             LightPixel& p = filter.pixels()[i];

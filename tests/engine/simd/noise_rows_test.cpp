@@ -80,7 +80,8 @@ double surfaceWeight(Arrays& a, std::size_t i, std::size_t j, const NoiseRule& r
     if (i == j) return 1;
     if (a.of("id")[i] != a.of("id")[j]) return 0;
     const double depth = a.of("depth")[i];
-    if (std::abs(a.of("depth")[j] - depth) > rule.depthSlope * rule.step * depth) return 0;
+    const double slope = a.of("id")[i] == kCatcher ? rule.catcherDepthSlope : rule.depthSlope;
+    if (std::abs(a.of("depth")[j] - depth) > slope * rule.step * depth) return 0;
     const double cosine = a.of("nx")[i] * a.of("nx")[j] + a.of("nz")[i] * a.of("nz")[j];
     return std::pow(std::max(cosine, 0.0), 8);
 }
@@ -149,7 +150,7 @@ TEST(FilterNoiseRow, AveragesPixelsWhoseDifferenceNoiseMayExplain) {
         const PixelRect where{left, 3, std::min(left + static_cast<int>(width), kPicture.width),
                               36};
         for (const int step : {1, 2, 8}) {
-            const NoiseRule rule{step, 2.5F, 4, kCatcher, 1e-7F, 0.01F};
+            const NoiseRule rule{step, 2.5F, 4, kCatcher, 1e-7F, 0.01F, 0.025F};
             for (const int y : {3, 20, 35}) {
                 filterNoiseRow({{{a.of("nx"), a.of("ny"), a.of("nz")},
                                  a.of("depth"),
