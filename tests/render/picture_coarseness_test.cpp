@@ -24,6 +24,13 @@ TracedPolicy timed() {
     return out;
 }
 
+/// Begins the first picture. After half a second, not a single ray is traced yet.
+void beginTooSlowly(Driver& driver) {
+    driver.look(20);
+    EXPECT_TRUE(driver.step()) << "begins the picture, but traces nothing";
+    driver.look(20, at(0.5));
+}
+
 TEST(PictureCoarseness, WithoutALimitEveryPictureHasFullResolution) {
     PictureCoarseness coarseness(0);
     coarseness.learn(kPixels, 0, 1000);
@@ -87,9 +94,7 @@ TEST(PictureCoarseness, CoarserViewShowsTheSamePartOfTheWorld) {
 
 TEST(TracedPictures, SlowFirstPictureIsReplacedByACoarserOne) {
     Driver driver(kThirtyTwo, timed());
-    driver.look(20);
-    EXPECT_TRUE(driver.step()) << "begins the picture, but traces nothing";
-    driver.look(20, at(0.5));
+    beginTooSlowly(driver);
     driver.untilShown(1);
     EXPECT_EQ(driver.shown.back().camera.size, kCoarsestSize);
     EXPECT_EQ(driver.shown.back().colour.size(), 12U * 9U);
@@ -105,9 +110,7 @@ TEST(TracedPictures, FastFirstPictureHasFullResolution) {
 
 TEST(TracedPictures, CoarsePictureIsReplacedByAFinerOneOfTheSameView) {
     Driver driver(kThirtyTwo, timed());
-    driver.look(20);
-    driver.step();
-    driver.look(20, at(0.5));
+    beginTooSlowly(driver);
     driver.settle();
     ASSERT_EQ(driver.shown.back().camera.size, kCoarsestSize);
     const std::size_t before = driver.shown.size();
@@ -121,9 +124,7 @@ TEST(TracedPictures, CoarsePictureIsReplacedByAFinerOneOfTheSameView) {
 
 TEST(TracedPictures, ManySamplesOfOldObjectsDoNotMakeAPictureOfNewObjectsFiner) {
     Driver driver(kThirtyTwo, timed());
-    driver.look(20);
-    driver.step();
-    driver.look(20, at(0.5));
+    beginTooSlowly(driver);
     driver.settle();
     ASSERT_EQ(driver.shown.back().samples, 32);
     driver.pictures.setScene(preparedStillLife(2, 2));
