@@ -10,10 +10,11 @@ namespace {
 // small differences of the speed would change the resolution again and again.
 constexpr double kFiner = 0.7;
 constexpr double kLeastSeconds = 1e-3;
-// The processor's speed is estimated when a picture has been traced for kSpeedSeconds. Rays through
-// the centres of all pixels take about 1 / kShownPerLooked of the time until the picture can be
-// shown.
-constexpr double kSpeedSeconds = 0.1, kShownPerLooked = 1.5, kLeastLooked = 1e-3;
+// Rays through the centres of all pixels take about 1 / kShownPerLooked of the time until the
+// picture can be shown.
+constexpr double kShownPerLooked = 1.5;
+// Limit of the time until an urgent picture is shown, as a share of the usual limit.
+constexpr double kUrgent = 0.5;
 
 double pixelShare(int coarseness) {
     return std::exp2(-coarseness);
@@ -21,10 +22,12 @@ double pixelShare(int coarseness) {
 
 }  // namespace
 
-int PictureCoarseness::chosen(double pixels) const {
+int PictureCoarseness::chosen(double pixels, bool isUrgent) const {
     if (!(within_ > 0)) return 0;
+    if (lacksSpeed()) return kCoarsest;
+    const double within = isUrgent ? kUrgent * within_ : within_;
     const auto isInTime = [&](int coarseness) {
-        const double limit = coarseness < last_ ? kFiner * within_ : within_;
+        const double limit = coarseness < last_ ? kFiner * within : within;
         return secondsPerPixel_ * pixelShare(coarseness) * pixels <= limit;
     };
     int coarseness = 0;
@@ -35,16 +38,18 @@ int PictureCoarseness::chosen(double pixels) const {
 
 void PictureCoarseness::learn(double pixels, int coarseness, double seconds) {
     if (!(pixels > 0)) return;
-    secondsPerPixel_ = std::max(seconds, kLeastSeconds) / (pixels * pixelShare(coarseness));
+    const double later = seconds * (1 + budget_.extraMs / budget_.ms);  // without extra time
+    secondsPerPixel_ = std::max(later, kLeastSeconds) / (pixels * pixelShare(coarseness));
 }
 
-double PictureCoarseness::Begun::expectedSeconds() const {
-    return kShownPerLooked * seconds / std::max(looked, kLeastLooked);
-}
-
-bool PictureCoarseness::isTooSlow(int coarseness, const Begun& begun) const {
-    return within_ > 0 && coarseness < kCoarsest && begun.seconds > kSpeedSeconds &&
-           begun.expectedSeconds() > within_;
+// On a loaded processor, the threads get less time than the budget allows. Then the time that has
+// passed counts.
+void PictureCoarseness::learnFromLook(double pixels, double ms, double seconds) {
+    if (!(pixels > 0)) return;
+    const double frames = ms / (budget_.ms + budget_.extraMs);
+    const double took =
+        std::max(frames * budget_.secondsPerFrame, seconds - budget_.secondsPerFrame);
+    secondsPerPixel_ = std::max(kShownPerLooked * took, kLeastSeconds) / pixels;
 }
 
 RenderView coarsened(const RenderView& view, int coarseness) {

@@ -4,6 +4,13 @@
 
 namespace mfar {
 
+/// Processor time for tracing in each frame.
+struct FrameBudget {
+    double ms = 8;
+    double extraMs = 0;  ///< more time in this frame, but not in later ones
+    double secondsPerFrame = 1.0 / 30;
+};
+
 /// Chooses the resolution of traced pictures, so that on a slow processor a picture is not outdated
 /// when it is shown. A picture of coarseness n has 2^(-n/2) times the camera's width and height.
 class PictureCoarseness {
@@ -15,23 +22,22 @@ public:
     explicit PictureCoarseness(double seconds) : within_(seconds) {}
 
     /// Returns the coarseness of a picture that would have `pixels` traced pixels at coarseness 0.
-    [[nodiscard]] int chosen(double pixels) const;
+    /// If the picture is urgent, because nothing is shown before it, its limit is half the time.
+    [[nodiscard]] int chosen(double pixels, bool isUrgent) const;
+    /// True if the time that pictures take is unknown. Until then, chosen() returns kCoarsest.
+    [[nodiscard]] bool lacksSpeed() const { return within_ > 0 && !(secondsPerPixel_ > 0); }
     /// Reports that a picture begins.
     void begin(int coarseness) { last_ = coarseness; }
+    void setBudget(const FrameBudget& budget) { budget_ = budget; }
     /// Reports the time that a picture took from its start until it was shown [s].
     void learn(double pixels, int coarseness, double seconds);
-    /// A picture that is not shown yet.
-    struct Begun {
-        double seconds;  ///< time since its start
-        double looked;   ///< share of the pixels with a ray through their centre, [0, 1]
-        /// Estimated time from the picture's start until it can be shown [s].
-        [[nodiscard]] double expectedSeconds() const;
-    };
-    /// True if the picture should be replaced by a coarser one.
-    [[nodiscard]] bool isTooSlow(int coarseness, const Begun& begun) const;
+    /// Reports the time that rays through the centres of `pixels` pixels took: `ms` of processor
+    /// time, and `seconds` since the picture's start.
+    void learnFromLook(double pixels, double ms, double seconds);
 
 private:
     double within_;
+    FrameBudget budget_;
     double secondsPerPixel_ = 0;  // 0: unknown
     int last_ = 0;
 };

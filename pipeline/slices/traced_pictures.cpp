@@ -116,19 +116,6 @@ double TracedPictures::secondsSince(Timestamp begin) const {
     return static_cast<double>((time_ - begin).count()) * 1e-9;
 }
 
-PictureCoarseness::Begun TracedPictures::begunOf(const Picture& picture) const {
-    const auto pixels = static_cast<double>(std::max<std::size_t>(picture.slices.pixels(), 1));
-    return {secondsSince(picture.chosen), static_cast<double>(picture.looked) / pixels};
-}
-
-/// True if the next picture should be replaced by one of lower resolution, because nothing usable
-/// is shown until it is complete, and it takes too long.
-bool TracedPictures::isNextTooSlow() const {
-    const Picture& next = pictures_[1 - shown_];
-    return hasNext_ && !toBegin_ && !changeSince(pictures_[shown_]) && next.slices.turns() == 0 &&
-           coarseness_.isTooSlow(next.coarseness, begunOf(next));
-}
-
 /// True if the shown picture should be replaced by one of higher resolution of about the same view.
 bool TracedPictures::isTooCoarse(const Picture& shown) const {
     return shown.coarseness > 0 && shown.wasShown && shown.slices.turns() >= kQuarterTurn &&
@@ -138,14 +125,21 @@ bool TracedPictures::isTooCoarse(const Picture& shown) const {
 /// Coarseness of a picture for a moving camera, finer than a shown one that got many samples.
 int TracedPictures::coarsenessOfNext(const RenderView& view) const {
     const Picture& shown = pictures_[shown_];
-    const int chosen = coarseness_.chosen(scene_->tracedPixels(view));
-    const bool hadTime = changeSince(shown) && shown.wasShown && shown.coarseness > 0 &&
+    const bool serves = changeSince(shown).has_value();
+    const int chosen = coarseness_.chosen(scene_->tracedPixels(view), !serves);
+    const bool hadTime = serves && shown.wasShown && shown.coarseness > 0 &&
                          shown.slices.samples() >= policy_.samplesToReplace;
     return hadTime ? std::min(chosen, shown.coarseness - 1) : chosen;
 }
 
-void TracedPictures::learnSpeed(const Picture& picture, double seconds) {
-    coarseness_.learn(picture.scene->tracedPixels(picture.wanted), picture.coarseness, seconds);
+/// The very first picture has the lowest resolution. As soon as its pixels have a ray through their
+/// centres, the speed is known. If a finer picture can be shown soon, it begins instead.
+void TracedPictures::endTrial(Picture& picture) {
+    picture.isTrial = false;
+    coarseness_.learnFromLook(static_cast<double>(picture.slices.pixels()), picture.lookMs,
+                              secondsSince(picture.chosen));
+    const bool isNext = hasNext_ && &picture == &pictures_[working()];
+    if (isNext && coarsenessOfNext(wanted_) < picture.coarseness) toBegin_ = true;
 }
 
 void TracedPictures::look(const RenderView& now, const RenderView& predicted, Timestamp time) {
@@ -157,13 +151,10 @@ void TracedPictures::look(const RenderView& now, const RenderView& predicted, Ti
         rest_.reset();
     else
         rest_.look(now_, scene_->balls);
-    const bool isTooSlow = isNextTooSlow();
-    if (isTooSlow)
-        learnSpeed(pictures_[1 - shown_], begunOf(pictures_[1 - shown_]).expectedSeconds());
-    switch (isTooSlow ? TracedStep::Start : chosenStep()) {
+    switch (chosenStep()) {
     case TracedStep::Start:
         hasNext_ = toBegin_ = true;
-        nextRests_ = rest_.rests() && !isTooSlow;
+        nextRests_ = rest_.rests();
         wanted_ = nextRests_ ? now : predicted;
         chosen_ = time;
         break;
@@ -233,12 +224,13 @@ void TracedPictures::begin() {
     picture.scene = sceneOfNext();
     picture.wanted = wanted_;
     picture.coarseness = nextRests_ ? 0 : coarsenessOfNext(wanted_);
-    if (!nextRests_) coarseness_.begin(picture.coarseness);
+    picture.isTrial = !nextRests_ && coarseness_.lacksSpeed();
+    if (!nextRests_ && !picture.isTrial) coarseness_.begin(picture.coarseness);
     picture.view = coarsened(wanted_, picture.coarseness);
     picture.chosen = chosen_;
     picture.rests = nextRests_;
     picture.shownSamples = picture.shownTurns = 0;
-    picture.looked = 0;
+    picture.lookMs = 0;
     picture.wasShown = picture.counted = false;
     picture.history.reset();
     const Picture& shown = pictures_[shown_];
@@ -294,10 +286,11 @@ PixelState TracedPictures::Picture::state(std::uint32_t pixel, const Exposure& e
 void TracedPictures::done(const Portion& portion, const Exposure& exposure, double ms) {
     Picture& picture = pictures_[portion.picture];
     --picture.portions;
-    if (portion.slice.samples == 0) picture.looked += portion.slice.pixels.size();
+    if (portion.slice.samples == 0) picture.lookMs += ms;
     tracedMs_ += ms;
     picture.slices.done(portion.slice,
                         [&](std::uint32_t pixel) { return picture.state(pixel, exposure); });
+    if (picture.isTrial && picture.slices.turnComplete()) endTrial(picture);
 }
 
 /// True if no shown picture is of use in the present view, or if it has hardly any samples.
@@ -365,7 +358,9 @@ void TracedPictures::endShow(RenderedPicture& out, double ms) {
     if (!picture.wasShown) {
         const double seconds = secondsSince(picture.chosen);
         period_ += kPeriodShare * (seconds - period_);
-        if (!picture.rests) learnSpeed(picture, seconds);
+        if (!picture.rests)
+            coarseness_.learn(picture.scene->tracedPixels(picture.wanted), picture.coarseness,
+                              seconds);
     }
     picture.wasShown = true;
     if (picture.slices.finished()) {

@@ -34,8 +34,9 @@ struct TracedPolicy {
     /// light, must set `soon` to false.
     bool soon = true;
     /// While the camera moves, a picture should be shown within about this time after its start
-    /// [s]. On a slow processor it is therefore traced at a lower resolution, at least a quarter of
-    /// the camera's width and height. 0: always at the camera's resolution.
+    /// [s], and within half of it if nothing is shown before. On a slow processor it is therefore
+    /// traced at a lower resolution, at least a quarter of the camera's width and height. 0: always
+    /// at the camera's resolution.
     double shownWithin = 0;
     bool operator==(const TracedPolicy&) const = default;
 };
@@ -62,6 +63,10 @@ public:
     /// if the camera rests. While objects move, new pictures follow each other without end, and
     /// each contains the objects as they will be when the picture is shown.
     void look(const RenderView& now, const RenderView& predicted, Timestamp time);
+
+    /// Reports the processor time that the caller has. With TracedPolicy::shownWithin, the
+    /// resolution depends on it.
+    void setBudget(const FrameBudget& budget) { coarseness_.setBudget(budget); }
 
     /// True if begin() must be called. Until then next() returns no pixels.
     [[nodiscard]] bool toBegin() const;
@@ -112,7 +117,8 @@ private:
         RenderView wanted;                          // at the camera's resolution
         RenderView view;                            // the same view at the picture's resolution
         int coarseness = 0;
-        std::size_t looked = 0;  // pixels with a ray through their centre
+        bool isTrial = false;  // true until its speed is known
+        double lookMs = 0;     // processor time of the rays through the pixels' centres
         Timestamp chosen;
         std::unique_ptr<Film> film;
         std::optional<LightHistory> history;
@@ -132,11 +138,9 @@ private:
     [[nodiscard]] std::optional<double> changeSince(const Picture& picture) const;
     [[nodiscard]] double motionSince(const Picture& picture) const;
     [[nodiscard]] TracedStep chosenStep() const;
-    [[nodiscard]] PictureCoarseness::Begun begunOf(const Picture& picture) const;
-    [[nodiscard]] bool isNextTooSlow() const;
     [[nodiscard]] bool isTooCoarse(const Picture& shown) const;
     [[nodiscard]] int coarsenessOfNext(const RenderView& view) const;
-    void learnSpeed(const Picture& picture, double seconds);
+    void endTrial(Picture& picture);
     [[nodiscard]] double secondsSince(Timestamp begin) const;
     [[nodiscard]] std::shared_ptr<const PictureScene> sceneOfNext() const;
     [[nodiscard]] Slices::Density densityOf(const PixelRect& tile, const Picture& picture,

@@ -131,6 +131,7 @@ double TracedWorkers::extraMs() const {
 void TracedWorkers::look() {
     toLook_ = false;
     pictures_.setScene(scene_);
+    pictures_.setBudget({budget_.msPerFrame(), extraMs(), tickSeconds_});
     if (scene_ && tick_.view) pictures_.look(*tick_.view, predictedView(), tick_.time);
     publishCounters();
     if (hasWork()) wakeOthers();

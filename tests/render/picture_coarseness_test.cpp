@@ -33,27 +33,28 @@ void beginTooSlowly(Driver& driver) {
 
 TEST(PictureCoarseness, WithoutALimitEveryPictureHasFullResolution) {
     PictureCoarseness coarseness(0);
+    EXPECT_FALSE(coarseness.lacksSpeed());
+    EXPECT_EQ(coarseness.chosen(kPixels, true), 0);
     coarseness.learn(kPixels, 0, 1000);
-    EXPECT_EQ(coarseness.chosen(kPixels), 0);
-    EXPECT_FALSE(coarseness.isTooSlow(0, {1000, 0}));
+    EXPECT_EQ(coarseness.chosen(kPixels, false), 0);
+    EXPECT_EQ(coarseness.chosen(kPixels, true), 0);
 }
 
 TEST(PictureCoarseness, PictureIsAsFineAsTheTimeAllows) {
     PictureCoarseness coarseness(kWithin);
-    EXPECT_EQ(coarseness.chosen(kPixels), 0) << "the speed is unknown";
     // Each level halves the number of pixels.
     coarseness.learn(kPixels, 0, 3 * kWithin);
-    EXPECT_EQ(coarseness.chosen(kPixels), 2);
-    EXPECT_EQ(coarseness.chosen(kPixels / 4), 0);
-    EXPECT_EQ(coarseness.chosen(4 * kPixels), PictureCoarseness::kCoarsest);
-    EXPECT_EQ(coarseness.chosen(1e9), PictureCoarseness::kCoarsest);
+    EXPECT_EQ(coarseness.chosen(kPixels, false), 2);
+    EXPECT_EQ(coarseness.chosen(kPixels / 4, false), 0);
+    EXPECT_EQ(coarseness.chosen(4 * kPixels, false), PictureCoarseness::kCoarsest);
+    EXPECT_EQ(coarseness.chosen(1e9, false), PictureCoarseness::kCoarsest);
     coarseness.learn(kPixels, 2, kWithin / 4);
-    EXPECT_EQ(coarseness.chosen(kPixels), 0);
+    EXPECT_EQ(coarseness.chosen(kPixels, false), 0);
     // A picture that is shown in the frame in which it began takes no measurable time.
     coarseness.learn(kPixels, 2, 0);
-    EXPECT_EQ(coarseness.chosen(kPixels), 0);
+    EXPECT_EQ(coarseness.chosen(kPixels, false), 0);
     coarseness.learn(0, 2, 1000);
-    EXPECT_EQ(coarseness.chosen(kPixels), 0) << "a picture without objects tells no speed";
+    EXPECT_EQ(coarseness.chosen(kPixels, false), 0) << "a picture without objects tells no speed";
 }
 
 TEST(PictureCoarseness, SmallChangesOfTheSpeedKeepTheResolution) {
@@ -61,22 +62,58 @@ TEST(PictureCoarseness, SmallChangesOfTheSpeedKeepTheResolution) {
     coarseness.begin(1);
     for (const double change : {0.75, 0.95}) {
         coarseness.learn(kPixels, 0, change * kWithin);
-        EXPECT_EQ(coarseness.chosen(kPixels), 1) << change;
+        EXPECT_EQ(coarseness.chosen(kPixels, false), 1) << change;
     }
     coarseness.learn(kPixels, 0, 0.6 * kWithin);
-    EXPECT_EQ(coarseness.chosen(kPixels), 0);
+    EXPECT_EQ(coarseness.chosen(kPixels, false), 0);
     coarseness.begin(0);
     coarseness.learn(kPixels, 0, 0.95 * kWithin);
-    EXPECT_EQ(coarseness.chosen(kPixels), 0);
+    EXPECT_EQ(coarseness.chosen(kPixels, false), 0);
 }
 
-TEST(PictureCoarseness, UnfinishedPictureIsTooSlowIfItWillTakeTooLong) {
-    const PictureCoarseness coarseness(kWithin);
-    EXPECT_TRUE(coarseness.isTooSlow(0, {0.2, 0.1}));
-    EXPECT_TRUE(coarseness.isTooSlow(0, {0.2, 0})) << "not a single ray was traced";
-    EXPECT_FALSE(coarseness.isTooSlow(0, {0.2, 0.9}));
-    EXPECT_FALSE(coarseness.isTooSlow(0, {0.01, 0})) << "too early for an estimate";
-    EXPECT_FALSE(coarseness.isTooSlow(PictureCoarseness::kCoarsest, {0.2, 0}));
+TEST(PictureCoarseness, ResolutionIsTheLowestUntilTheSpeedIsKnown) {
+    PictureCoarseness coarseness(kWithin);
+    EXPECT_TRUE(coarseness.lacksSpeed());
+    EXPECT_EQ(coarseness.chosen(kPixels, false), PictureCoarseness::kCoarsest);
+    EXPECT_EQ(coarseness.chosen(1, true), PictureCoarseness::kCoarsest);
+    coarseness.learn(0, 2, 1000);
+    coarseness.learnFromLook(0, 1000, 1000);
+    EXPECT_TRUE(coarseness.lacksSpeed()) << "a picture without objects tells no speed";
+    coarseness.learn(kPixels, 0, 0);
+    EXPECT_FALSE(coarseness.lacksSpeed());
+}
+
+TEST(PictureCoarseness, UrgentPictureHasHalfTheTime) {
+    PictureCoarseness coarseness(kWithin);
+    coarseness.learn(kPixels, 0, 0.9 * kWithin);
+    EXPECT_EQ(coarseness.chosen(kPixels, false), 0);
+    EXPECT_EQ(coarseness.chosen(kPixels, true), 1);
+    coarseness.learn(kPixels, 0, 0.45 * kWithin);
+    EXPECT_EQ(coarseness.chosen(kPixels, true), 0);
+}
+
+TEST(PictureCoarseness, RaysThroughThePixelsCentresTellTheSpeed) {
+    PictureCoarseness coarseness(kWithin);
+    coarseness.setBudget({.ms = 2, .extraMs = 2, .secondsPerFrame = 0.1});
+    // With 4 ms per frame, the rays take a tenth or a half of the limit.
+    const double ms = 4 * kWithin / 0.1;
+    coarseness.learnFromLook(kPixels, 0.1 * ms, 0);
+    EXPECT_EQ(coarseness.chosen(kPixels, false), 0);
+    coarseness.learnFromLook(kPixels, 0.5 * ms, 0);
+    EXPECT_EQ(coarseness.chosen(kPixels, false), 0);
+    EXPECT_EQ(coarseness.chosen(2 * kPixels, false), 1) << "the rest of a picture takes time, too";
+    // On a loaded processor, the threads wait.
+    coarseness.learnFromLook(kPixels, 0.1 * ms, 2 * kWithin);
+    EXPECT_EQ(coarseness.chosen(kPixels, false), 2);
+    coarseness.learnFromLook(kPixels, 0.1 * ms, 0.1);
+    EXPECT_EQ(coarseness.chosen(kPixels, false), 0) << "a frame may have passed in an instant";
+}
+
+TEST(PictureCoarseness, LaterPicturesHaveNoExtraTime) {
+    PictureCoarseness coarseness(kWithin);
+    coarseness.setBudget({.ms = 2, .extraMs = 6});
+    coarseness.learn(kPixels, 0, 0.9 * kWithin);
+    EXPECT_EQ(coarseness.chosen(kPixels, false), 2);
 }
 
 TEST(PictureCoarseness, CoarserViewShowsTheSamePartOfTheWorld) {
@@ -92,13 +129,27 @@ TEST(PictureCoarseness, CoarserViewShowsTheSamePartOfTheWorld) {
     EXPECT_LT((half.camera.unproject(coarseCorner) - view.camera.unproject(corner)).norm(), 1e-9);
 }
 
-TEST(TracedPictures, SlowFirstPictureIsReplacedByACoarserOne) {
+TEST(TracedPictures, FirstPictureOnALoadedProcessorIsCoarse) {
     Driver driver(kThirtyTwo, timed());
     beginTooSlowly(driver);
     driver.untilShown(1);
     EXPECT_EQ(driver.shown.back().camera.size, kCoarsestSize);
     EXPECT_EQ(driver.shown.back().colour.size(), 12U * 9U);
     EXPECT_TRUE(driver.shows(20));
+}
+
+TEST(TracedPictures, ResolutionOfTheFirstPictureDependsOnTheProcessor) {
+    const auto widthOf = [](double portionMs) {
+        Driver driver(kThirtyTwo, timed());
+        driver.portionMs = portionMs;
+        driver.look(20);
+        driver.untilShown(1);
+        EXPECT_TRUE(driver.shows(20));
+        return driver.shown.back().camera.size.width;
+    };
+    EXPECT_EQ(widthOf(4 * FrameBudget{}.ms), kCoarsestSize.width);
+    EXPECT_EQ(widthOf(FrameBudget{}.ms), 17);
+    EXPECT_EQ(widthOf(0.1 * FrameBudget{}.ms), kTracedSize.width);
 }
 
 TEST(TracedPictures, FastFirstPictureHasFullResolution) {
@@ -108,9 +159,25 @@ TEST(TracedPictures, FastFirstPictureHasFullResolution) {
     EXPECT_EQ(driver.shown.back().camera.size, kTracedSize);
 }
 
+// A portion of an abandoned picture still tells the speed, but does not change the next picture.
+TEST(TracedPictures, FirstPictureCanBeAbandoned) {
+    Driver driver(kThirtyTwo, timed());
+    driver.look(20);
+    EXPECT_TRUE(driver.step()) << "begins the picture";
+    const TracedPictures::Portion portion = driver.pictures.next(1000);
+    driver.pictures.setScene(preparedStillLife(2, 2));
+    driver.look(25);
+    driver.pictures.trace(portion);
+    driver.pictures.done(portion, {}, 0);
+    driver.untilShown(1);
+    EXPECT_TRUE(driver.shows(25));
+    EXPECT_EQ(driver.shown.back().camera.size, kTracedSize);
+}
+
 TEST(TracedPictures, CoarsePictureIsReplacedByAFinerOneOfTheSameView) {
     Driver driver(kThirtyTwo, timed());
-    beginTooSlowly(driver);
+    driver.portionMs = 4 * FrameBudget{}.ms;
+    driver.look(20);
     driver.settle();
     ASSERT_EQ(driver.shown.back().camera.size, kCoarsestSize);
     const std::size_t before = driver.shown.size();
