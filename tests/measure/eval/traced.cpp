@@ -179,8 +179,12 @@ public:
             out = overPaper(rgba.data(), rgba.size() / 4);
         }
         waitForThreads();
+        if (!firstSeconds_ && counters().render.shown > 0)
+            firstSeconds_ = time.seconds();
         return out;
     }
+    /// Time of the frame in which the first traced picture became ready [s].
+    [[nodiscard]] std::optional<double> firstSeconds() const { return firstSeconds_; }
     [[nodiscard]] double warpMs() const { return warpMs_; }
     [[nodiscard]] TracedLayerCounters counters() const { return layer_.counters(); }
 
@@ -201,6 +205,7 @@ private:
     TracedLayer layer_;
     int frame_ = 0;
     double warpMs_ = 0;
+    std::optional<double> firstSeconds_;
 };
 
 void savePicture(const std::filesystem::path& folder, const std::string& name, Size size,
@@ -280,11 +285,12 @@ private:
     }
 
     struct Values {
-        std::optional<double> psnr{}, shadowPsnr{}, flicker{}, pictures{}, warpMs{}, hdrVdpQ{};
+        std::optional<double> psnr{}, shadowPsnr{}, flicker{}, pictures{}, firstSeconds{}, warpMs{},
+            hdrVdpQ{};
     };
     [[nodiscard]] std::vector<std::optional<double>> valuesOf(const Values& v) const {
-        std::vector<std::optional<double>> out{v.psnr, v.shadowPsnr, v.flicker, v.pictures,
-                                               v.warpMs};
+        std::vector<std::optional<double>> out{v.psnr,     v.shadowPsnr,   v.flicker,
+                                               v.pictures, v.firstSeconds, v.warpMs};
         if (request_.hdrVdp) out.push_back(v.hdrVdpQ);
         return out;
     }
@@ -307,6 +313,7 @@ private:
         values.shadowPsnr = shadow.psnr();
         values.flicker = compared.flicker;
         values.pictures = static_cast<double>(frames.counters().render.shown);
+        values.firstSeconds = frames.firstSeconds();
         values.warpMs = frames.warpMs();
         if (request_.hdrVdp)
             values.hdrVdpQ = hdrVdpOf(compared.shown, compared.exact, request_.size);
@@ -340,8 +347,8 @@ private:
 };
 
 std::vector<Column> tracedColumns(bool hdrVdp) {
-    std::vector<Column> out{
-        {"psnr_db", 2}, {"shadow_psnr_db", 2}, {"flicker", 3}, {"pictures", 0}, {"warp_ms", 2}};
+    std::vector<Column> out{{"psnr_db", 2},  {"shadow_psnr_db", 2}, {"flicker", 3},
+                            {"pictures", 0}, {"first_s", 3},        {"warp_ms", 2}};
     if (hdrVdp) out.push_back({"hdrvdp_q", 2});
     return out;
 }

@@ -39,9 +39,9 @@ struct TracedRequest {
 /// Columns: psnr_db, of pixels where the truth shows an object; shadow_psnr_db, of pixels where the
 /// truth shows a shadow or light of an object on the real surface; flicker of the luma error of
 /// objects [grey levels], see metrics/flicker.h; pictures, the number of traced pictures shown so
-/// far; warp_ms, the time of drawing the layer; with `hdrVdp`, hdrvdp_q of the whole frame on the
-/// display HdrVdpDisplay{}. The GLES engine needs a current context. Throws EvalError and
-/// ImageFileError.
+/// far; first_s, the time of the frame in which the first of them became ready; warp_ms, the time
+/// of drawing the layer; with `hdrVdp`, hdrvdp_q of the whole frame on the display HdrVdpDisplay{}.
+/// The GLES engine needs a current context. Throws EvalError and ImageFileError.
 [[nodiscard]] Report evaluateTraced(const TracedRequest& request);
 
 }  // namespace mfar::eval

@@ -19,8 +19,9 @@ constexpr const char* kTracedHelp =
     "it shows a shadow or light of the objects on the real surface; flicker [grey levels]:\n"
     "change of the luma error of objects from a frame to the next along their motion, root\n"
     "mean square over the square root of two; pictures: number of traced pictures shown so\n"
-    "far; warp_ms: time of drawing the layer; hdrvdp_q: HDR-VDP-2's quality of the whole frame,\n"
-    "100 if it equals the truth. Frames of the first half second are not compared.";
+    "far; first_s: time of the frame in which the first of them became ready; warp_ms: time of\n"
+    "drawing the layer; hdrvdp_q: HDR-VDP-2's quality of the whole frame, 100 if it equals the\n"
+    "truth. Frames of the first half second are not compared.";
 
 constexpr const char* kTruthHelp =
     "folder that keeps the truth for later runs; if another version of mfar-eval has made its "
