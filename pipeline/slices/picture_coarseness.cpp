@@ -12,8 +12,9 @@ constexpr double kFiner = 0.7;
 constexpr double kLeastSeconds = 1e-3;
 // Rays through the centres of all pixels take about 1 / kShownPerLooked of the time until the
 // picture can be shown.
-constexpr double kShownPerLooked = 1.5;
-// Limit of the time until an urgent picture is shown, as a share of the usual limit.
+constexpr double kShownPerLooked = 2;
+// Limit of the time until a picture is shown if there is none before it, as a share of the usual
+// limit.
 constexpr double kUrgent = 0.5;
 
 double pixelShare(int coarseness) {
@@ -22,10 +23,10 @@ double pixelShare(int coarseness) {
 
 }  // namespace
 
-int PictureCoarseness::chosen(double pixels, bool isUrgent) const {
+int PictureCoarseness::chosen(double pixels, std::optional<double> waited) const {
     if (!(within_ > 0)) return 0;
     if (lacksSpeed()) return kCoarsest;
-    const double within = isUrgent ? kUrgent * within_ : within_;
+    const double within = waited ? kUrgent * within_ - *waited : within_;
     const auto isInTime = [&](int coarseness) {
         const double limit = coarseness < last_ ? kFiner * within : within;
         return secondsPerPixel_ * pixelShare(coarseness) * pixels <= limit;

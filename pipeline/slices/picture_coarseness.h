@@ -2,6 +2,8 @@
 
 #include "pipeline/render/render_view.h"
 
+#include <optional>
+
 namespace mfar {
 
 /// Processor time for tracing in each frame.
@@ -22,8 +24,9 @@ public:
     explicit PictureCoarseness(double seconds) : within_(seconds) {}
 
     /// Returns the coarseness of a picture that would have `pixels` traced pixels at coarseness 0.
-    /// If the picture is urgent, because nothing is shown before it, its limit is half the time.
-    [[nodiscard]] int chosen(double pixels, bool isUrgent) const;
+    /// `waited`: if nothing is shown until the picture is, the time since its view was chosen [s].
+    /// Then the limit is half of the usual time, less this time.
+    [[nodiscard]] int chosen(double pixels, std::optional<double> waited = {}) const;
     /// True if the time that pictures take is unknown. Until then, chosen() returns kCoarsest.
     [[nodiscard]] bool lacksSpeed() const { return within_ > 0 && !(secondsPerPixel_ > 0); }
     /// Reports that a picture begins.

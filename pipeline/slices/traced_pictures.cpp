@@ -126,7 +126,9 @@ bool TracedPictures::isTooCoarse(const Picture& shown) const {
 int TracedPictures::coarsenessOfNext(const RenderView& view) const {
     const Picture& shown = pictures_[shown_];
     const bool serves = changeSince(shown).has_value();
-    const int chosen = coarseness_.chosen(scene_->tracedPixels(view), !serves);
+    const std::optional<double> waited =
+        serves ? std::nullopt : std::optional(secondsSince(chosen_));
+    const int chosen = coarseness_.chosen(scene_->tracedPixels(view), waited);
     const bool hadTime = serves && shown.wasShown && shown.coarseness > 0 &&
                          shown.slices.samples() >= policy_.samplesToReplace;
     return hadTime ? std::min(chosen, shown.coarseness - 1) : chosen;

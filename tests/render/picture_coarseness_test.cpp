@@ -34,27 +34,27 @@ void beginTooSlowly(Driver& driver) {
 TEST(PictureCoarseness, WithoutALimitEveryPictureHasFullResolution) {
     PictureCoarseness coarseness(0);
     EXPECT_FALSE(coarseness.lacksSpeed());
-    EXPECT_EQ(coarseness.chosen(kPixels, true), 0);
+    EXPECT_EQ(coarseness.chosen(kPixels, 0), 0);
     coarseness.learn(kPixels, 0, 1000);
-    EXPECT_EQ(coarseness.chosen(kPixels, false), 0);
-    EXPECT_EQ(coarseness.chosen(kPixels, true), 0);
+    EXPECT_EQ(coarseness.chosen(kPixels), 0);
+    EXPECT_EQ(coarseness.chosen(kPixels, 0), 0);
 }
 
 TEST(PictureCoarseness, PictureIsAsFineAsTheTimeAllows) {
     PictureCoarseness coarseness(kWithin);
     // Each level halves the number of pixels.
     coarseness.learn(kPixels, 0, 3 * kWithin);
-    EXPECT_EQ(coarseness.chosen(kPixels, false), 2);
-    EXPECT_EQ(coarseness.chosen(kPixels / 4, false), 0);
-    EXPECT_EQ(coarseness.chosen(4 * kPixels, false), PictureCoarseness::kCoarsest);
-    EXPECT_EQ(coarseness.chosen(1e9, false), PictureCoarseness::kCoarsest);
+    EXPECT_EQ(coarseness.chosen(kPixels), 2);
+    EXPECT_EQ(coarseness.chosen(kPixels / 4), 0);
+    EXPECT_EQ(coarseness.chosen(4 * kPixels), PictureCoarseness::kCoarsest);
+    EXPECT_EQ(coarseness.chosen(1e9), PictureCoarseness::kCoarsest);
     coarseness.learn(kPixels, 2, kWithin / 4);
-    EXPECT_EQ(coarseness.chosen(kPixels, false), 0);
+    EXPECT_EQ(coarseness.chosen(kPixels), 0);
     // A picture that is shown in the frame in which it began takes no measurable time.
     coarseness.learn(kPixels, 2, 0);
-    EXPECT_EQ(coarseness.chosen(kPixels, false), 0);
+    EXPECT_EQ(coarseness.chosen(kPixels), 0);
     coarseness.learn(0, 2, 1000);
-    EXPECT_EQ(coarseness.chosen(kPixels, false), 0) << "a picture without objects tells no speed";
+    EXPECT_EQ(coarseness.chosen(kPixels), 0) << "a picture without objects tells no speed";
 }
 
 TEST(PictureCoarseness, SmallChangesOfTheSpeedKeepTheResolution) {
@@ -62,20 +62,20 @@ TEST(PictureCoarseness, SmallChangesOfTheSpeedKeepTheResolution) {
     coarseness.begin(1);
     for (const double change : {0.75, 0.95}) {
         coarseness.learn(kPixels, 0, change * kWithin);
-        EXPECT_EQ(coarseness.chosen(kPixels, false), 1) << change;
+        EXPECT_EQ(coarseness.chosen(kPixels), 1) << change;
     }
     coarseness.learn(kPixels, 0, 0.6 * kWithin);
-    EXPECT_EQ(coarseness.chosen(kPixels, false), 0);
+    EXPECT_EQ(coarseness.chosen(kPixels), 0);
     coarseness.begin(0);
     coarseness.learn(kPixels, 0, 0.95 * kWithin);
-    EXPECT_EQ(coarseness.chosen(kPixels, false), 0);
+    EXPECT_EQ(coarseness.chosen(kPixels), 0);
 }
 
 TEST(PictureCoarseness, ResolutionIsTheLowestUntilTheSpeedIsKnown) {
     PictureCoarseness coarseness(kWithin);
     EXPECT_TRUE(coarseness.lacksSpeed());
-    EXPECT_EQ(coarseness.chosen(kPixels, false), PictureCoarseness::kCoarsest);
-    EXPECT_EQ(coarseness.chosen(1, true), PictureCoarseness::kCoarsest);
+    EXPECT_EQ(coarseness.chosen(kPixels), PictureCoarseness::kCoarsest);
+    EXPECT_EQ(coarseness.chosen(1, 0), PictureCoarseness::kCoarsest);
     coarseness.learn(0, 2, 1000);
     coarseness.learnFromLook(0, 1000, 1000);
     EXPECT_TRUE(coarseness.lacksSpeed()) << "a picture without objects tells no speed";
@@ -83,13 +83,15 @@ TEST(PictureCoarseness, ResolutionIsTheLowestUntilTheSpeedIsKnown) {
     EXPECT_FALSE(coarseness.lacksSpeed());
 }
 
-TEST(PictureCoarseness, UrgentPictureHasHalfTheTime) {
+TEST(PictureCoarseness, IfNothingIsShownBeforeAPictureItHasHalfTheTime) {
     PictureCoarseness coarseness(kWithin);
     coarseness.learn(kPixels, 0, 0.9 * kWithin);
-    EXPECT_EQ(coarseness.chosen(kPixels, false), 0);
-    EXPECT_EQ(coarseness.chosen(kPixels, true), 1);
+    EXPECT_EQ(coarseness.chosen(kPixels), 0);
+    EXPECT_EQ(coarseness.chosen(kPixels, 0), 1);
     coarseness.learn(kPixels, 0, 0.45 * kWithin);
-    EXPECT_EQ(coarseness.chosen(kPixels, true), 0);
+    EXPECT_EQ(coarseness.chosen(kPixels, 0), 0);
+    EXPECT_EQ(coarseness.chosen(kPixels, 0.1 * kWithin), 1);
+    EXPECT_EQ(coarseness.chosen(kPixels, 10 * kWithin), PictureCoarseness::kCoarsest);
 }
 
 TEST(PictureCoarseness, RaysThroughThePixelsCentresTellTheSpeed) {
@@ -98,22 +100,22 @@ TEST(PictureCoarseness, RaysThroughThePixelsCentresTellTheSpeed) {
     // With 4 ms per frame, the rays take a tenth or a half of the limit.
     const double ms = 4 * kWithin / 0.1;
     coarseness.learnFromLook(kPixels, 0.1 * ms, 0);
-    EXPECT_EQ(coarseness.chosen(kPixels, false), 0);
+    EXPECT_EQ(coarseness.chosen(kPixels), 0);
     coarseness.learnFromLook(kPixels, 0.5 * ms, 0);
-    EXPECT_EQ(coarseness.chosen(kPixels, false), 0);
-    EXPECT_EQ(coarseness.chosen(2 * kPixels, false), 1) << "the rest of a picture takes time, too";
+    EXPECT_EQ(coarseness.chosen(kPixels), 0);
+    EXPECT_EQ(coarseness.chosen(2 * kPixels), 1) << "the rest of a picture takes time, too";
     // On a loaded processor, the threads wait.
     coarseness.learnFromLook(kPixels, 0.1 * ms, 2 * kWithin);
-    EXPECT_EQ(coarseness.chosen(kPixels, false), 2);
+    EXPECT_EQ(coarseness.chosen(kPixels), 2);
     coarseness.learnFromLook(kPixels, 0.1 * ms, 0.1);
-    EXPECT_EQ(coarseness.chosen(kPixels, false), 0) << "a frame may have passed in an instant";
+    EXPECT_EQ(coarseness.chosen(kPixels), 0) << "a frame may have passed in an instant";
 }
 
 TEST(PictureCoarseness, LaterPicturesHaveNoExtraTime) {
     PictureCoarseness coarseness(kWithin);
     coarseness.setBudget({.ms = 2, .extraMs = 6});
     coarseness.learn(kPixels, 0, 0.9 * kWithin);
-    EXPECT_EQ(coarseness.chosen(kPixels, false), 2);
+    EXPECT_EQ(coarseness.chosen(kPixels), 2);
 }
 
 TEST(PictureCoarseness, CoarserViewShowsTheSamePartOfTheWorld) {
