@@ -179,8 +179,7 @@ public:
             out = overPaper(rgba.data(), rgba.size() / 4);
         }
         waitForThreads();
-        if (!firstSeconds_ && counters().render.shown > 0)
-            firstSeconds_ = time.seconds();
+        if (!firstSeconds_ && counters().render.shown > 0) firstSeconds_ = time.seconds();
         return out;
     }
     /// Time of the frame in which the first traced picture became ready [s].
