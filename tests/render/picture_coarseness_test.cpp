@@ -3,9 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
-#include <cmath>
-
 namespace mfar {
 namespace {
 
@@ -13,10 +10,6 @@ using namespace traced_pictures;
 
 constexpr double kWithin = 0.8, kPixels = 10000;
 constexpr Size kCoarsestSize{kTracedSize.width / 4, kTracedSize.height / 4};
-
-Timestamp at(double seconds) {
-    return Timestamp{} + std::chrono::nanoseconds(std::llround(1e9 * seconds));
-}
 
 TracedPolicy timed() {
     TracedPolicy out = kProduct;
@@ -28,7 +21,7 @@ TracedPolicy timed() {
 void beginTooSlowly(Driver& driver) {
     driver.look(20);
     EXPECT_TRUE(driver.step()) << "begins the picture, but traces nothing";
-    driver.look(20, at(0.5));
+    driver.look(20, Timestamp::fromSeconds(0.5));
 }
 
 TEST(PictureCoarseness, WithoutALimitEveryPictureHasFullResolution) {
@@ -178,14 +171,14 @@ TEST(TracedPictures, FirstPictureCanBeAbandoned) {
 
 TEST(TracedPictures, CoarsePictureIsReplacedByAFinerOneOfTheSameView) {
     Driver driver(kThirtyTwo, timed());
-    driver.portionMs = 4 * FrameBudget{}.ms;
+    driver.portionMs = 4 * FrameBudget{}.ms;  // a slow processor
     driver.look(20);
     driver.settle();
     ASSERT_EQ(driver.shown.back().camera.size, kCoarsestSize);
     const std::size_t before = driver.shown.size();
-    driver.look(20, at(0.6));
+    driver.look(20, Timestamp::fromSeconds(0.6));
     driver.step();
-    driver.look(20, at(0.7));
+    driver.look(20, Timestamp::fromSeconds(0.7));
     driver.untilShown(before + 1);
     EXPECT_EQ(driver.shown.back().camera.size, kTracedSize);
     EXPECT_TRUE(driver.shows(20));
@@ -197,10 +190,10 @@ TEST(TracedPictures, ManySamplesOfOldObjectsDoNotMakeAPictureOfNewObjectsFiner) 
     driver.settle();
     ASSERT_EQ(driver.shown.back().samples, 32);
     driver.pictures.setScene(preparedStillLife(2, 2));
-    driver.look(20, at(1));
+    driver.look(20, Timestamp::fromSeconds(1));
     driver.step();
     const std::size_t before = driver.shown.size();
-    driver.look(20, at(1.5));
+    driver.look(20, Timestamp::fromSeconds(1.5));
     driver.untilShown(before + 1);
     EXPECT_EQ(driver.shown.back().camera.size, kCoarsestSize);
 }
@@ -212,13 +205,13 @@ TEST(TracedPictures, SlowPicturesOfAMovingCameraAreCoarse) {
     driver.settle();
     // The next picture takes almost twice the time allowed, so the one after it has half the
     // pixels.
-    driver.look(23.5, at(1));
+    driver.look(23.5, Timestamp::fromSeconds(1));
     driver.step();
-    driver.look(24, at(1 + 1.8 * kWithin));
+    driver.look(24, Timestamp::fromSeconds(1 + 1.8 * kWithin));
     driver.settle();
     EXPECT_TRUE(driver.shows(23.5));
     EXPECT_EQ(driver.shown.back().camera.size, kTracedSize);
-    driver.look(27.5, at(3));
+    driver.look(27.5, Timestamp::fromSeconds(3));
     driver.settle();
     EXPECT_TRUE(driver.shows(27.5));
     EXPECT_EQ(driver.shown.back().camera.size, (Size{34, 25}));
@@ -229,7 +222,7 @@ TEST(TracedPictures, CameraAtRestGetsFullResolutionOnASlowProcessor) {
     double now = 0;
     // In each frame of 0.5 s, one portion of work is done: a ray through each pixel of a tile.
     for (int i = 0; i < 400; ++i) {
-        driver.look(20, at(now += 0.5));
+        driver.look(20, Timestamp::fromSeconds(now += 0.5));
         driver.step();
     }
     EXPECT_EQ(driver.shown.front().camera.size, kCoarsestSize);
@@ -237,7 +230,7 @@ TEST(TracedPictures, CameraAtRestGetsFullResolutionOnASlowProcessor) {
     EXPECT_LE(driver.shown.at(1).samples, 2) << "full resolution must not wait for many samples";
     EXPECT_EQ(driver.shown.at(1).camera.size, kTracedSize);
     driver.settle();
-    driver.look(20, at(now + 0.5));
+    driver.look(20, Timestamp::fromSeconds(now + 0.5));
     EXPECT_FALSE(driver.step());
     EXPECT_TRUE(driver.pictures.settled());
 }
