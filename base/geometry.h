@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <optional>
 
 namespace mfar {
@@ -16,6 +17,9 @@ struct PixelRect {
     int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
 
     [[nodiscard]] bool empty() const { return x0 >= x1 || y0 >= y1; }
+    [[nodiscard]] std::int64_t area() const {
+        return empty() ? 0 : std::int64_t{x1 - x0} * std::int64_t{y1 - y0};
+    }
     bool operator==(const PixelRect&) const = default;
 };
 

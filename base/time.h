@@ -37,4 +37,9 @@ constexpr std::chrono::nanoseconds operator-(Timestamp a, Timestamp b) {
     return std::chrono::nanoseconds{a.ns - b.ns};
 }
 
+/// Time from `from` to `to` [s]; negative if `to` is earlier.
+[[nodiscard]] constexpr double secondsBetween(Timestamp from, Timestamp to) {
+    return static_cast<double>((to - from).count()) * 1e-9;
+}
+
 }  // namespace mfar

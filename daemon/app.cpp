@@ -332,7 +332,7 @@ void App::logWarnings() {
 
 void App::showStatus(const Counted& counted, const Health& health) {
     if (!running_) return;
-    const double elapsed = Timestamp::now().seconds() - running_->time.seconds();
+    const double elapsed = secondsBetween(running_->time, Timestamp::now());
     logChanges(counted);
     logWarnings();
     const std::string line = statusLine(counted, running_->description, elapsed, health);

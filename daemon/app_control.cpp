@@ -56,7 +56,7 @@ ordered_json App::statusNow() {
     if (!running_) return out;
     takeChanges(counted);
     const RunDescription& run = running_->description;
-    const double elapsed = Timestamp::now().seconds() - running_->time.seconds();
+    const double elapsed = secondsBetween(running_->time, Timestamp::now());
     out.update({{"seconds", elapsed},
                 {"engine", run.engine},
                 {"renderer", run.renderer},

@@ -5,10 +5,6 @@
 namespace mfar {
 namespace {
 
-double secondsBetween(Timestamp a, Timestamp b) {
-    return std::chrono::duration<double>(b - a).count();
-}
-
 /// Returns the camera's mean velocity between the poses a and b, in the camera's frame [rad/s,
 /// m/s].
 Vector6 rate(const Pose& a, const Pose& b) {

@@ -68,7 +68,7 @@ void RunHistory::add(const RunMoment& moment, const std::vector<StageTime>& stag
 // while, also adds empty bins for that time; they are gaps in the charts.
 RunHistory::Bin& RunHistory::binAt(Timestamp shown) {
     if (!first_) first_ = shown;
-    const double seconds = std::max(shown.seconds() - first_->seconds(), 0.0);
+    const double seconds = std::max(secondsBetween(*first_, shown), 0.0);
     while (seconds / binS_ >= static_cast<double>(kMostBins))
         fold();
     const auto index = static_cast<std::size_t>(seconds / binS_);

@@ -259,7 +259,7 @@ void Session::process(CapturedFrame& captured) {
     show(time, result.unchanged);
     if (++pictures_ == 1) stats_.firstPicture(processUse());
     std::optional<double> age;
-    if (stillTime_) age = static_cast<double>((time - *stillTime_).count()) * 1e-9;
+    if (stillTime_) age = secondsBetween(*stillTime_, time);
     const Timestamp shown = Timestamp::now();
     const double ms = static_cast<double>((shown - begun).count()) * 1e-6;
     stages_ = drawing_->pipeline.stageTimes();
@@ -361,7 +361,7 @@ void Session::showFault() {
     const double rateHz = rig_.video().info().rateHz;
     const double periods = rateHz > 0 ? 1.5 / rateHz : 0;
     if (shownAt_ && bannerText() == drawing_->faultShown &&
-        Timestamp::now().seconds() - shownAt_->seconds() < periods)
+        secondsBetween(*shownAt_, Timestamp::now()) < periods)
         return;
     show(Timestamp::now(), true);
     stats_.bannerShown(Timestamp::now());

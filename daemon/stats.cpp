@@ -14,7 +14,7 @@ double milliseconds(std::chrono::nanoseconds d) {
 }
 
 double rate(std::uint64_t intervals, Timestamp from, Timestamp to) {
-    const double s = to.seconds() - from.seconds();
+    const double s = secondsBetween(from, to);
     return s > 0 ? static_cast<double>(intervals) / s : 0;
 }
 
@@ -46,7 +46,7 @@ double PictureRate::at(Timestamp now) const {
     while (intervals + 1 < known && shown(0) - shown(intervals + 1) <= kRateWindow)
         ++intervals;
     const double fps = rate(intervals, shown(intervals), shown(0));
-    const double since = now.seconds() - shown(0).seconds();
+    const double since = secondsBetween(shown(0), now);
     return fps * since > 1 ? 1 / since : fps;
 }
 
@@ -131,7 +131,7 @@ void Stats::fault(const std::optional<std::string>& fault) {
     // Before the first picture, a camera that is being opened is a fault only if opening it takes
     // long.
     if (fault && !fault_.isCounted &&
-        (counted_.frames > 0 || (now - *fault_.since).count() * 1e-9 >= kOpeningS)) {
+        (counted_.frames > 0 || secondsBetween(*fault_.since, now) >= kOpeningS)) {
         ++counted_.faults;
         fault_.isCounted = true;
     }
@@ -198,7 +198,7 @@ void Stats::traced(const TracedLayerCounters& counters, Timestamp frame) {
     counted_.traced = sumOf(tracedBefore_, counters);
     counted_.referenceAgeS.reset();
     if (const auto since = counters.render.shownSince)
-        counted_.referenceAgeS = static_cast<double>((frame - *since).count()) * 1e-9;
+        counted_.referenceAgeS = secondsBetween(*since, frame);
 }
 
 void Stats::camera(CameraRole role, const CameraState& state) {
@@ -314,10 +314,10 @@ void Stats::age(Timestamp now) {
     constexpr double kSilentS = 1, kSilentPeriods = 5;
     for (CameraState& camera : counted_.cameras) {
         if (camera.lastFrame && camera.rateHz > 0 &&
-            (now - *camera.lastFrame).count() * 1e-9 >
+            secondsBetween(*camera.lastFrame, now) >
                 std::max(kSilentS, kSilentPeriods / camera.rateHz))
             camera.rateHz = 0;
-        if (camera.lastDistinct) camera.distinctAgeS = (now - *camera.lastDistinct).count() * 1e-9;
+        if (camera.lastDistinct) camera.distinctAgeS = secondsBetween(*camera.lastDistinct, now);
     }
 }
 
@@ -325,7 +325,7 @@ void Stats::total(Timestamp now) {
     age(now);
     counted_.recentFps = rate_.at(now);
     if (firstShown_) {
-        counted_.seconds = lastShown_.seconds() - firstShown_->seconds();
+        counted_.seconds = secondsBetween(*firstShown_, lastShown_);
         counted_.fps = rate(counted_.frames - 1, *firstShown_, lastShown_);
     }
     if (confidenceFrames_ > 0)

@@ -14,8 +14,7 @@ namespace mfar {
 namespace {
 
 int tilesIn(const PixelRect& videoPixels) {
-    const PixelRect tiles = tilesAround(videoPixels);
-    return (tiles.x1 - tiles.x0) * (tiles.y1 - tiles.y0);
+    return static_cast<int>(tilesAround(videoPixels).area());
 }
 
 }  // namespace

@@ -59,7 +59,7 @@ private:
 
     void takeVideo(const Frame& frame) {
         const Timestamp t = frame.time();
-        const double since = (t - board_.epoch()).count() * 1e-9;
+        const double since = secondsBetween(board_.epoch(), t);
         if (options_.stillsHz > 0 && since * options_.stillsHz >= pulses_ - 1e-6) {
             board_.trigger().fire();
             ++pulses_;

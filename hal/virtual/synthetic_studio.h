@@ -44,7 +44,7 @@ public:
     [[nodiscard]] StoredImage highRes(Timestamp t);
 
     [[nodiscard]] Timestamp epoch() const { return epoch_; }
-    [[nodiscard]] double worldTime(Timestamp t) const { return (t - epoch_).count() * 1e-9; }
+    [[nodiscard]] double worldTime(Timestamp t) const { return secondsBetween(epoch_, t); }
     [[nodiscard]] Pose pose(Timestamp t) const;
 
 private:

@@ -41,7 +41,7 @@ std::shared_ptr<const Scene> SceneFollower::relight(Lighting lighting) {
 bool SceneFollower::isDue(const RigidTransform& T_world_video, Timestamp time) const {
     if (frames_ < rule_.settling) return false;
     if (!caught_) return true;
-    const double age = static_cast<double>((time - *caught_).count()) * 1e-9;
+    const double age = secondsBetween(*caught_, time);
     const Eigen::Vector3d centre = planes_.front().objects.center();
     return age >= rule_.leastInterval &&
            angleBetween(caughtFrom_ - centre, T_world_video.translation - centre) >= rule_.turn;

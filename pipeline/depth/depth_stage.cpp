@@ -53,7 +53,7 @@ void DepthStage::run(const Rows<const std::uint8_t>& luma, const Pose& pose,
                      const std::optional<StillSearch>& still, const PixelRect& where) {
     if (world_ != pose.world) forget();
     world_ = pose.world;
-    const double seconds = last_ ? static_cast<double>((pose.time - *last_).count()) * 1e-9 : 0;
+    const double seconds = last_ ? secondsBetween(*last_, pose.time) : 0;
     last_ = pose.time;
     filter_.predict(pose.T_world_video, seconds);
     const Summary before = summaryOf(where, pose);

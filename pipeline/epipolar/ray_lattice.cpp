@@ -35,7 +35,7 @@ RayLattice::Part RayLattice::part(const CameraModel& camera, const PixelRect& po
 
 void RayLattice::cover(const PixelRect& points) {
     std::vector<float> x, y;
-    const auto count = static_cast<std::size_t>(points.x1 - points.x0) * (points.y1 - points.y0);
+    const auto count = static_cast<std::size_t>(points.area());
     x.reserve(count);
     y.reserve(count);
     const int pitch = known_.x1 - known_.x0;

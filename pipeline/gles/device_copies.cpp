@@ -145,7 +145,7 @@ std::size_t TextureCopy::download(const PixelRect& part, void* data, std::ptrdif
         readFourChannels<std::uint8_t>(part, layout.type, first, pitch,
                                        takeFirstChannels<std::uint8_t>(layout.bytes));
     }
-    return static_cast<std::size_t>(part.x1 - part.x0) * (part.y1 - part.y0) * bytes;
+    return static_cast<std::size_t>(part.area()) * bytes;
 }
 
 }  // namespace mfar

@@ -68,10 +68,6 @@ double solidAngleOf(std::size_t texel) {
     return 2 * std::numbers::pi / kMap.width * (std::cos(top) - std::cos(top + step));
 }
 
-double secondsBetween(Timestamp from, Timestamp to) {
-    return std::chrono::duration<double>(to - from).count();
-}
-
 bool isFinite(const RigidTransform& T) {
     return T.rotation.coeffs().allFinite() && T.translation.allFinite();
 }

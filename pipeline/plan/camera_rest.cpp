@@ -22,7 +22,7 @@ constexpr double kLeastStructured = 0.1;
 
 void CameraRest::add(const std::vector<TileMeasure>& tiles, double leastStructure,
                      double renewedShare, Timestamp time) {
-    const double passed = static_cast<double>((time - last_).count()) * 1e-9;
+    const double passed = secondsBetween(last_, time);
     renewals_ *= std::exp(-std::max(passed, 0.0) / kRenewalTime);
     if (renewedShare > kMostChanged) ++renewals_;
     changed_.resize(tiles.size(), kNever);

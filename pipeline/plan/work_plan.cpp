@@ -119,8 +119,7 @@ void WorkPlan::chooseChanged(Redraw redraw, bool force) {
         work_.flags[i] = {static_cast<std::uint8_t>(changed),
                           static_cast<std::uint8_t>(structured_[i])};
     }
-    const PixelRect& detail = work_.detailTiles;
-    const int inside = (detail.x1 - detail.x0) * (detail.y1 - detail.y0);
+    const auto inside = static_cast<double>(work_.detailTiles.area());
     const bool whole = work_.changed >= wholeFrom;
     const bool lists = whole && mayList() && structured_.count() <= kListedShare * inside;
     work_.draw = !whole  ? TileWork::Draw::Tiles

@@ -78,10 +78,7 @@ void limit(Eigen::Array3f& light, float most, float variance) {
 
 }  // namespace
 
-void NoiseFilter::begin(Size size, const PixelRect& where, double focal) {
-    size_ = size;
-    catcherSlope_ = kDepthSlope * static_cast<float>(std::max(1.0, kFineFocal / focal));
-    where_ = common(where, {0, 0, size.width, size.height});
+void NoiseFilter::reserve(Size size) {
     const std::size_t count =
         static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
     const auto resize = [](auto& values, std::size_t wanted) {
@@ -95,6 +92,13 @@ void NoiseFilter::begin(Size size, const PixelRect& where, double focal) {
     resize(limits_, count);
     stride_ = count + 2 * simd::kNoiseMargin;
     resize(values_, kArrays * stride_);
+}
+
+void NoiseFilter::begin(Size size, const PixelRect& where, double focal) {
+    reserve(size);
+    size_ = size;
+    catcherSlope_ = kDepthSlope * static_cast<float>(std::max(1.0, kFineFocal / focal));
+    where_ = common(where, {0, 0, size.width, size.height});
 }
 
 void NoiseFilter::run(int stage, int firstRow, int lastRow) {

@@ -46,6 +46,8 @@ public:
     static constexpr int kLevels = 4;
     static constexpr int kStages = kLevels + 2;
 
+    /// Reserves memory for pictures of `size`.
+    void reserve(Size size);
     /// Begins a picture of `size` with the focal length `focal` [px]. Only the pixels in `where`
     /// are filtered. Memory is reused for the next picture.
     void begin(Size size, const PixelRect& where, double focal);

@@ -42,7 +42,7 @@ void PictureResolver::reserve(Size size, bool filter, RenderedPicture& out) {
     out.id.resize(pixels);
     out.light.resize(pixels);
     out.gloss.resize(pixels);
-    if (filter) filter_.begin(size, {}, 1);
+    if (filter) filter_.reserve(size);
 }
 
 // The last stage also clears pixels outside `traced_`, where `out_` still holds an earlier picture.

@@ -68,7 +68,7 @@ void HolePyramid::fill(const Layer& layer, std::span<Hole> holes, HoleFilling fi
     for (int l = 0; l < levelCount_; ++l) {
         r = {r.x0 / 2, r.y0 / 2, halved(r.x1), halved(r.y1)};
         levels_[l].texels = r;
-        const std::size_t texels = static_cast<std::size_t>(r.x1 - r.x0) * (r.y1 - r.y0);
+        const std::size_t texels = static_cast<std::size_t>(r.area());
         if (levels_[l].areas.size() < texels) levels_[l].areas.resize(texels);
         pull(layer, l);
     }

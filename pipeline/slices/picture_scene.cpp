@@ -6,13 +6,6 @@
 #include <utility>
 
 namespace mfar {
-namespace {
-
-double areaOf(const PixelRect& r) {
-    return r.empty() ? 0 : static_cast<double>(r.x1 - r.x0) * static_cast<double>(r.y1 - r.y0);
-}
-
-}  // namespace
 
 double PictureScene::changeOf(const RenderView& from, const RenderView& to,
                               const ViewLimits& limits) const {
@@ -21,8 +14,9 @@ double PictureScene::changeOf(const RenderView& from, const RenderView& to,
 }
 
 double PictureScene::tracedPixels(const RenderView& view) const {
-    const double objects = areaOf(tracer->objectBounds(view));
-    return objects + 0.25 * std::max(0.0, areaOf(tracer->bounds(view)) - objects);
+    const double objects = static_cast<double>(tracer->objectBounds(view).area());
+    return objects +
+           0.25 * std::max(0.0, static_cast<double>(tracer->bounds(view).area()) - objects);
 }
 
 PictureScene pictureScene(std::shared_ptr<const Scene> source, const PathTracerOptions& options) {

@@ -113,7 +113,7 @@ TracedStep TracedPictures::chosenStep() const {
 }
 
 double TracedPictures::secondsSince(Timestamp begin) const {
-    return static_cast<double>((time_ - begin).count()) * 1e-9;
+    return secondsBetween(begin, time_);
 }
 
 /// True if the shown picture should be replaced by one of higher resolution of about the same view.
@@ -199,9 +199,7 @@ bool TracedPictures::toBegin() const {
 // its memory blocks (see Film::kBlockPixels); any other tile needs only one.
 void TracedPictures::provide(RenderedPicture& out) {
     const auto blocksOf = [](const PixelRect& r, std::size_t pixels) {
-        if (r.empty()) return std::size_t{0};
-        return static_cast<std::size_t>(r.x1 - r.x0) * static_cast<std::size_t>(r.y1 - r.y0) /
-               pixels;
+        return static_cast<std::size_t>(r.area()) / pixels;
     };
     const PixelRect objects = scene_->tracer->objectBounds(wanted_);
     const PixelRect traced = scene_->tracer->bounds(wanted_);

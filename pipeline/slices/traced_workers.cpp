@@ -20,10 +20,6 @@ constexpr std::uint64_t kMostMissed = 16;
 constexpr double kRateSeconds = 1;
 constexpr std::int64_t kFirstResolved = 2048;
 
-double secondsBetween(Timestamp a, Timestamp b) {
-    return static_cast<double>((b - a).count()) * 1e-9;
-}
-
 TracedRendererOptions checked(const TracedRendererOptions& o) {
     const auto positive = [](double v) { return std::isfinite(v) && v > 0; };
     validate(o.tracer);

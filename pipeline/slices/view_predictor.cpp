@@ -28,7 +28,7 @@ const ViewPredictor::Entry& ViewPredictor::back(std::size_t steps) const {
 
 void ViewPredictor::add(const RigidTransform& T_world_camera, Timestamp time) {
     if (added_ > 0) {
-        const double gap = static_cast<double>((time - back(0).time).count()) * 1e-9;
+        const double gap = secondsBetween(back(0).time, time);
         if (!(gap > 0 && gap < kLongestGap)) added_ = 0;
     }
     entries_[added_++ % entries_.size()] = {time, T_world_camera};
@@ -38,9 +38,7 @@ Vector6 ViewPredictor::rate() const {
     const std::size_t known = std::min(added_, entries_.size());
     if (known < 2) return Vector6::Zero();
     std::size_t steps = 1;
-    const auto age = [&](std::size_t i) {
-        return static_cast<double>((back(0).time - back(i).time).count()) * 1e-9;
-    };
+    const auto age = [&](std::size_t i) { return secondsBetween(back(i).time, back(0).time); };
     while (steps + 1 < known && age(steps + 1) <= kWindow)
         ++steps;
     const RigidTransform motion = back(steps).T_world_camera.inverse() * back(0).T_world_camera;

@@ -13,10 +13,6 @@ namespace {
 // radian, and moves by less than its distance from the tags.)
 constexpr double kStartRate = 1;
 
-double secondsBetween(Timestamp a, Timestamp b) {
-    return std::chrono::duration<double>(b - a).count();
-}
-
 bool positive(double v) {
     return v > 0 && std::isfinite(v);
 }

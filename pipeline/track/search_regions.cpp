@@ -85,7 +85,7 @@ std::vector<PixelRect> searchRegions(const TagMap& map, const CameraModel& camer
 double areaOf(const std::vector<PixelRect>& regions) {
     double sum = 0;
     for (const PixelRect& r : regions)
-        sum += static_cast<double>(r.x1 - r.x0) * (r.y1 - r.y0);
+        sum += static_cast<double>(r.area());
     return sum;
 }
 

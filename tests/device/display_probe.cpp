@@ -79,7 +79,7 @@ public:
     }
 
 private:
-    double seconds() const { return (Timestamp::now() - start_).count() * 1e-9; }
+    double seconds() const { return secondsBetween(start_, Timestamp::now()); }
     void draw(int bar) {
         const std::vector<std::uint8_t> pixels = testPicture(bar);
         texture_.upload({pixels.data(), std::size_t{4} * kSize.width});

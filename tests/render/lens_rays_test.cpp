@@ -43,7 +43,7 @@ TEST(LensRays, PixelsInContainsAllPixelsWithRaysInTheBox) {
         }
     EXPECT_GT(inside, 500);
     EXPECT_EQ(outside, 0);
-    EXPECT_LT((found.x1 - found.x0) * (found.y1 - found.y0), 3 * inside);
+    EXPECT_LT(found.area(), 3 * inside);
 }
 
 TEST(ViewBounds, BoxBehindTheCameraHasEmptyBounds) {

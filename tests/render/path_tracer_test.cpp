@@ -287,7 +287,7 @@ TEST(PathTracer, BoundsContainObjectsAndShadows) {
                 EXPECT_TRUE(x >= bounds.x0 && x < bounds.x1 && y >= bounds.y0 && y < bounds.y1);
             }
         EXPECT_GT(seen, 50);
-        EXPECT_LT((bounds.x1 - bounds.x0) * (bounds.y1 - bounds.y0), 80 * 60);
+        EXPECT_LT(bounds.area(), 80 * 60);
     }
 }
 

@@ -26,7 +26,7 @@ double medianOf(std::vector<double>& values) {
 cv::Mat DepthWatch::trueDepth(Timestamp time) const {
     const CameraModel& video = board_.rig().video;
     const RigidTransform pose = board_.pose(time).T_world_video;
-    const double seconds = static_cast<double>((time - board_.epoch()).count()) * 1e-9;
+    const double seconds = secondsBetween(board_.epoch(), time);
     const synthetic::Snapshot solids(board_.world(), seconds);
     cv::Mat out(video.size.height, video.size.width, CV_32F, cv::Scalar(0));
     for (int y = 0; y < out.rows; y += kStep) {

@@ -47,7 +47,7 @@ void writeFilm(const std::filesystem::path& file, const std::vector<RecordedImag
         if (picture.size.width % 2 != 0 || picture.size.height % 2 != 0)
             throw std::runtime_error(image.file.string() + ": width and height must be even");
         writeNv12(pictures, picture);
-        times << fmt::format("{:.9f}\n", static_cast<double>((image.time - begin).count()) * 1e-9);
+        times << fmt::format("{:.9f}\n", secondsBetween(begin, image.time));
     }
     pictures.close();
     times.close();

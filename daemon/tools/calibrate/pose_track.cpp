@@ -5,13 +5,6 @@
 #include <algorithm>
 
 namespace mfar::calibration {
-namespace {
-
-double seconds(Timestamp a, Timestamp b) {
-    return static_cast<double>((b - a).count()) * 1e-9;
-}
-
-}  // namespace
 
 RigidTransform between(const std::array<RigidTransform, 4>& poses,
                        const std::array<double, 4>& times, double t) {
@@ -38,7 +31,7 @@ void PoseTrack::allowMissingFrames() {
 double PoseTrack::interval() const {
     std::vector<double> gaps;
     for (std::size_t i = 1; i < times_.size(); ++i)
-        gaps.push_back(seconds(times_[i - 1], times_[i]));
+        gaps.push_back(secondsBetween(times_[i - 1], times_[i]));
     if (gaps.empty()) return 0;
     const auto quarter = gaps.begin() + static_cast<std::ptrdiff_t>(gaps.size() / 4);
     std::nth_element(gaps.begin(), quarter, gaps.end());
@@ -51,7 +44,7 @@ std::optional<std::array<int, 4>> PoseTrack::around(Timestamp t) const {
     if (second < 1 || second + 2 >= size()) return std::nullopt;
     const double limit = maxGap_ * interval();
     for (int i = second - 1; i < second + 2; ++i)
-        if (!(seconds(times_[i], times_[i + 1]) <= limit)) return std::nullopt;
+        if (!(secondsBetween(times_[i], times_[i + 1]) <= limit)) return std::nullopt;
     return std::array<int, 4>{second - 1, second, second + 1, second + 2};
 }
 
@@ -62,7 +55,7 @@ std::optional<RigidTransform> PoseTrack::at(Timestamp t) const {
     std::array<double, 4> times{};
     for (int j = 0; j < 4; ++j) {
         poses[j] = poses_[(*nodes)[j]];
-        times[j] = seconds(t, times_[(*nodes)[j]]);
+        times[j] = secondsBetween(t, times_[(*nodes)[j]]);
     }
     return between(poses, times, 0);
 }

@@ -18,7 +18,7 @@ std::string viewsOf(const SensorResult& sensor, const char* name) {
     const auto first = sensor.views.empty() ? Timestamp{} : sensor.views.front().time;
     int column = 0;
     for (const ViewResult& view : sensor.views) {
-        const double at = static_cast<double>((view.time - first).count()) * 1e-9;
+        const double at = secondsBetween(first, view.time);
         out += fmt::format("  {:7.2f} s {:4} {:6.3f} px{}", at, view.corners.size(),
                            rms(view.residuals), view.used ? "    " : " out");
         if (++column % kViewsInALine == 0) out += '\n';

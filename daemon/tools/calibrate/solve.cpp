@@ -155,7 +155,7 @@ private:
         std::array<double, 4> times{};
         for (int j = 0; j < 4; ++j) {
             poses[j] = poseOf(bundle, trackViews_[(*nodes)[j]]);
-            times[j] = static_cast<double>((track_.time((*nodes)[j]) - still.time).count()) * 1e-9;
+            times[j] = secondsBetween(still.time, track_.time((*nodes)[j]));
         }
         stillMembers_.push_back({view, bundle.addTied(still.corners, poses, times)});
         ++pairs_;

@@ -31,10 +31,6 @@ std::size_t objectPixels(const RenderedPicture& picture) {
     return count;
 }
 
-double areaOf(const PixelRect& r) {
-    return static_cast<double>(r.x1 - r.x0) * (r.y1 - r.y0);
-}
-
 using Rgba = std::vector<std::uint8_t>;
 
 /// PSNR over the three colour channels where the truth shows an object [dB].
@@ -128,7 +124,7 @@ private:
         *out.holeShare /= pixels;
         const auto rays = static_cast<double>(warp.counters().rays) / request_.referenceSamples;
         out.rerayOfObjects = rays / pixels;
-        out.rerayShare = rays / areaOf(tracer_.bounds(shot.view));
+        out.rerayShare = rays / static_cast<double>(tracer_.bounds(shot.view).area());
         return out;
     }
 
