@@ -60,14 +60,20 @@ auto checkOfLine(const std::string& chip) {
     };
 }
 
-void readLine(TomlReader& file, TriggerLineConfig& line) {
+void readLine(TomlReader& file, double stillTimeoutS, TriggerLineConfig& line) {
     file.text("cameras.trigger.chip", line.chip);
     file.text("cameras.trigger.line", line.line, checkOfLine(line.chip));
     file.boolean("cameras.trigger.active_low", line.activeLow);
-    file.number("cameras.trigger.pulse_ms", line.pulseMs);
+    file.number("cameras.trigger.pulse_ms", line.pulseMs,
+                [&](double ms) -> std::optional<std::string> {
+                    if (ms < 1e3 * stillTimeoutS) return std::nullopt;
+                    return fmt::format("must be shorter than trigger.timeout_s, which is {} s",
+                                       stillTimeoutS);
+                });
     file.boolean("cameras.trigger.pulse_is_exposure", line.pulseIsExposure);
     file.text("cameras.trigger.loopback_chip", line.loopbackChip);
-    file.text("cameras.trigger.loopback", line.loopback, checkOfLine(line.loopbackChip));
+    const std::string& chip = line.loopbackChip.empty() ? line.chip : line.loopbackChip;
+    file.text("cameras.trigger.loopback", line.loopback, checkOfLine(chip));
     file.number("cameras.trigger.delay_ms", line.delayMs);
     file.number("cameras.trigger.jitter_ms", line.jitterMs);
     file.number("cameras.trigger.arrival_ms", line.arrivalMs);
@@ -75,13 +81,13 @@ void readLine(TomlReader& file, TriggerLineConfig& line) {
 
 }  // namespace
 
-void readCameras(TomlReader& file, CamerasConfig& cameras) {
+void readCameras(TomlReader& file, double stillTimeoutS, CamerasConfig& cameras) {
     std::string calibration;
     file.text("cameras.calibration", calibration);
     cameras.calibration = calibration;
     readCamera(file, "cameras.video.", cameras.video, nullptr);
     readCamera(file, "cameras.still.", cameras.still, &cameras.video);
-    readLine(file, cameras.trigger);
+    readLine(file, stillTimeoutS, cameras.trigger);
 }
 
 }  // namespace mfar

@@ -55,6 +55,7 @@ struct CamerasConfig {
     bool operator==(const CamerasConfig&) const = default;
 };
 
-void readCameras(TomlReader& file, CamerasConfig& cameras);
+/// `stillTimeoutS`: the key trigger.timeout_s, which a trigger pulse must not exceed.
+void readCameras(TomlReader& file, double stillTimeoutS, CamerasConfig& cameras);
 
 }  // namespace mfar

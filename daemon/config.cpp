@@ -77,10 +77,10 @@ Config parseConfig(std::string_view toml, const std::string& fileName) {
     file.choice<SuperResMode>("superres.mode", config.superres.mode, kSuperResModes);
     file.boolean("superres.skip_unchanged", config.superres.skipUnchanged);
     file.boolean("superres.learn", config.superres.learn);
-    readCameras(file, config.cameras);
+    readTrigger(file, config.trigger);
+    readCameras(file, config.trigger.timeoutS, config.cameras);
     if (!config.cameras.calibration.empty())
         config.cameras.calibration = besides(fileName, config.cameras.calibration);
-    readTrigger(file, config.trigger);
     readPose(file, config.pose);
     if (!config.pose.tags.empty()) config.pose.tags = besides(fileName, config.pose.tags);
     readGovernor(file, config.governor);

@@ -53,6 +53,8 @@ public:
         } catch (const std::runtime_error& error) {
             if (open_) missedBefore_ += open_->missedEdges();
             open_.reset();
+            // Keeps the fault until fault() has been called: rest() opens the line a second later.
+            tried_ = Timestamp::now();
             fault_ = "trigger: " + std::string(error.what());
             throw;
         }
@@ -154,17 +156,6 @@ std::unique_ptr<ReopeningCamera> waitingCamera(const CameraConfig& config,
     if (!onTrigger) options.stalled = std::max(options.stalled, periods(kStalledPeriods));
     return std::make_unique<ReopeningCamera>(
         CameraInfo{role, config.size, PixelFormat::Nv12, config.rateHz}, std::move(open), options);
-}
-
-// TriggeredStillCamera does not repeat the pulse of a lost still, because StillPolicy does that.
-TriggeredStillOptions stillOptions(const TriggerLineConfig& line) {
-    TriggeredStillOptions out;
-    out.matching.guess = nanoseconds(line.delayMs);
-    out.matching.window = nanoseconds(line.jitterMs);
-    out.matching.timeout = nanoseconds(line.arrivalMs);
-    out.matching.repeat = false;
-    if (line.pulseIsExposure) out.exposure = nanoseconds(line.pulseMs);
-    return out;
 }
 
 CameraModel nominalCamera(Size size) {

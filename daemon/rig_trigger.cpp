@@ -3,6 +3,7 @@
 #include "daemon/exit_code.h"
 #include "hal/device/trigger_safe_level.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
@@ -16,6 +17,22 @@ TriggerOptions triggerOptions(const TriggerLineConfig& line) {
     out.pulse = std::chrono::microseconds(std::llround(line.pulseMs * 1e3));
     out.loopbackChip = line.loopbackChip;
     out.loopback = line.loopback;
+    return out;
+}
+
+TriggeredStillOptions stillOptions(const TriggerLineConfig& line) {
+    const auto nanoseconds = [](double ms) {
+        return std::chrono::nanoseconds(std::llround(ms * 1e6));
+    };
+    TriggeredStillOptions out;
+    if (line.pulseIsExposure) out.exposure = nanoseconds(line.pulseMs);
+    StillMatcherOptions& matching = out.matching;
+    matching.guess = nanoseconds(line.delayMs);
+    matching.window = nanoseconds(line.jitterMs);
+    matching.wideWindow = std::max(matching.wideWindow, matching.window);
+    // The matcher counts from the start of the exposure.
+    matching.timeout = nanoseconds(line.arrivalMs) + out.exposure;
+    matching.repeat = false;
     return out;
 }
 

@@ -142,7 +142,9 @@ bool ReopeningCamera::hasStalled() {
         fault_.reset();
         return false;
     }
-    return Timestamp::now() - lastFrame_ >= (isExcused ? options_.excused : options_.stalled);
+    // A slow camera's limit may be longer than the one for excused frames.
+    const auto limit = isExcused ? std::max(options_.excused, options_.stalled) : options_.stalled;
+    return Timestamp::now() - lastFrame_ >= limit;
 }
 
 void ReopeningCamera::reopen(const std::string& reason) {

@@ -27,9 +27,9 @@ struct ReopeningOptions {
     /// to longestPause. A camera must work within 3 s after it is plugged in, although some
     /// libraries find it only after 2 s.
     std::chrono::milliseconds firstPause{100}, longestPause{500};
-    /// Returns true while frames may be late for a reason outside this device. Then `excused` is
-    /// used instead of `stalled`. Example: libcamera probes a new device in the thread that
-    /// delivers all frames. May be empty. The thread of next() calls this function.
+    /// Returns true while frames may be late for a reason outside this device. Then the
+    /// longer of `excused` and `stalled` is used. Example: libcamera probes a new device in the
+    /// thread that delivers all frames. May be empty. The thread of next() calls this function.
     std::function<bool()> busyElsewhere{};
     std::chrono::milliseconds excused{6000};
     WatchedThread opener{};

@@ -116,21 +116,23 @@ void StillMatcher::learn(std::int64_t sinceEdge) {
     samples_.clear();
 }
 
-// Remembers a still that missed the window, as evidence that the camera's clock has stepped. The
-// still must be within wideWindow of the nearest pulse's expected time. But if that pulse still
-// waits for its still (and does not count as lost), it must be within kLongest: the reported time
-// may be wrong by more than wideWindow, e.g. by an exposure time that the camera chose itself.
+// Remembers a still that missed the window, as evidence that the camera's clock has stepped, or
+// that the first estimate of the delay was wrong. The still must be within wideWindow of the
+// nearest pulse's expected time. But if that pulse still waits for its still (and does not count as
+// lost), it must be within kLongest: the reported time may be wrong by more than wideWindow, e.g.
+// by an exposure time that the camera chose itself.
 void StillMatcher::misfit(const Nearest& still) {
     const bool isWaiting = pulses_[still.index].state == State::Waiting;
     const nanoseconds window = isWaiting ? kLongest : options_.wideWindow;
     const std::int64_t wide = reach(still.index, window.count());
-    if (!learned_ || std::abs(still.sinceEdge - centre()) > wide) return;
+    if (std::abs(still.sinceEdge - centre()) > wide) return;
     misfits_.push_back(still.sinceEdge);
     if (misfits_.size() < kStepEvidence) return;
     const auto [least, most] = std::ranges::minmax(misfits_);
     if (most - least <= 2 * options_.window.count()) {
+        if (learned_) ++counters_.relearned;
         learned_ = median(misfits_);
-        ++counters_.relearned;
+        samples_.clear();
         misfits_.clear();
     } else {
         misfits_.erase(misfits_.begin());

@@ -14,8 +14,8 @@ namespace mfar {
 /// time and the time expected from its pulse. A still with a larger difference does not match.
 struct StillMatcherOptions {
     /// First estimate of the delay from a pulse's leading edge to the exposure's start as the
-    /// camera reports it. Its error must be at most `wideWindow` and less than half the shortest
-    /// trigger period.
+    /// camera reports it. Its error must be less than half the shortest trigger period. If it
+    /// is more than `wideWindow`, the first five stills are lost.
     std::chrono::nanoseconds guess{0};
     /// Window while the delay is being learned.
     std::chrono::nanoseconds wideWindow{std::chrono::milliseconds(100)};
@@ -51,7 +51,7 @@ struct StillCounters {
 /// the pulse whose expected time is nearest to the still's time, if the difference is at most the
 /// window. The window is never larger than half the time between two pulses. If five consecutive
 /// stills miss the window by about the same time, the camera's clock or its automatic exposure has
-/// stepped. Then the median of their delays becomes the delay.
+/// stepped, or `guess` was wrong. Then the median of their delays becomes the delay.
 class StillMatcher {
 public:
     enum class Pulse : std::uint8_t { Asked, Repetition };

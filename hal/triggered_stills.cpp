@@ -79,8 +79,7 @@ std::optional<Frame> TriggeredStillCamera::admit(Frame frame) {
     std::lock_guard lock(mutex_);
     const auto match = matcher_.stillArrived(frame.time() - frame.exposure / 2);
     if (!match) return std::nullopt;
-    const std::chrono::nanoseconds exposure =
-        frame.exposure.count() > 0 ? frame.exposure : exposure_;
+    const std::chrono::nanoseconds exposure = exposure_.count() > 0 ? exposure_ : frame.exposure;
     const Timestamp time = match->exposed + exposure / 2;
     if (newest_ && time <= *newest_) {
         ++overtaken_;

@@ -17,8 +17,9 @@ namespace mfar {
 
 struct TriggeredStillOptions {
     StillMatcherOptions matching;
-    /// Exposure of stills if the camera does not report it. 0: unknown. For a sensor that exposes
-    /// as long as the pulse lasts, set it to the length of the pulse.
+    /// Exposure of all stills, whatever the camera reports. 0: the exposure that the camera
+    /// reports. For a sensor that exposes as long as the pulse lasts, set it to the length of the
+    /// pulse: such a sensor ignores its own setting, but the driver still reports it.
     std::chrono::nanoseconds exposure{0};
 };
 

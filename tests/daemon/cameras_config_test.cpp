@@ -84,6 +84,20 @@ TEST(CamerasConfig, TheNumberOfALineNeedsItsChip) {
     EXPECT_EQ(configFaults(trigger + "line = \"GPIO17\"\n"), "");
 }
 
+TEST(CamerasConfig, TheChipOfTheTriggerLineIsAlsoThatOfTheLoopback) {
+    EXPECT_EQ(configFaults("[cameras.trigger]\nchip = \"gpiochip0\"\nline = \"17\"\n"
+                           "loopback = \"27\"\n"),
+              "");
+}
+
+TEST(CamerasConfig, APulseLongerThanTheTimeoutOfStillsIsRefused) {
+    const std::string pulse = "[cameras.trigger]\npulse_ms = 5000\n";
+    EXPECT_EQ(configFaults(pulse),
+              "test.toml:2:12: cameras.trigger.pulse_ms = 5000: must be shorter than "
+              "trigger.timeout_s, which is 3 s");
+    EXPECT_EQ(configFaults(pulse + "[trigger]\ntimeout_s = 6\n"), "");
+}
+
 TEST(CamerasConfig, OnlyTheRateOfTheStillCameraMayBeZero) {
     EXPECT_THAT(configFaults("[cameras.video]\nrate_hz = 0\n"),
                 HasSubstr("test.toml:2:11: cameras.video.rate_hz must be from 0.01 to 1000"));

@@ -1,5 +1,6 @@
 #include "daemon/budgets.h"
 #include "daemon/rig.h"
+#include "daemon/rig_trigger.h"
 #include "tests/unit/temp_folder.h"
 
 #include <gtest/gtest.h>
@@ -21,6 +22,36 @@ namespace mfar {
 namespace {
 
 using namespace std::chrono_literals;
+
+/// Fires ten pulses whose stills have time stamps `late` after the pulse. Returns the counters.
+StillCounters countersOf(const TriggerLineConfig& line, std::chrono::nanoseconds late) {
+    StillMatcher matcher(stillOptions(line).matching);
+    for (int i = 0; i < 10; ++i) {
+        const Timestamp pulse = Timestamp{} + (i + 1) * 10s;
+        matcher.pulseFired(pulse);
+        (void)matcher.stillArrived(pulse + late);
+    }
+    return matcher.counters();
+}
+
+TEST(StillOptions, ALargeJitterIsToleratedFromTheFirstStillOn) {
+    TriggerLineConfig line;
+    line.jitterMs = 300;
+    EXPECT_EQ(countersOf(line, 150ms).matched, 10U);
+    line.jitterMs = 1;
+    EXPECT_EQ(countersOf(line, 150ms).matched, 5U);
+}
+
+TEST(StillOptions, AStillIsNotLostDuringItsExposure) {
+    TriggerLineConfig line;
+    line.pulseMs = 2000;
+    line.pulseIsExposure = true;
+    line.arrivalMs = 500;
+    StillMatcher matcher(stillOptions(line).matching);
+    matcher.pulseFired(Timestamp{});
+    EXPECT_EQ(matcher.poll(Timestamp{} + 2400ms).lost, 0);
+    EXPECT_EQ(matcher.poll(Timestamp{} + 2600ms).lost, 1);
+}
 
 class RigOfCameras : public testing::Test {
 protected:

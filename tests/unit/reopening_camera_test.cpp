@@ -156,6 +156,23 @@ TEST(ReopeningCamera, WhileAnotherDeviceDelaysFramesASilentCameraIsNotYetReopene
     EXPECT_TRUE(drivenUntil(camera, [&](bool) { return camera.losses() > 0; }));
 }
 
+TEST(ReopeningCamera, TheExcuseDoesNotShortenTheLimitOfASlowCamera) {
+    Socket socket;
+    ReopeningOptions options = quick();
+    options.busyElsewhere = [] { return true; };
+    options.stalled = std::chrono::hours(1);
+    options.excused = milliseconds(20);
+    ReopeningCamera camera = cameraOn(socket, options);
+    camera.start();
+    ASSERT_TRUE(drivenUntil(camera, [](bool frame) { return frame; }));
+    socket.sends = false;
+    ASSERT_TRUE(drivenUntil(camera, [&](bool) { return camera.fault().has_value(); }));
+    const Timestamp end = Timestamp::now() + milliseconds(200);
+    while (Timestamp::now() < end)
+        EXPECT_FALSE(camera.next(milliseconds(5)));
+    EXPECT_EQ(camera.losses(), 0U);
+}
+
 TEST(ReopeningCamera, ASlowlyClosingDeviceDelaysNoThread) {
     Socket socket;
     ReopeningCamera camera = cameraOn(socket);

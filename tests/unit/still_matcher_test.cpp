@@ -184,6 +184,19 @@ TEST(StillMatcher, LatencyIsLearnedAgainAfterAClockStep) {
     }
 }
 
+TEST(StillMatcher, AFirstEstimateThatIsWrongByMoreThanTheWindowIsCorrected) {
+    StillMatcher matcher({});
+    for (int i = 0; i < 40; ++i) {
+        const Timestamp pulse = kStart + i * 1s;
+        matcher.pulseFired(pulse);
+        EXPECT_EQ(matcher.stillArrived(pulse + 120ms + microseconds(i)).has_value(), i >= 5) << i;
+        (void)matcher.poll(pulse + 900ms);
+    }
+    EXPECT_TRUE(matcher.learned());
+    EXPECT_EQ(matcher.constant(), 120ms + 2us);
+    EXPECT_EQ(matcher.counters().relearned, 0U) << "nothing was learned before";
+}
+
 TEST(StillMatcher, AStepOfSeveralTriggerPeriodsIsNotLearned) {
     StillMatcher matcher({});
     for (int i = 0; i < 60; ++i) {

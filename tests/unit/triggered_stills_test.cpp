@@ -145,6 +145,18 @@ TEST_F(TriggeredStills, IfTheCameraReportsNoExposureTheConfiguredExposureIsUsed)
     EXPECT_EQ(still->time(), edge + 300us + 3ms);
 }
 
+TEST_F(TriggeredStills, TheConfiguredExposureReplacesTheReportedOne) {
+    sensor.exposure = 8ms;
+    TriggeredStillOptions options;
+    options.exposure = 2ms;
+    const auto camera = open(options);
+    const Timestamp edge = camera->fire();
+    const auto still = camera->next(10s);
+    ASSERT_TRUE(still);
+    EXPECT_EQ(still->exposure, 2ms);
+    EXPECT_EQ(still->time(), edge + 300us + 1ms);
+}
+
 TEST_F(TriggeredStills, TheLineIsSetInactiveBeforeAnyPulse) {
     const auto camera = open();
     EXPECT_GE(sensor.rests, 1);
