@@ -1,3 +1,4 @@
+#include "daemon/after_output.h"
 #include "daemon/app.h"
 #include "daemon/exit_code.h"
 #include "daemon/journal.h"
@@ -13,6 +14,14 @@
 
 #include <cstdio>
 
+namespace {
+
+int afterPrinting() {
+    return mfar::afterOutput(0, "mfard", static_cast<int>(mfar::ExitCode::OutputFailed));
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
     using namespace mfar;
     const Timestamp started = Timestamp::now();
@@ -21,14 +30,14 @@ int main(int argc, char** argv) {
     try {
         const CommandLine line = parseCommandLine(argc, argv);
         if (line.print) {
-            fmt::print("{}", *line.print);
-            return static_cast<int>(ExitCode::Ok);
+            std::fputs(line.print->c_str(), stdout);
+            return afterPrinting();
         }
         if (line.options.checkConfig) {
             for (const std::string& note : notesOf(usableConfig(line.options)))
                 log.warning(note);
-            fmt::print("ok\n");
-            return static_cast<int>(ExitCode::Ok);
+            std::puts("ok");
+            return afterPrinting();
         }
         if (line.options.releaseTrigger) {
             releaseTrigger(effectiveConfig(line.options).cameras.trigger);

@@ -22,7 +22,8 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// Longest waits for an answer [s]. The end of a recording waits until the disk has all pictures.
+// Longest waits for an answer [s]. A recording begins and ends when the disk is ready, and a disk
+// with much unwritten data may need minutes.
 constexpr int kPatience = 15, kPatienceWithDisk = 600;
 constexpr std::size_t kLongestLine = 1U << 20U;
 constexpr std::uint64_t kMostData = 1ULL << 31U;
@@ -110,8 +111,11 @@ private:
 }  // namespace
 
 Reply ask(const std::filesystem::path& socket, const nlohmann::json& request) {
-    Connection connection(socket, request.contains("stop") ? kPatienceWithDisk : kPatience);
-    connection.send(request.dump() + "\n");
+    const bool waitsForDisk = request.value("command", "") == "record";
+    Connection connection(socket, waitsForDisk ? kPatienceWithDisk : kPatience);
+    // mfard refuses a name that is not UTF-8.
+    constexpr auto kReplace = nlohmann::json::error_handler_t::replace;
+    connection.send(request.dump(-1, ' ', false, kReplace) + "\n");
     Reply reply{ordered_json::parse(connection.line(), nullptr, false), {}};
     if (!reply.body.is_object() || !reply.body.contains("ok") || !reply.body["ok"].is_boolean())
         throw NotReachable(socket.string() + ": the process that listens there is not mfard");

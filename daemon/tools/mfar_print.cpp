@@ -1,5 +1,6 @@
 #include "base/calibration/calibration_error.h"
 #include "base/whole_file.h"
+#include "daemon/after_output.h"
 #include "daemon/exit_code.h"
 #include "daemon/output_checks.h"
 #include "daemon/tools/april_grid_text.h"
@@ -42,10 +43,7 @@ void requireReplaceable(const std::filesystem::path& description) {
 }
 
 void printGrid(const PrintArguments& a) {
-    if (a.columns * a.rows > calibration::kGridFamily.count)
-        throw std::runtime_error(
-            fmt::format("the AprilGrid has {} tags, but its family has only {}", a.columns * a.rows,
-                        calibration::kGridFamily.count));
+    calibration::checkTagCount(a.columns * a.rows);
     const Paper& paper = paperNamed(a.paper);
     const double size =
         a.gridTagSize > 0 ? a.gridTagSize : largestTag(a.columns, a.rows, a.spacing, paper);

@@ -1,6 +1,6 @@
 #include "base/progress.h"
+#include "daemon/after_output.h"
 #include "daemon/exit_code.h"
-#include "daemon/output_checks.h"
 #include "daemon/tools/april_grid_text.h"
 #include "daemon/tools/sim_arguments.h"
 

@@ -1,5 +1,5 @@
+#include "daemon/after_output.h"
 #include "daemon/exit_code.h"
-#include "daemon/output_checks.h"
 #include "daemon/tools/control_client.h"
 #include "daemon/tools/ctl_arguments.h"
 #include "daemon/tools/status_text.h"

@@ -64,7 +64,8 @@ Recorder::Recorder(const fs::path& root, const StereoRig& rig, double videoRateH
                 "video sensor; its coordinates are the body coordinates");
     beginCamera(still_.folder, {rig.still, rig.T_still_video.inverse(), 0, options.stillTimeOffset},
                 "still sensor");
-    syncFileSystem(root_);
+    // Does not wait for the disk, which may have much unwritten data of other programs.
+    writer_.post([this] { sync(); });
 }
 
 Recorder::~Recorder() {

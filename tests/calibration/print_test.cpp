@@ -258,6 +258,7 @@ TEST_F(MfarPrint, RefusesWhatCannotBePrintedAndWritesNothing) {
         {"tags 0 1 2 --size 0.1" + out, "3 tags of 0.1 m do not fit on A4, only 2"},
         {"aprilgrid --size 0.1" + out,
          "6 x 8 tags with an edge of 0.1 m does not fit on A4; in whole mm, at most 0.023 m fit"},
+        {"aprilgrid --columns 2 --rows 1" + out, "an AprilGrid needs at least 3 tags"},
         {"aprilgrid --columns 30 --rows 30" + out, "has 900 tags, but its family has only 587"},
         {"checkerboard 8x6" + out, "looks the same upside down"},
         {"checkerboard 9" + out, "expected the numbers of inner corners"},

@@ -36,6 +36,7 @@ TEST(Target, ImpossibleDescriptionsAreRefusedWithTheFileAndTheLineIfKnown) {
         {"'aprilgrid'", "'circlegrid'", ":1: ", "'circlegrid' is not supported"},
         {"tagCols: 6", "tagCols: 6.5", ":2: ", "whole number"},
         {"tagCols: 6", "tagCols: 0", ":2: ", "whole number"},
+        {"tagCols: 6\ntagRows: 5", "tagCols: 2\ntagRows: 1", ": ", "at least 3 tags"},
         {"tagRows: 5", "tagCos: 5", ": ", "has no key tagRows"},
         {"0.088", "-0.088", ":4: ", "is not between"},
         {"0.088", ".nan", ":4: ", "not finite"},

@@ -34,6 +34,12 @@ says err 'mfard.toml:2:17: the closing quote of a text is missing$'
 echo 'seed = 3' >mfard.toml
 run 0 --config mfard.toml --check-config
 says out '^ok$'
+for option in --check-config --print-config --version; do
+    code=0
+    "$mfard" --config mfard.toml "$option" >/dev/full 2>err || code=$?
+    [ "$code" = 74 ] || fail "mfard $option ended with exit code $code although its output could not be written"
+    says err 'mfard: standard output cannot be written'
+done
 
 run 66 --config missing.toml
 says err 'missing.toml: cannot be read'

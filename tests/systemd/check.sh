@@ -105,7 +105,7 @@ grep -q "^ExecStopPost=-/.*/lib/mfar/release-trigger$" "$unit" ||
 # is-trigger-chip must accept only the GPIO chips of the configured lines, by any of their names.
 isChip() {
     printf '%s\n' "$2" >"$work/trigger.toml"
-    "$sources/is-trigger-chip" "$1" "$work/sys/chip/$1" "$work/trigger.toml"
+    "$sources/is-trigger-chip" "$1" "$work/sys/${3:-chip}/$1" "$work/trigger.toml"
 }
 mkdir -p "$work/sys/chip/gpiochip1" "$work/sys/chip/gpio/gpiochip512"
 echo pinctrl-test >"$work/sys/chip/gpio/gpiochip512/label"
@@ -116,6 +116,16 @@ isChip gpiochip1 "$section"$'\nchip = "/dev/gpiochip1"' ||
     fault "is-trigger-chip refuses a chip by its path"
 isChip gpiochip1 "$section"$'\nchip = "pinctrl-test"' ||
     fault "is-trigger-chip refuses a chip by its label"
+isChip gpiochip1 "$section"$'\nchip = "pinctrl-other"' &&
+    fault "is-trigger-chip accepts a chip with another label"
+mkdir -p "$work/sys/new/gpiochip3" "$work/sys/new/gpio/chip0" "$work/sys/none/gpiochip4"
+echo pinctrl-new >"$work/sys/new/gpio/chip0/label"
+isChip gpiochip3 "$section"$'\nchip = "pinctrl-new"' new ||
+    fault "is-trigger-chip does not read the label of a new kernel"
+isChip gpiochip4 "$section"$'\nchip = "pinctrl-new"' none ||
+    fault "is-trigger-chip refuses a label although the kernel tells no labels"
+isChip gpiochip4 "$section"$'\nchip = "gpiochip3"' none &&
+    fault "is-trigger-chip accepts another chip where the kernel tells no labels"
 isChip gpiochip1 "$section" ||
     fault "is-trigger-chip refuses the chip of a line without a configured chip"
 isChip gpiochip1 "$section"$'\nchip = "gpiochip10"' && fault "is-trigger-chip accepts another chip"
@@ -140,6 +150,7 @@ chipOne=(
     $'cameras.trigger.line = "17"\ncameras.trigger.chip = "gpiochip1"'
     $'[cameras]\ntrigger = { line = "17", chip = "gpiochip1" } # both'
     $'[[objects]]\nshape = "box"\n[cameras.trigger]\nline = "17"\nchip = "gpiochip1"'
+    $'\xef\xbb\xbf[cameras.trigger]\nline = "17"\nchip = "gpiochip1"'
 )
 for text in "${chipOne[@]}"; do
     isChip gpiochip1 "$text" || fault "is-trigger-chip refuses the chip of: $text"

@@ -8,12 +8,6 @@
 #include <vector>
 
 namespace mfar::calibration {
-namespace {
-
-constexpr std::size_t kEnoughCorners = 12;  // a view with fewer corners gives no precise pose
-
-}  // namespace
-
 SensorViews collect(const std::vector<RecordedImage>& pictures, Size picture, const Target& target,
                     const std::function<void(const Progress&)>& progress) {
     SensorViews out{picture, {}};
@@ -28,7 +22,7 @@ SensorViews collect(const std::vector<RecordedImage>& pictures, Size picture, co
         std::vector<Corner> corners =
             finder.find({luma.ptr(), picture, luma.step, PixelFormat::Gray8});
         ++now.done;
-        if (corners.size() >= kEnoughCorners) {
+        if (corners.size() >= kLeastViewCorners) {
             coverage.add(corners);
             ++now.found;
             out.views.push_back({file.time, std::move(corners)});

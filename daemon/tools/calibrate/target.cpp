@@ -45,6 +45,16 @@ Target aprilGrid(int columns, int rows, double tagSize, double spacing, int firs
     return out;
 }
 
+void checkTagCount(int tags) {
+    constexpr int kLeastTags = kLeastViewCorners / 4;
+    if (tags < kLeastTags)
+        throw std::runtime_error(fmt::format(
+            "an AprilGrid needs at least {} tags, because fewer give no precise pose", kLeastTags));
+    if (tags > kGridFamily.count)
+        throw std::runtime_error(fmt::format(
+            "the AprilGrid has {} tags, but its family has only {}", tags, kGridFamily.count));
+}
+
 Target checkerboard(int columns, int rows, double square) {
     if (!(columns >= 3 && columns <= kMostPerSide && rows >= 3 && rows <= kMostPerSide))
         throw std::runtime_error(fmt::format(
@@ -86,9 +96,11 @@ Target readAprilGrid(const std::filesystem::path& file) {
                     fmt::format("target_type '{}' is not supported; expected aprilgrid", type));
         const int columns = wholeNumber(in, "tagCols", 1, kMostPerSide);
         const int rows = wholeNumber(in, "tagRows", 1, kMostPerSide);
-        if (columns * rows > kGridFamily.count)
-            in.fail(fmt::format("the target has {} tags, but family 36h11 has only {}",
-                                columns * rows, kGridFamily.count));
+        try {
+            checkTagCount(columns * rows);
+        } catch (const std::runtime_error& error) {
+            in.fail(error.what());
+        }
         const int first = in.has("codeOffset")
                               ? wholeNumber(in, "codeOffset", 0, kGridFamily.count - columns * rows)
                               : 0;

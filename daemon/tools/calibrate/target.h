@@ -13,6 +13,8 @@ namespace mfar::calibration {
 
 /// Largest number of tags or inner corners along a side of a target.
 inline constexpr int kMostPerSide = 50;
+/// Least number of corners in a view: fewer give no precise pose.
+inline constexpr int kLeastViewCorners = 12;
 /// Family of the tags of an AprilGrid.
 inline constexpr const TagFamilyInfo& kGridFamily = info(TagFamily::Tag36h11);
 
@@ -41,6 +43,8 @@ struct Target {
 [[nodiscard]] Target checkerboard(int columns, int rows, double square);
 /// `corners` are the numbers of inner corners, such as "9x6". Throws std::runtime_error.
 [[nodiscard]] Target checkerboard(std::string_view corners, double square);
+/// Throws std::runtime_error if an AprilGrid cannot have so many tags, or needs more.
+void checkTagCount(int tags);
 /// Parses Kalibr's description of an aprilgrid. Throws CalibrationError.
 [[nodiscard]] Target readAprilGrid(const std::filesystem::path& file);
 

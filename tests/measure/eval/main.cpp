@@ -1,3 +1,4 @@
+#include "daemon/after_output.h"
 #include "daemon/number_range.h"
 #include "daemon/output_checks.h"
 #include "daemon/tools/command_failure.h"
