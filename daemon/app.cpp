@@ -270,7 +270,7 @@ Health App::health(const Counted& counted) {
     const CameraState& video = counted.cameras[static_cast<std::size_t>(CameraRole::Video)];
     if (video.repeats) seen.repeats = video.lastDistinct;
     seen.lastPicture = counted.lastPicture;
-    seen.lastBanner = counted.lastBanner;
+    seen.lastExcuse = counted.lastExcuse;
     if (running_) {
         seen.started = running_->time;
         seen.rateHz = running_->description.videoRateHz;

@@ -4,6 +4,7 @@
 #include "daemon/budgets.h"
 #include "daemon/report.h"
 #include "daemon/restart_pause.h"
+#include "daemon/rig.h"
 #include "daemon/rig_words.h"
 
 #include <fmt/chrono.h>
@@ -120,8 +121,11 @@ void App::leave(const std::string& why) {
     if (ended_ && ended_->error) leaveFailed(ended_->error);
     const std::string reason = stopReason_.value_or(ended_ ? ended_->reason : "");
     // Without a signal, and before the picture thread has written all output, pictures may be
-    // missing in the output. After a signal, missing pictures are not a failure.
-    const bool isComplete = stopSignal_ || ended_ || !writes();
+    // missing in the output. After a signal, missing pictures are not a failure. A recording that
+    // ended before the signal is one.
+    const std::optional<std::string> lost = stats_.count().lostRecording;
+    if (lost) log_.error(*lost);
+    const bool isComplete = !lost && (stopSignal_ || ended_ || !writes());
     const ExitCode end = isComplete ? ExitCode::Ok : ExitCode::OutputFailed;
     const bool written = writeResults(reason, end);
     removeControl();
@@ -193,7 +197,8 @@ ExitCode App::finish(std::future<std::string>& end) {
         // If the reader of the display's pipe was too slow, missing output after a signal is not a
         // failure of mfard. Then mfard has cancelled the writing (first condition), or the reader
         // had stopped reading before the signal (second condition).
-        if (cancel_.stop_requested() || (stopSignal_ && counted.displayFault)) {
+        const bool isLost = dynamic_cast<const RecordingLost*>(&error) != nullptr;
+        if (!isLost && (cancel_.stop_requested() || (stopSignal_ && counted.displayFault))) {
             log_.warning(fmt::format("not all output was written: {}", error.what()), {},
                          {message::kEnded});
             (void)writeResults(*stopReason_, ExitCode::Ok);

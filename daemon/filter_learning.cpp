@@ -120,9 +120,10 @@ std::shared_ptr<const FilterBank> FilterLearning::takeFilters() {
     return std::exchange(isNew_, false) ? filters_ : nullptr;
 }
 
-void FilterLearning::finish() {
+bool FilterLearning::finish(std::chrono::milliseconds longest) {
     std::unique_lock lock(mutex_);
-    if (options_.waits) done_.wait(lock, [this] { return !isFull_ && !resets_; });
+    return !options_.waits ||
+           done_.wait_for(lock, longest, [this] { return !isFull_ && !resets_; });
 }
 
 void FilterLearning::reset() {

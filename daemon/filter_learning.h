@@ -25,7 +25,7 @@ struct FilterLearningOptions {
     std::filesystem::path file;
     /// Names and picture sizes of the sensors. Learned filters are valid for these sensors only.
     std::string sensors;
-    /// True: learns from every still, and finish() waits until this is done. So the same pictures
+    /// True: learns from every still, and finish() waits for this. So the same pictures
     /// always give the same filters. False: the learning thread has a low priority. It skips stills
     /// that arrive while it works, and stills for which it would need more than a tenth of a CPU.
     bool waits = false;
@@ -59,7 +59,8 @@ public:
                   const MatchedPictures::LookedUp& lookedUp) override;
     [[nodiscard]] std::shared_ptr<const FilterBank> takeFilters();
     /// If FilterLearningOptions::waits is set, waits until learning from the last still has ended.
-    void finish();
+    /// Returns false after `longest`.
+    [[nodiscard]] bool finish(std::chrono::milliseconds longest);
 
     // The following functions are thread-safe.
     /// Requests that the learning thread deletes all that was learned, and the file. Does not wait

@@ -43,13 +43,13 @@ bool isFresh(std::optional<Timestamp> shown, const Observed& seen) {
     return inSeconds(seen.now - *shown) <= seen.patience * limit;
 }
 
-// Returns the state Stalled if neither a new picture nor a banner about a faulty device was shown
-// recently, although mfard became ready long enough ago. Otherwise returns nothing. Must be called
-// only if no vital thread hangs.
+// Returns the state Stalled if recently there was neither a new picture nor a known reason for
+// none, although mfard became ready long enough ago. Otherwise returns nothing. Must be called only
+// if no vital thread hangs.
 std::optional<Judged> standingStill(const Observed& seen) {
-    // A recent banner is enough even if no device is faulty any more: after a device has returned,
-    // its first picture is not shown at once.
-    if (isFresh(seen.lastPicture, seen) || isFresh(seen.lastBanner, seen)) return std::nullopt;
+    // A recent reason is enough: after a device has returned, its first picture is not shown at
+    // once.
+    if (isFresh(seen.lastPicture, seen) || isFresh(seen.lastExcuse, seen)) return std::nullopt;
     const std::optional<Timestamp> begin = std::max(seen.lastPicture, seen.started);
     if (!begin || isFresh(begin, seen)) return std::nullopt;
     std::string cause = seen.gpu.value_or("no new picture");

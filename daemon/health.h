@@ -51,7 +51,7 @@ struct Observed {
     std::optional<std::string> display{};  ///< reason why not all pictures are shown or written
     std::optional<Timestamp> repeats{};  ///< time since which the video camera repeats one picture
     std::optional<Timestamp> lastPicture{};
-    std::optional<Timestamp> lastBanner{};  ///< time when a banner with the fault was last shown
+    std::optional<Timestamp> lastExcuse{};  ///< see Stats::excused()
     std::optional<Timestamp> started{};     ///< time when mfard was ready to make pictures
     double rateHz = 0;                      ///< expected rate of pictures; 0: unknown
     int patience = 1;
@@ -61,9 +61,9 @@ struct Observed {
 /// may use it.
 ///
 /// A vital thread that hangs is reported before any other fault, because only a restart helps
-/// against it. If no vital thread hangs, a banner about a faulty device counts as a new picture,
-/// because mfard reopens the device. The last banner still counts for a while after the device has
-/// returned (at least kStalePicture), because the device's first picture is not shown at once.
+/// against it. If no vital thread hangs, a known reason for no new picture (see Stats::excused())
+/// counts as a new picture. It still counts for a while (at least kStalePicture), because after a
+/// device has returned, its first picture is not shown at once.
 class HealthRecord {
 public:
     [[nodiscard]] Health judge(const Observed& seen);

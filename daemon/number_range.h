@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstdlib>
 #include <string>
+#include <string_view>
 
 namespace mfar {
 
@@ -23,12 +24,18 @@ namespace mfar {
         fmt::format("FLOAT in [{:g} - {:g}]", least, most));
 }
 
+/// Returns true for a whole number that CLI11 would read as an octal one, such as "010".
+[[nodiscard]] inline bool hasLeadingZero(std::string_view text) {
+    return text.size() > 1 && text[0] == '0' && text[1] >= '0' && text[1] <= '9';
+}
+
 /// Validator of an option whose value is an unsigned integer of 64 bits. Without it, CLI11 turns
 /// negative and too large numbers into other ones, for example -1 and 2^64 into 2^64 - 1.
 [[nodiscard]] inline CLI::Validator unsigned64() {
     return CLI::Validator(
         [](const std::string& text) {
             if (text.find('-') != std::string::npos) return text + " is negative";
+            if (hasLeadingZero(text)) return text + " has a leading zero";
             errno = 0;
             static_cast<void>(std::strtoull(text.c_str(), nullptr, 0));
             return errno == ERANGE ? text + " exceeds 2^64 - 1" : std::string();

@@ -30,6 +30,7 @@ CLI::Validator oneOf(std::optional<E> (*meaning)(std::string_view), const std::s
 }
 
 std::optional<std::string> countFault(std::string_view given) {
+    if (hasLeadingZero(given)) return fmt::format("\"{}\" has a leading zero", given);
     std::uint64_t count = 0;
     const auto [end, error] = std::from_chars(given.data(), given.data() + given.size(), count);
     if (error == std::errc() && end == given.data() + given.size() && count > 0)

@@ -271,18 +271,23 @@ std::optional<std::string> Rig::endBrokenRecording() {
     return error;
 }
 
+std::optional<std::string> Rig::requiredFault() const {
+    const std::lock_guard lock(mutex_);
+    return requiredBroke_;
+}
+
 void Rig::finishRecording() {
     if (const auto to = recorder()) {
         try {
             finish(*to);
-        } catch (const Failure&) {
+        } catch (const Failure& failure) {
             const std::lock_guard lock(mutex_);
-            if (isRequired_ && recorder_ == to) throw;
+            if (isRequired_ && recorder_ == to) throw RecordingLost(failure.what());
             // endBrokenRecording() reports the error of any other recording.
         }
     }
     const std::lock_guard lock(mutex_);
-    if (requiredBroke_) throw Failure(ExitCode::OutputFailed, *requiredBroke_);
+    if (requiredBroke_) throw RecordingLost(*requiredBroke_);
 }
 
 std::filesystem::path newRecordingIn(const std::filesystem::path& directory) {

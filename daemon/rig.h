@@ -38,6 +38,12 @@ struct Recorded {
     std::uint64_t dropped = 0;
 };
 
+/// The recording of --record cannot be written.
+class RecordingLost : public Failure {
+public:
+    explicit RecordingLost(const std::string& message) : Failure(ExitCode::OutputFailed, message) {}
+};
+
 /// The cameras, trigger line and recording of one run. Only the files rig* choose the
 /// implementations of cameras, trigger and display.
 class Rig {
@@ -83,8 +89,10 @@ public:
     /// If the running recording cannot be written any more, ends it and returns the reason.
     /// Otherwise returns nothing. The part on the disk stays playable. Thread-safe. Never waits.
     [[nodiscard]] std::optional<std::string> endBrokenRecording();
+    /// Returns why the recording of --record has ended too early, or nothing. Thread-safe.
+    [[nodiscard]] std::optional<std::string> requiredFault() const;
     /// Waits until the whole recording is written. If this is the recording of --record and it
-    /// cannot be written, throws Failure. If another recording cannot be written,
+    /// cannot be written, throws RecordingLost. If another recording cannot be written,
     /// endBrokenRecording() reports that.
     void finishRecording();
     /// Returns a function that creates a recording in the new folder `folder`. The returned

@@ -181,12 +181,16 @@ FileDisplayPolicy Session::displayPolicy() {
 }
 
 void Session::apply(const Tunables& wanted) {
+    // The governor keeps what it has measured, unless it gets other levels.
+    const bool isOtherMode = wanted.superres.mode != config_.superres.mode;
     config_.superres = wanted.superres;
     config_.trigger = wanted.trigger;
     config_.status.measure = wanted.measure;
-    drawing_->pipeline.setMode(wanted.superres.mode);
-    useStill();
-    setUpQuality(wanted.superres.mode);
+    if (isOtherMode) {
+        drawing_->pipeline.setMode(wanted.superres.mode);
+        useStill();
+        setUpQuality(wanted.superres.mode);
+    }
     drawing_->pipeline.setSkipUnchanged(wanted.superres.skipUnchanged);
     drawing_->pipeline.setMeasure(wanted.measure);
     setLearning(wanted.superres.learn);
@@ -294,7 +298,8 @@ void Session::useStill() {
     if (learning_) {
         // With a lossless source, this waits until all has been learned from the last still.
         if (heart_ != nullptr) heart_->rest();
-        learning_->finish();
+        while (!learning_->finish(kFaultInterval))
+            stats_.excused(Timestamp::now());
         if (heart_ != nullptr) heart_->beat();
         takeFilters();
     }
@@ -353,6 +358,7 @@ void Session::fireIfNeeded(Timestamp frame, const FrameStats& stats) {
 // Called when no frame arrives. If a device has a fault, shows the last picture again, with a
 // banner about that fault.
 void Session::showFault() {
+    if (rig_.video().isEarly()) stats_.excused(Timestamp::now());
     const std::optional<std::string> fault = rig_.fault();
     // The capture thread may be waiting for the faulty device, and then it cannot report the fault.
     stats_.fault(fault);
@@ -364,7 +370,7 @@ void Session::showFault() {
         secondsBetween(*shownAt_, Timestamp::now()) < periods)
         return;
     show(Timestamp::now(), true);
-    stats_.bannerShown(Timestamp::now());
+    stats_.excused(Timestamp::now());
 }
 
 void Session::show(Timestamp time, bool unchanged) {

@@ -40,7 +40,7 @@ void Session::checkRecording() {
     takeFirstRecording();
     if (const std::optional<std::string> why = rig_.endBrokenRecording())
         stats_.warn(fmt::format("the recording has ended: {}", *why), {message::kRecording});
-    stats_.recording(rig_.recordingFolder());
+    stats_.recording(rig_.recordingFolder(), rig_.requiredFault());
 }
 
 void Session::startRecording(std::shared_ptr<Recorder> recorder) {

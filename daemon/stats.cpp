@@ -185,9 +185,9 @@ void Stats::rendering(const Rendering& changed) {
     counted_.rendering = changed;
 }
 
-void Stats::bannerShown(Timestamp shown) {
+void Stats::excused(Timestamp now) {
     const std::lock_guard lock(mutex_);
-    counted_.lastBanner = shown;
+    counted_.lastExcuse = now;
 }
 
 void Stats::traced(const TracedLayerCounters& counters, Timestamp frame) {
@@ -269,9 +269,10 @@ void Stats::mailboxDropped(std::uint64_t total) {
     counted_.drops.mailbox = total;
 }
 
-void Stats::recording(const std::filesystem::path& folder) {
+void Stats::recording(const std::filesystem::path& folder, const std::optional<std::string>& lost) {
     const std::lock_guard lock(mutex_);
     if (counted_.recording != folder) counted_.recording = folder;
+    if (lost) counted_.lostRecording = lost;
 }
 
 void Stats::recorderDropped(std::uint64_t total) {

@@ -103,8 +103,8 @@ struct Counted {
     std::string display;
     std::uint64_t faults = 0;                ///< number of faults of devices
     std::optional<Timestamp> lastPicture{};  ///< see FinishedPicture::since
-    /// Time of the last banner that was shown without a new frame.
-    std::optional<Timestamp> lastBanner{};
+    /// Last time at which there was a known reason for no new picture, see Stats::excused().
+    std::optional<Timestamp> lastExcuse{};
     std::optional<std::string> displayFault{};
     std::optional<std::string> gpuFault{};
     std::uint64_t gpuFailures = 0;
@@ -113,6 +113,8 @@ struct Counted {
     std::optional<ProcessUse> atFirstPicture;
     std::optional<LearningCounts> learning{};
     std::filesystem::path recording;
+    /// Reason why the recording of --record has ended too early.
+    std::optional<std::string> lostRecording{};
 };
 
 struct FinishedPicture {
@@ -169,7 +171,9 @@ public:
     void rendering(const Rendering& changed);
     /// Must be called after the last picture was shown again with a banner, because no frames
     /// arrived.
-    void bannerShown(Timestamp shown);
+    /// Reports that there is no new picture for a known reason: instead of a new frame, a banner
+    /// about a faulty device was shown, or mfard waits for something that is not faulty.
+    void excused(Timestamp now);
     void validation(const ValidationCounts& counts);
     void learning(const std::optional<LearningCounts>& counts);
     /// `frame`: time of the frame to which the counters belong.
@@ -192,7 +196,8 @@ public:
     void matching(const StillCounters& counters);
     void mailboxDropped(std::uint64_t total);
     void recorderDropped(std::uint64_t total);
-    void recording(const std::filesystem::path& folder);
+    /// `lost`: see Counted::lostRecording.
+    void recording(const std::filesystem::path& folder, const std::optional<std::string>& lost);
 
     [[nodiscard]] Counted count(Timestamp now = Timestamp::now());
 

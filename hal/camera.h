@@ -73,6 +73,9 @@ public:
     /// Returns true if a recording has ended, so that no further frame will come.
     [[nodiscard]] virtual bool ended() const = 0;
 
+    /// Returns true if no frame is due now: a recording with a gap, played in real time.
+    /// Thread-safe.
+    [[nodiscard]] virtual bool isEarly() const { return false; }
     /// Thread-safe. All counters are zero for a camera that does not count its frames.
     [[nodiscard]] virtual CameraCounters cameraCounters() const { return {}; }
     /// Returns the warnings since the last call. Thread-safe.

@@ -63,6 +63,11 @@ public:
         const std::lock_guard lock(timeline_.mutex);
         return stopped_ || timeOf(toGive_) == kNever;
     }
+    [[nodiscard]] bool isEarly() const override {
+        const std::lock_guard lock(timeline_.mutex);
+        const Timestamp t = timeOf(toGive_);
+        return timeline_.pace == Pace::Realtime && timeline_.begin && t != kNever && !isOpen(t);
+    }
     [[nodiscard]] CameraCounters cameraCounters() const override {
         const std::lock_guard lock(timeline_.mutex);
         CameraCounters out;

@@ -27,7 +27,7 @@ struct FilterLearningTest : testing::Test {
         for (int i = first; i <= last; ++i) {
             const twin::Grey sharp = sharpDiscs(i);
             showTo(learning, sharp, sharp, pair);
-            learning.finish();
+            ASSERT_TRUE(learning.finish(std::chrono::minutes(5)));
         }
     }
 
@@ -87,7 +87,7 @@ void replace(FilterLearning& learning, unsigned seed) {
     const SensorPair noisy{.videoNoise = 4, .seed = seed};
     showReplacedTo(learning, sharp, sharp, noisy);
     showTo(learning, sharp, sharp, noisy);
-    learning.finish();
+    ASSERT_TRUE(learning.finish(std::chrono::minutes(5)));
 }
 
 TEST_F(FilterLearningTest, GuidanceIsLearnedFromTheOlderStillAndKeptAfterARestart) {
@@ -108,7 +108,7 @@ TEST_F(FilterLearningTest, GuidanceIsLearnedFromTheOlderStillAndKeptAfterARestar
     EXPECT_EQ(learning.counts().learner.pairs, 1U);
     EXPECT_GT(learning.takeFilters()->guidance().video, 0.5F);
     learning.reset();
-    learning.finish();
+    ASSERT_TRUE(learning.finish(std::chrono::minutes(5)));
     EXPECT_FALSE(learning.takeFilters()->guidance().any());
     EXPECT_THAT(learning.takeWarnings(), IsEmpty());
 }
@@ -173,7 +173,7 @@ TEST_F(FilterLearningTest, AResetForgetsTheFiltersAndDeletesTheStateFile) {
         FilterLearning learning(options);
         (void)learning.takeFilters();
         learning.reset();
-        learning.finish();
+        ASSERT_TRUE(learning.finish(std::chrono::minutes(5)));
         EXPECT_EQ(learning.counts().learner.stills, 0U);
         EXPECT_NE(learning.takeFilters(), nullptr);
         EXPECT_FALSE(std::filesystem::exists(options.file));

@@ -19,7 +19,7 @@ struct HealthTest : testing::Test {
         seen.display = display;
         seen.repeats = repeats;
         seen.lastPicture = picture;
-        seen.lastBanner = banner;
+        seen.lastExcuse = excuse;
         seen.started = started;
         seen.patience = patience;
         return record.judge(seen);
@@ -31,7 +31,7 @@ struct HealthTest : testing::Test {
     HealthRecord record;
     int patience = 1;
     std::optional<std::string> fault, display;
-    std::optional<Timestamp> repeats, picture, banner, started = now;
+    std::optional<Timestamp> repeats, picture, excuse, started = now;
 };
 
 TEST_F(HealthTest, WithFreshPicturesTheStateIsOk) {
@@ -60,12 +60,25 @@ TEST_F(HealthTest, MfardIsNotAliveWhileADriverHangsEvenIfItDrawsTheBanner) {
     picture = now;
     pass(seconds(5));
     fault = "video camera: sends no pictures";
-    banner = now;
+    excuse = now;
     const Health health = look();
     EXPECT_FALSE(health.isAlive());
     EXPECT_EQ(health.thread, "capture");
     EXPECT_EQ(sentence(health),
               "the capture thread hangs (stalled for 5.0 s, last picture 5.0 s ago)");
+}
+
+TEST_F(HealthTest, AWaitForAKnownReasonIsNoFault) {
+    Heartbeat pictures(hearts, "picture", budget::kPicture);
+    pictures.rest();
+    picture = now;
+    for (int s = 0; s < 60; ++s) {
+        pass(seconds(1));
+        excuse = now;
+        ASSERT_EQ(look().state, HealthState::Ok) << s;
+    }
+    pass(seconds(4));
+    EXPECT_EQ(look().state, HealthState::Stalled);
 }
 
 TEST_F(HealthTest, MfardIsAliveWhileItDrawsTheBannerForAMissingDevice) {
@@ -74,7 +87,7 @@ TEST_F(HealthTest, MfardIsAliveWhileItDrawsTheBannerForAMissingDevice) {
     for (int s = 0; s < 3600; ++s) {
         pass(seconds(1));
         capture.beat();
-        banner = now;
+        excuse = now;
         ASSERT_TRUE(look().isAlive()) << s;
     }
     EXPECT_EQ(look().state, HealthState::Degraded);
@@ -87,7 +100,7 @@ TEST_F(HealthTest, WithoutPicturesMfardIsAliveOnlyIfItHasJustDrawnABannerForAFau
     EXPECT_FALSE(look().isAlive());
     EXPECT_EQ(look().cause, "no new picture");
     fault = "video camera: is not there";
-    banner = now;
+    excuse = now;
     EXPECT_TRUE(look().isAlive());
     fault.reset();
     pass(kStalePicture / 2);
@@ -97,7 +110,7 @@ TEST_F(HealthTest, WithoutPicturesMfardIsAliveOnlyIfItHasJustDrawnABannerForAFau
     EXPECT_FALSE(look().isAlive());
     fault = "video camera: is not there";
     EXPECT_FALSE(look().isAlive())
-        << "mfard must not count as alive if it no longer draws the banner";
+        << "mfard must not count as alive if it no longer draws the excuse";
 }
 
 TEST_F(HealthTest, TheFirstPictureMayTakeLongerThanLaterPictures) {
@@ -152,7 +165,7 @@ TEST_F(HealthTest, ADisplayThatSkipsPicturesIsReportedAsDegraded) {
 TEST_F(HealthTest, EveryCauseOfADegradedStateIsReported) {
     const Heartbeat recorder(hearts, "recorder", budget::kWriter, ThreadRole::Helper);
     pass(2 * budget::kWriter);
-    picture = banner = now;
+    picture = excuse = now;
     fault = "video camera: is not there";
     display = "no screen yet";
     EXPECT_EQ(look().cause, "video camera: is not there; no screen yet; the recorder thread hangs");

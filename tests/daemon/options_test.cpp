@@ -87,6 +87,10 @@ TEST(Options, UsageErrorsListTheValidChoices) {
     for (const char* wrong : {"0", "-3", "x", "1.5", "99999999999999999999"})
         EXPECT_THAT(usageFault({"--frames", wrong}),
                     AllOf(HasSubstr("--frames"), HasSubstr(wrong), HasSubstr("at least 1")));
+    // CLI11 would read them as octal numbers.
+    EXPECT_THAT(usageFault({"--frames", "010"}), HasSubstr("\"010\" has a leading zero"));
+    EXPECT_THAT(usageFault({"--seed", "010"}), HasSubstr("010 has a leading zero"));
+    EXPECT_EQ(parse({"--seed", "0"}).options.seed, 0U);
     EXPECT_THAT(usageFault({"--seconds", "nan"}), HasSubstr("--seconds"));
     EXPECT_THAT(usageFault({"--seed", "x"}), HasSubstr("--seed"));
     EXPECT_THAT(usageFault({"--seed", "-1"}), HasSubstr("--seed"));

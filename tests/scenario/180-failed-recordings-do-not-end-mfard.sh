@@ -72,3 +72,16 @@ until_true refused
 until_true started
 goes_on
 stop_it
+
+echo "a lost recording of --record is a failure, also after a signal"
+printf '%s\nmost_mb = 0.05\n' "$quiet" >mfard.toml
+ended() { grep -q 'the recording has ended: .*: the recording has become larger than' err; }
+# The screen card9 does not exist, so pictures cannot be shown.
+for display in none kms:card9; do
+    start --config mfard.toml --record lost --display "$display" --summary summary.json
+    until_true ended
+    kill -TERM "$pid"
+    ends_with 74 3000
+    says summary.json '"exit_code": 74'
+    rm -rf lost
+done

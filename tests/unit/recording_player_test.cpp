@@ -123,6 +123,20 @@ TEST(RecordingPlayer, InRealTimeWaitingForAPictureTimesOutBeforeItIsDue) {
     EXPECT_TRUE(player.video().next(seconds(10)).has_value());
     EXPECT_FALSE(player.video().next(milliseconds(10)).has_value());
     EXPECT_FALSE(player.video().ended());
+    EXPECT_TRUE(player.video().isEarly());
+}
+
+TEST(RecordingPlayer, NoFrameIsEarlyAtConsumerPaceOrAfterTheLastOne) {
+    const TempFolder folder;
+    writeSmallRecording(folder.path(), {0, 600'000 * kMs}, {});
+    RecordingPlayer consumer(loadRecording(folder.path()), {.pace = Pace::Consumer});
+    EXPECT_FALSE(consumer.video().isEarly());
+    const TempFolder single;
+    writeSmallRecording(single.path(), {0}, {});
+    RecordingPlayer player(loadRecording(single.path()), {.pace = Pace::Realtime});
+    startBoth(player);
+    EXPECT_TRUE(player.video().next(seconds(10)).has_value());
+    EXPECT_FALSE(player.video().isEarly());
 }
 
 TEST(RecordingPlayer, InRealTimeLatePicturesAreSkippedAndCounted) {
