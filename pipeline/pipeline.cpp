@@ -222,6 +222,7 @@ Pipeline::State::Match Pipeline::State::matchStill(const VideoFrame& frame, cons
     const LumaPyramid& pyramids = newest.pyramid->video(frame, work);
     lap("pyramid");
     const FlowCells* found = nullptr;
+    const bool usePrior = newest.lastFlow != nullptr && options.skips.knownFlow;
     if (pose) {
         const PixelRect where = around(pixelsOf(work.detailTiles), forDepth);
         const int tiles = forDepth.empty() ? work.matched : work.changed;
@@ -232,10 +233,9 @@ Pipeline::State::Match Pipeline::State::matchStill(const VideoFrame& frame, cons
         }
         lap("epipolar");
         found = &newest.flow->refine({frame, *newest.pictures, light()}, pyramids, work,
-                                     {epipolar->forward(), epipolar->occlusion()});
+                                     {epipolar->forward(), epipolar->occlusion()}, usePrior);
     } else {
-        found = &newest.flow->run({frame, *newest.pictures, light()}, pyramids, work,
-                                  newest.lastFlow != nullptr && options.skips.knownFlow);
+        found = &newest.flow->run({frame, *newest.pictures, light()}, pyramids, work, usePrior);
     }
     lap("flow");
     const CellWeights& weights = weighed(newest, frame, pyramids, *found, work);

@@ -127,10 +127,11 @@ public:
     /// right to within a pixel. First, tiles in which the flow does not fit the pictures are
     /// searched in two dimensions. Then, doubtful cells are compared with the still at its full
     /// resolution, see params::kPatchSamples. Finally, the flow is corrected as by run(). `luma`
-    /// must contain the pyramids of `pictures`. If no changed tile is matched, the last result
-    /// stays.
+    /// must contain the pyramids of `pictures`. If `usePrior` is true, unchanged tiles may keep the
+    /// last frame's result. If no changed tile is matched, all of the last result stays.
     virtual const FlowCells& refine(const Pictures& pictures, const LumaPyramid& luma,
-                                    const TileWork& work, const AlongLines& along) = 0;
+                                    const TileWork& work, const AlongLines& along,
+                                    bool usePrior) = 0;
     /// Returns a flag for each tile, row-major: true if the last call was refine() and it searched
     /// the tile in two dimensions. After run(), all flags are false. Waits for the GPU if needed.
     [[nodiscard]] virtual std::vector<bool> searchedTiles() const = 0;

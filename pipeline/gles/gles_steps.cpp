@@ -185,7 +185,7 @@ public:
         return written();
     }
     const FlowCells& refine(const Pictures& pictures, const LumaPyramid& luma, const TileWork& work,
-                            const AlongLines& along) override {
+                            const AlongLines& along, bool /*usePrior*/) override {
         const TileBuffer& tiles = frame_.tiles(work);
         flow_.refine(lumaOf(luma), tiles, along.vectors, along.errors);
         if (work.matched > 0)

@@ -219,7 +219,7 @@ void Flow2d::run(const Luma& luma, const TileWork& work, bool usePrior) {
         chooseBackward();
         searchLevel(backwardAlone, backwardLevel_);
     }
-    cleanUpBackward();
+    cleanUpBackward(keepsUnchanged);
 }
 
 void Flow2d::alignRow(const AlignStep& step, const TileWork& work, int row) {
@@ -237,27 +237,30 @@ void Flow2d::alignRow(const AlignStep& step, const TileWork& work, int row) {
         });
 }
 
-void Flow2d::refine(const Luma& luma, const TileWork& work, Cells forward, Cells errors) {
+void Flow2d::refine(const Luma& luma, const TileWork& work, Cells forward, Cells errors,
+                    bool usePrior) {
     searched_.clear();
     if (work.matched == 0) return;
+    const bool keepsUnchanged = usePrior && errorsGiven_ && !work.drawsWhole();
     errorsGiven_ = true;
     // Width of the margin around the wanted tiles in which vectors are also needed [tiles]. The
     // clean-up reads neighbouring vectors, and TileSearch needs them to choose the searched tiles.
     constexpr int kMargin = 2;
-    chooseTiles(work, !work.drawsWhole(), kMargin);
+    chooseTiles(work, keepsUnchanged, kMargin);
     const FlowPlanes field = forwards_.stages[0].areas[0].planes();
     const AlignStep step{pictureOf(luma.video[0], luma.words), pictureOf(luma.still[0], luma.words),
                          field, forward[0].data(), params::kAlignSteps};
     forRows(workers_.get(), 0, field.rows, 1, [&](int row) {
         alignRow(step, work, row);
         const std::size_t first = static_cast<std::size_t>(row) * videoCells_.width;
-        for (std::size_t i = first; i < first + static_cast<std::size_t>(videoCells_.width); ++i)
-            errors_[i].error = errors[i][0];
+        for (int column = 0; column < videoCells_.width; ++column)
+            if (!keepsUnchanged || !isKept(work, column / kCellsPerTile, row / kCellsPerTile))
+                errors_[first + column].error = errors[first + column][0];
     });
     searched_.find(field, errors_, work.noise);
     if (searched_.count() > 0)
         searchListed({forwards_, luma.video, luma.still, luma.words, false, 0});
-    cleanUpForward(work, false);
+    cleanUpForward(work, keepsUnchanged);
 }
 
 // Searches the listed groups of cells from coarse to fine. There is no propagation, because not all
@@ -318,8 +321,8 @@ void Flow2d::cleanUpForward(const TileWork& work, bool keepsUnchanged) {
             field.columns, kCellsPerTile,
             [&](int tile) {
                 if (wanted_.at(tile, row / kCellsPerTile) != 0) return Does::CleansUp;
-                const bool matched = work.at(tile, row / kCellsPerTile).matched != 0;
-                return matched && keepsUnchanged ? Does::Keeps : Does::Copies;
+                const bool keeps = keepsUnchanged && isKept(work, tile, row / kCellsPerTile);
+                return keeps ? Does::Keeps : Does::Copies;
             },
             [&](int first, int end, Does does) {
                 if (does == Does::CleansUp) cleanUpCells(step, row, first, end);
@@ -328,14 +331,24 @@ void Flow2d::cleanUpForward(const TileWork& work, bool keepsUnchanged) {
     });
 }
 
-void Flow2d::cleanUpBackward() {
+// With `keepsUnchanged`, cells that were not searched keep their vectors, which the two-way errors
+// of unchanged tiles need.
+void Flow2d::cleanUpBackward(bool keepsUnchanged) {
     prepareCleanUp(backwards_);
     const FlowPlanes field =
         backwards_.stages[static_cast<std::size_t>(backwardLevel_)].areas[0].planes();
     const CleanUpStep step{field, FlowField::first(backwards_.known), &backward_[0].x,
                            options_.planeFits};
-    forRows(workers_.get(), 0, field.rows, 1,
-            [&](int row) { cleanUpCells(step, row, 0, field.columns); });
+    const TileMask* mask = keepsUnchanged ? maskOf(backwards_, backwardLevel_) : nullptr;
+    const int side = std::max(kCellsPerTile >> backwardLevel_, 1);
+    forRows(workers_.get(), 0, field.rows, 1, [&](int row) {
+        forTileRuns(
+            field.columns, side,
+            [&](int tile) { return mask == nullptr || mask->at(tile, row / side) != 0; },
+            [&](int first, int end, bool isSearched) {
+                if (isSearched) cleanUpCells(step, row, first, end);
+            });
+    });
 }
 
 }  // namespace mfar::simd

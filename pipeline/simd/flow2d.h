@@ -48,9 +48,11 @@ public:
     /// epipolar search, whose error is a fraction of a pixel. Tiles in which these vectors do not
     /// match (see TileSearch) are searched in two dimensions, from coarse to fine. The first entry
     /// of each cell's `errors` is the two-way error of its `forward` vector [px], see eq. 2 of the
-    /// paper (docs/paper.md). Keeps the last flow and errors if no changed tile is matched.
+    /// paper (docs/paper.md). Unchanged tiles keep their flow and errors if `usePrior` is true and
+    /// the last call was refine(); `usePrior` must be false after a new still. Keeps all if no
+    /// changed tile is matched.
     using Cells = std::span<const std::array<float, 4>>;
-    void refine(const Luma& luma, const TileWork& work, Cells forward, Cells errors);
+    void refine(const Luma& luma, const TileWork& work, Cells forward, Cells errors, bool usePrior);
 
     /// Flow from video to still, one entry per cell of 4x4 pixels, row-major without gaps.
     [[nodiscard]] Rows<const FlowCell> forward() const { return rowsOf(forward_, videoCells_); }
@@ -105,11 +107,15 @@ private:
     void searchRow(const Way& way, int level, int row);
     void propagateRow(const Way& way, int level, int toArea, int row);
     void searchLevel(Ways ways, int level);
+    /// Returns true if the tile keeps the last frame's flow.
+    [[nodiscard]] bool isKept(const TileWork& work, int column, int row) const {
+        return work.at(column, row).matched != 0 && wanted_.at(column, row) == 0;
+    }
     void alignRow(const AlignStep& step, const TileWork& work, int row);
     void searchListed(const Way& way);
     void prepareCleanUp(Direction& direction);
     void cleanUpForward(const TileWork& work, bool keepsUnchanged);
-    void cleanUpBackward();
+    void cleanUpBackward(bool keepsUnchanged);
 
     Flow2dOptions options_;
     std::shared_ptr<Workers> workers_;

@@ -143,8 +143,8 @@ public:
         return written();
     }
     const FlowCells& refine(const Pictures& pictures, const LumaPyramid& luma, const TileWork& work,
-                            const AlongLines& along) override {
-        flow_.refine(lumaOf(luma), work, along.vectors, along.errors);
+                            const AlongLines& along, bool usePrior) override {
+        flow_.refine(lumaOf(luma), work, along.vectors, along.errors, usePrior);
         if (work.matched > 0) {
             copy(flow_.errors(), errors());
             copy(flow_.forward(), row_[0]);

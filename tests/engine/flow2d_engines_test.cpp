@@ -39,7 +39,7 @@ public:
     }
     void refine(const std::vector<Cell>& forward, const std::vector<Cell>& errors) {
         glFlow_.refine(glPyramids_.luma(), tiles_, forward, errors);
-        flow_.refine(luma(), tiles_.work(), forward, errors);
+        flow_.refine(luma(), tiles_.work(), forward, errors, false);
     }
     [[nodiscard]] simd::Flow2d::Luma luma() const {
         return {pyramids_.video(), pyramids_.still(), pyramids_.words()};

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <thread>
@@ -21,6 +22,9 @@ constexpr int kFlatFrom = 768, kChangedFrom = 832;  // columns of the still
 constexpr int kShift = 24;                          // motion of the video camera [px of the still]
 constexpr int kComparedCells = 40;  // columns of cells; 48 are left of the flat part
 
+/// What changes between two frames at the right side of the picture.
+enum class Change { None, Flat, Discs };
+
 /// Keeps the look-ups with which the last frame was drawn.
 struct LastLookUps final : MatchListener {
     void matched(const RgbPlanes&, Rows<const std::uint8_t>, Rows<const LookUpCell>,
@@ -35,26 +39,30 @@ struct LastLookUps final : MatchListener {
 };
 
 /// A scene with discs and, at its right side, a surface without structure. The camera has moved
-/// between still and video. `rise`: rise of the flat surface's level towards its right side [grey
-/// levels]. The level rises slowly, so that no tile gets structure.
-Grey scene(double rise, int shift) {
+/// between still and video. With Change::Flat, the surface's level rises towards its right side, so
+/// slowly that no tile gets structure. With Change::Discs, discs appear there.
+Grey scene(Change change, int shift) {
     static const Grey discs = sharpDiscs(1);
+    const auto disc = [&](int x, int y) {
+        return discs.at(std::min(x + shift, kDiscsStill.width - 1), y);
+    };
     return twin::greyOf(kDiscsStill, [&](int x, int y) {
-        return x >= kFlatFrom
-                   ? 100 + rise * std::max(x - kChangedFrom, 0) / (kDiscsStill.width - kChangedFrom)
-                   : discs.at(std::min(x + shift, kDiscsStill.width - 1), y);
+        if (x < kFlatFrom) return double(disc(x, y));
+        if (x < kChangedFrom || change == Change::None) return 100.0;
+        if (change == Change::Discs) return double(disc(x, y));
+        return 100 + 16.0 * (x - kChangedFrom) / (kDiscsStill.width - kChangedFrom);
     });
 }
 
-class FlatChange : public GlTest, public testing::WithParamInterface<EngineKind> {
+class PartialChange : public GlTest, public testing::WithParamInterface<EngineKind> {
 protected:
-    FlatChange() {
+    PartialChange() {
         pose_.T_world_video.translation.x() = kShift / discsRig().still.fx;  // the scene is at 1 m
     }
 
     /// Draws frames until one uses `pose`, or uses no pose if `pose` is not given.
     void draw(Pipeline& pipeline, const std::optional<Pose>& pose) const {
-        const Bytes video = bytesOf(videoOf(scene(0, kShift), {}));
+        const Bytes video = bytesOf(videoOf(scene(Change::None, kShift), {}));
         const ImageView view{video.data(), kDiscsVideo, std::size_t(kDiscsVideo.width),
                              PixelFormat::Gray8};
         for (int i = 0; i < 10'000; ++i) {
@@ -66,22 +74,23 @@ protected:
     }
 
     /// Returns the look-ups after a frame with the pose `first`. If `second` is given, returns
-    /// those after another frame with the pose *second, in which only the flat part differs.
+    /// those after another frame with the pose *second, which differs by `change`.
     std::vector<LookUpCell> lookUps(const std::optional<Pose>& first,
-                                    const std::optional<std::optional<Pose>>& second) const {
+                                    const std::optional<std::optional<Pose>>& second,
+                                    Change change) const {
         Pipeline pipeline(discsRig(), {.output = {}, .engines = EngineChoice::all(GetParam())});
         LastLookUps last;
         pipeline.setMatchListener(&last);
         pipeline.setFilters(std::make_shared<const FilterBank>(
             std::vector<FilterBank::Filter>(enlarge::kUnique, FilterBank::Filter{}), Guidance{},
             FineMatch{0.5F, 0.001F}));
-        const Bytes still = bytesOf(scene(0, 0));
+        const Bytes still = bytesOf(scene(Change::None, 0));
         const ImageView view{still.data(), kDiscsStill, std::size_t(kDiscsStill.width),
                              PixelFormat::Gray8};
         pipeline.setStill(view, {}, Pose{});
         draw(pipeline, first);
         if (second) {
-            const Bytes video = bytesOf(videoOf(scene(16, kShift), {}));
+            const Bytes video = bytesOf(videoOf(scene(change, kShift), {}));
             const FrameStats stats = pipeline
                                          .run({video.data(), kDiscsVideo,
                                                std::size_t(kDiscsVideo.width), PixelFormat::Gray8},
@@ -96,7 +105,8 @@ protected:
     }
 
     void expectNoEffect(const std::optional<Pose>& first, const std::optional<Pose>& second) const {
-        const std::vector<LookUpCell> before = lookUps(first, {}), after = lookUps(first, {second});
+        const std::vector<LookUpCell> before = lookUps(first, {}, Change::None),
+                                      after = lookUps(first, {second}, Change::Flat);
         ASSERT_EQ(before.size(), after.size());
         std::size_t weighed = 0;
         for (std::size_t i = 0; i < before.size(); ++i) {
@@ -109,21 +119,47 @@ protected:
         EXPECT_GT(weighed, before.size() / 4);
     }
 
+    /// Frames with `pose`, in which tiles with structure change: nearly all look-ups of other tiles
+    /// must stay.
+    void expectLittleEffect(const std::optional<Pose>& pose) const {
+        const std::vector<LookUpCell> before = lookUps(pose, {}, Change::None),
+                                      after = lookUps(pose, {pose}, Change::Discs);
+        ASSERT_EQ(before.size(), after.size());
+        double weighed = 0, changed = 0;
+        for (std::size_t i = 0; i < before.size(); ++i) {
+            if (before[i].weight < 0.5F) continue;
+            ++weighed;
+            changed += std::hypot(after[i].x - before[i].x, after[i].y - before[i].y) > 0.1F ||
+                       std::abs(after[i].weight - before[i].weight) > 0.05F;
+        }
+        EXPECT_GT(weighed, before.size() / 4);
+        EXPECT_LT(changed / weighed, 0.02);
+    }
+
     Pose pose_;
 };
-INSTANTIATE_TEST_SUITE_P(Engines, FlatChange, testing::Values(EngineKind::Simd, EngineKind::Gles),
+INSTANTIATE_TEST_SUITE_P(Engines, PartialChange,
+                         testing::Values(EngineKind::Simd, EngineKind::Gles),
                          [](const auto& tested) { return std::string(nameOf(tested.param)); });
 
-TEST_P(FlatChange, HasNoEffectOnMatchedTiles) {
+TEST_P(PartialChange, HasNoEffectOnMatchedTiles) {
     expectNoEffect({}, {});
 }
 
-TEST_P(FlatChange, HasNoEffectOnTilesMatchedAlongEpipolarLines) {
+TEST_P(PartialChange, HasNoEffectOnTilesMatchedAlongEpipolarLines) {
     expectNoEffect(pose_, pose_);
 }
 
-TEST_P(FlatChange, InAFrameWithoutAPoseHasNoEffectOnTilesMatchedAlongEpipolarLines) {
+TEST_P(PartialChange, InAFrameWithoutAPoseHasNoEffectOnTilesMatchedAlongEpipolarLines) {
     expectNoEffect(pose_, {});
+}
+
+TEST_P(PartialChange, OfStructuredTilesHasLittleEffectOnOtherTiles) {
+    expectLittleEffect({});
+}
+
+TEST_P(PartialChange, OfStructuredTilesHasLittleEffectOnOtherTilesMatchedAlongEpipolarLines) {
+    expectLittleEffect(pose_);
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ public:
     }
     void run(bool usePrior = false) { flow.run(luma(), work, usePrior); }
     void refine(const std::vector<Cell>& forward, const std::vector<Cell>& errors) {
-        flow.refine(luma(), work, forward, errors);
+        flow.refine(luma(), work, forward, errors, false);
     }
     [[nodiscard]] Flow2d::Luma luma() const {
         return {pyramids_.video(), pyramids_.still(), pyramids_.words()};

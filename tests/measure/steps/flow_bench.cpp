@@ -48,7 +48,7 @@ void measureRefine(Flow2d& flow, LumaPyramids& pyramids, const TileWork& work, i
         }
         char what[32];
         std::snprintf(what, sizeof what, "refine, flow stretched by %.2f", stretch);
-        row(what, leastMs(runs, [&] { flow.refine(luma, work, seed, errors); }));
+        row(what, leastMs(runs, [&] { flow.refine(luma, work, seed, errors, false); }));
         std::printf("  searched tiles: %d\n", flow.searchedCount());
     }
 }
