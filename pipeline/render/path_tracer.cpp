@@ -86,7 +86,7 @@ struct PathTracer::Parts {
           integrator(other.integrator, scene, options), reach(other.reach), mirrors(other.mirrors),
           moving(other.moving) {
         const std::scoped_lock lock(other.lensMutex);
-        lens = other.lens;
+        lenses = other.lenses;
     }
 
     [[nodiscard]] MovedLight movedSince(std::span<const RigidTransform> poses) const {
@@ -101,8 +101,10 @@ struct PathTracer::Parts {
 
     [[nodiscard]] std::shared_ptr<const LensRays> lensOf(const CameraModel& camera) const {
         const std::scoped_lock lock(lensMutex);
-        if (!lens || !(lens->camera() == camera)) lens = std::make_shared<const LensRays>(camera);
-        return lens;
+        for (const auto& known : lenses)
+            if (known && known->camera() == camera) return known;
+        std::rotate(lenses.begin(), lenses.end() - 1, lenses.end());
+        return lenses.front() = std::make_shared<const LensRays>(camera);
     }
 
     PathTracerOptions options;
@@ -113,7 +115,9 @@ struct PathTracer::Parts {
     std::shared_ptr<const MirrorLight> mirrors;
     std::vector<MovedLight::Object> moving;  ///< moving objects; their poses are not set
     mutable std::mutex lensMutex;
-    mutable std::shared_ptr<const LensRays> lens;
+    /// The newest first. Portions of a picture and requests of missing pixels may alternate, with
+    /// cameras of different resolution. There are five resolutions of pictures.
+    mutable std::array<std::shared_ptr<const LensRays>, 6> lenses;
 };
 
 class PathTracer::Batch {

@@ -11,9 +11,6 @@
 namespace mfar {
 namespace {
 
-// With TracedPolicy::soon, a new picture begins when the change of the view since the shown picture
-// reaches this share of ViewLimits. Otherwise, it begins at the full ViewLimits.
-constexpr double kSoon = 0.75;
 // From this multiple of ViewLimits on, a noisy new picture is better than the shown picture.
 constexpr double kHopeless = 3;
 // The shown picture is converted again when its number of samples has grown by this factor.
@@ -22,23 +19,14 @@ constexpr int kSamplesRatio = 2;
 // conversion begins only after tracing took this many times as long as the last conversion. While
 // the camera moves, factors of 2.5 to 4 gave the best pictures; 6 and 0 were 0.2 dB worse.
 constexpr double kTracedPerConverted = 4;
-// After this number of turns (passes over the pixels, see Slices), a quarter of the pixels has a
-// sample. From then on, a picture may be shown. While an object moves, the next picture does not
-// begin earlier. If there is no usable picture yet and sampling has taken kLongWait [s], a picture
-// with samples in one pixel of 16 may be shown, one turn earlier. If the camera rests, it may not,
-// because a picture for the camera at rest follows, which could not reuse so few samples.
-constexpr int kQuarterTurn = 3;
+// If there is no usable picture yet and sampling has taken this time [s], a picture with samples in
+// one pixel of 16 may be shown, a turn before Picture::kQuarterTurn. If the camera rests, it may
+// not, because a picture for the camera at rest follows, which could not reuse so few samples.
 constexpr double kLongWait = 0.25;
-// While the camera rests, the shown picture should not need to be warped. So a new picture begins
-// if objects in the shown picture are more than this distance away from their present places [px].
-constexpr double kElsewherePixels = 0.2;
 // Upper limits of the weight with which the light of an earlier picture counts in a new one
 // [samples]. The second limit applies after a change of lighting. It is low, so that new samples
 // soon outweigh the old light.
 constexpr float kMostCarried = 64, kMostCarriedElsewhere = 4;
-// Tolerated motion of an object's shadow since the shown picture [px], see motionSince(). The
-// shadow is assumed to move as far as the object.
-constexpr double kShadowPixels = 1;
 // Light on the shadow catcher is traced again if moving objects may have changed it by more than
 // this share (see MovedLight::diffuseChange()).
 constexpr float kVisible = 0.003F;
@@ -51,120 +39,6 @@ TracedPictures::TracedPictures(const SliceOptions& slices, const TracedPolicy& p
                                std::shared_ptr<FilmMemory> memory)
     : slices_(slices), policy_(policy), memory_(std::move(memory)),
       pictures_{Picture(slices), Picture(slices)}, coarseness_(policy.shownWithin) {}
-
-// Returns the change from the picture's view to the present view. Returns nothing if the objects
-// have changed. For the shown picture, also returns nothing if the lighting has changed. For the
-// next picture, a change of the lighting does not count: the picture might otherwise be begun again
-// and again and never be finished.
-std::optional<double> TracedPictures::changeSince(const Picture& picture) const {
-    const bool isShown = &picture == &pictures_[shown_];
-    if (!picture.scene || picture.scene->objects != scene_->objects ||
-        (isShown && picture.scene->light != scene_->light))
-        return {};
-    return picture.scene->changeOf(picture.wanted, now_, policy_.limits);
-}
-
-/// Returns the largest motion of an object since a picture, divided by its limit. The warp can move
-/// objects in the picture, so the limit for an object is ViewLimits. The warp cannot move shadows,
-/// so the limit for the object's shadow is kShadowPixels.
-double TracedPictures::motionSince(const Picture& picture) const {
-    double change = 0;
-    for (const auto& [object, own] : scene_->moving) {
-        const RigidTransform& T_world_then = picture.scene->poses[object];
-        const ObjectBall ball{T_world_then * own.centre, own.radius};
-        // `view` shows the object at its pose in the picture exactly as the camera now sees the
-        // object at its present pose.
-        const RenderView view{now_.camera,
-                              T_world_then * posesNow_[object].inverse() * now_.T_world_camera};
-        change = std::max({change, viewChange(picture.wanted, view, {&ball, 1}, policy_.limits),
-                           pixelChange(now_, view, {&ball, 1}) / kShadowPixels});
-    }
-    return change;
-}
-
-TracedStep TracedPictures::chosenStep() const {
-    std::optional<double> sinceShown = changeSince(pictures_[shown_]);
-    const bool serves = sinceShown && *sinceShown < 1;
-    if (sinceShown && scene_->moves())
-        sinceShown = std::max(*sinceShown, motionSince(pictures_[shown_]));
-    const bool rests = rest_.rests();
-    const bool hasBegun = hasNext_ && !toBegin_;
-    const std::optional<double> sinceNext =
-        hasBegun ? changeSince(pictures_[1 - shown_]) : std::nullopt;
-    if (sinceNext && nextRests_ && rests) return TracedStep::Continue;
-    const bool isElsewhere =
-        sinceShown && pixelChange(pictures_[shown_].wanted, now_, scene_->balls) > kElsewherePixels;
-    const Picture& shown = pictures_[shown_];
-    if (!hasBegun && rests && (isElsewhere || (shown.wasShown && !shown.rests)))
-        return TracedStep::Start;
-    const TracedStep step = nextStep(sinceShown, sinceNext, policy_.soon ? kSoon : 1);
-    if (step == TracedStep::Refine && isTooCoarse(shown)) return TracedStep::Start;
-    // A new picture reuses the light of the shown picture, which has none before its first samples.
-    // So the shown picture gets these samples first, if it still is near enough to the present
-    // view.
-    const bool lacksSamples =
-        scene_->moves() ? shown.slices.turns() < kQuarterTurn : shown.slices.samples() == 0;
-    if (step == TracedStep::Start && !hasBegun && serves && lacksSamples) return TracedStep::Refine;
-    // The next picture is kept while objects move: even if they are now near their positions in the
-    // shown picture, they will soon be elsewhere. It is also kept if it has a higher resolution.
-    const bool isFiner = hasBegun && pictures_[1 - shown_].coarseness < shown.coarseness;
-    if (step == TracedStep::Drop && (isFiner || scene_->moves())) return TracedStep::Continue;
-    return step;
-}
-
-double TracedPictures::secondsSince(Timestamp begin) const {
-    return secondsBetween(begin, time_);
-}
-
-/// True if the shown picture should be replaced by one of higher resolution of about the same view.
-bool TracedPictures::isTooCoarse(const Picture& shown) const {
-    return shown.coarseness > 0 && shown.wasShown && shown.slices.turns() >= kQuarterTurn &&
-           coarsenessOfNext(now_) < shown.coarseness;
-}
-
-/// Coarseness of a picture for a moving camera, finer than a shown one that got many samples.
-int TracedPictures::coarsenessOfNext(const RenderView& view) const {
-    const Picture& shown = pictures_[shown_];
-    const bool serves = changeSince(shown).has_value();
-    const std::optional<double> waited =
-        serves ? std::nullopt : std::optional(secondsSince(chosen_));
-    const int chosen = coarseness_.chosen(scene_->tracedPixels(view), waited);
-    const bool hadTime = serves && shown.wasShown && shown.coarseness > 0 &&
-                         shown.slices.samples() >= policy_.samplesToReplace;
-    return hadTime ? std::min(chosen, shown.coarseness - 1) : chosen;
-}
-
-/// The very first picture has the lowest resolution. As soon as its pixels have a ray through their
-/// centres, the speed is known. If a finer picture can be shown soon, it begins instead.
-void TracedPictures::endTrial(Picture& picture) {
-    picture.isTrial = false;
-    coarseness_.learnFromLook(static_cast<double>(picture.slices.pixels()), picture.lookMs,
-                              secondsSince(picture.chosen));
-    const bool isNext = hasNext_ && &picture == &pictures_[working()];
-    if (isNext && coarsenessOfNext(wanted_) < picture.coarseness) toBegin_ = true;
-}
-
-void TracedPictures::look(const RenderView& now, const RenderView& predicted, Timestamp time) {
-    now_ = now;
-    time_ = time;
-    if (!scene_) return;
-    if (scene_->moves()) posesNow_ = posesAt(*scene_->source, time);
-    if (scene_->moves())
-        rest_.reset();
-    else
-        rest_.look(now_, scene_->balls);
-    switch (chosenStep()) {
-    case TracedStep::Start:
-        hasNext_ = toBegin_ = true;
-        nextRests_ = rest_.rests();
-        wanted_ = nextRests_ ? now : predicted;
-        chosen_ = time;
-        break;
-    case TracedStep::Refine:
-    case TracedStep::Drop: hasNext_ = toBegin_ = false; break;
-    case TracedStep::Continue: break;
-    }
-}
 
 // Far from objects, the light on real surfaces is smooth. While the camera moves, samples in a
 // quarter of the pixels suffice there.
@@ -234,10 +108,8 @@ void TracedPictures::begin() {
     picture.wasShown = picture.counted = false;
     picture.history.reset();
     const Picture& shown = pictures_[shown_];
-    // Light with samples in fewer than a quarter of the pixels is of no use for the next picture:
-    // its shadows would have spots.
     if (policy_.history && shown.scene && shown.scene->objects == scene_->objects &&
-        shown.slices.turns() >= kQuarterTurn) {
+        shown.hasLight()) {
         const bool sameLight = shown.scene->light == scene_->light;
         picture.history.emplace(picture.scene->tracer->historyOf(
             *shown.film, shown.view, sameLight ? kMostCarried : kMostCarriedElsewhere,
@@ -296,7 +168,7 @@ void TracedPictures::done(const Portion& portion, const Exposure& exposure, doub
 /// True if no shown picture is of use in the present view, or if it has hardly any samples.
 bool TracedPictures::isUrgent(const Picture& picture) const {
     const Picture& shown = pictures_[shown_];
-    return !shown.scene || shown.shownTurns < kQuarterTurn ||
+    return !shown.scene || shown.shownTurns < Picture::kQuarterTurn ||
            shown.scene->objects != picture.scene->objects ||
            scene_->changeOf(shown.wanted, now_, policy_.limits) >= kHopeless;
 }
@@ -326,9 +198,9 @@ int TracedPictures::leastSamples(const Picture& picture, bool urgent) const {
 
 /// Number of turns from which a sparsely sampled picture may be shown.
 int TracedPictures::leastTurns(const Picture& picture, bool urgent) const {
-    if (picture.wasShown) return std::max(picture.shownTurns + 1, kQuarterTurn);
+    if (picture.wasShown) return std::max(picture.shownTurns + 1, Picture::kQuarterTurn);
     const bool isLate = urgent && secondsSince(picture.chosen) > kLongWait && !rest_.rests();
-    return isLate ? kQuarterTurn - 1 : kQuarterTurn;
+    return isLate ? Picture::kQuarterTurn - 1 : Picture::kQuarterTurn;
 }
 
 // True if the picture may be shown before every pixel has a sample. While the camera moves,

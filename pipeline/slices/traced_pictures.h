@@ -111,6 +111,10 @@ public:
 
 private:
     struct Picture {
+        /// After this number of turns (passes over the pixels, see Slices), a quarter of the pixels
+        /// has a sample. From then on, a picture may be shown.
+        static constexpr int kQuarterTurn = 3;
+
         explicit Picture(const SliceOptions& slices) : slices(slices) {}
 
         std::shared_ptr<const PictureScene> scene;  // null if there is no picture
@@ -131,6 +135,11 @@ private:
         bool rests = false;                      // true if the camera rested when `view` was chosen
         bool wasShown = false, counted = false;  // `counted`: included in finished()
 
+        /// True if the next picture can reuse the light. With samples in fewer than a quarter of
+        /// the pixels, its shadows would have spots.
+        [[nodiscard]] bool hasLight() const {
+            return slices.turns() >= kQuarterTurn || (slices.pixels() > 0 && slices.finished());
+        }
         [[nodiscard]] PixelState state(std::uint32_t pixel, const Exposure& exposure) const;
     };
 
@@ -141,6 +150,7 @@ private:
     [[nodiscard]] bool isTooCoarse(const Picture& shown) const;
     [[nodiscard]] int coarsenessOfNext(const RenderView& view) const;
     void endTrial(Picture& picture);
+    [[nodiscard]] bool isNew() const;
     [[nodiscard]] double secondsSince(Timestamp begin) const;
     [[nodiscard]] std::shared_ptr<const PictureScene> sceneOfNext() const;
     [[nodiscard]] Slices::Density densityOf(const PixelRect& tile, const Picture& picture,

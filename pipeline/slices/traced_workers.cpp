@@ -103,7 +103,9 @@ void TracedWorkers::takeTick() {
     workAtBegin_ = waits;
     holeMs_ = 0;
     if (tick_.view) predictor_.add(tick_.view->T_world_camera, tick_.time);
-    const double seconds = secondsBetween(last.time, tick_.time);
+    // A thread that works on the scene for several frames takes only the newest tick.
+    const auto frames = static_cast<double>(tick_.number - last.number);
+    const double seconds = secondsBetween(last.time, tick_.time) / frames;
     if (last.number > 0 && seconds > 0 && seconds < 1)
         tickSeconds_ += 0.1 * (seconds - tickSeconds_);
     toLook_ = tick_.view.has_value();

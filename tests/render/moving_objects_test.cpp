@@ -68,8 +68,8 @@ double differenceOf(const RenderedPicture& a, const RenderedPicture& truth) {
 
 /// Runs frames with a camera at rest and some steps of the tracer in each.
 struct MovingRun {
-    explicit MovingRun(std::shared_ptr<const Scene> moving)
-        : scene(std::move(moving)), driver(kThirtyTwo, kProduct) {
+    explicit MovingRun(std::shared_ptr<const Scene> moving, const SliceOptions& slices = kThirtyTwo)
+        : scene(std::move(moving)), driver(slices, kProduct) {
         PictureScene prepared = pictureScene(scene, {});
         prepared.objects = 2;
         driver.pictures.setScene(std::make_shared<const PictureScene>(std::move(prepared)));
@@ -132,6 +132,14 @@ TEST(MovingObjects, NewPicturesAreMadeAsLongAsAnObjectMoves) {
     const std::size_t before = run.driver.shown.size();
     run.until(2);
     EXPECT_GT(run.driver.shown.size(), before + 5);
+}
+
+TEST(MovingObjects, NewPicturesAreMadeAlsoWithSpatialSlicing) {
+    SliceOptions spatial = kThirtyTwo;
+    spatial.slicing = Slicing::Spatial;
+    MovingRun run(swinging(), spatial);
+    run.until(4);
+    EXPECT_GT(run.driver.shown.size(), 2U);
 }
 
 TEST(MovingObjects, NoShadowStaysWhereTheObjectWas) {

@@ -1,4 +1,5 @@
 #include "pipeline/render/environment_light.h"
+#include "pipeline/render/lens_rays.h"
 #include "pipeline/render/path_tracer.h"
 #include "pipeline/render/surface_scatter.h"
 #include "tests/render/render_scenes.h"
@@ -6,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <ctime>
 #include <numbers>
 #include <stdexcept>
 
@@ -289,6 +291,35 @@ TEST(PathTracer, BoundsContainObjectsAndShadows) {
         EXPECT_GT(seen, 50);
         EXPECT_LT(bounds.area(), 80 * 60);
     }
+}
+
+// A lens's table of rays takes much longer than a few samples.
+TEST(PathTracer, CamerasOfDifferentResolutionCanAlternate) {
+    const auto ms = [] {
+        timespec t{};
+        clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+        return 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec);
+    };
+    RenderView fine = lookingAt({0, 0, 3}, {0, 0, 0}, {640, 480}, 600);
+    fine.camera.distortion = {-0.28, 0.07, 0.001, 0, 0};
+    RenderView coarse = fine;
+    coarse.camera = fine.camera.scaledTo({160, 120});
+    const double begun = ms();
+    const LensRays rays(fine.camera);
+    const double table = ms() - begun;
+    const PathTracer tracer(sceneOf(square(2, 0), materialOf({1, 1, 1}, 0, 1)));
+    Film fineFilm(fine.camera.size), coarseFilm(coarse.camera.size);
+    const std::vector<std::uint32_t> pixel{10'000};
+    const auto both = [&] {
+        tracer.trace(fine, pixel, 1, fineFilm);
+        tracer.trace(coarse, pixel, 1, coarseFilm);
+    };
+    both();
+    const double before = ms();
+    constexpr int kRounds = 40;
+    for (int i = 0; i < kRounds; ++i)
+        both();
+    EXPECT_LT(ms() - before, 0.25 * kRounds * table);
 }
 
 TEST(PathTracer, InvalidInputIsRefused) {

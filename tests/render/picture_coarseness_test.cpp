@@ -235,5 +235,68 @@ TEST(TracedPictures, CameraAtRestGetsFullResolutionOnASlowProcessor) {
     EXPECT_TRUE(driver.pictures.settled());
 }
 
+TEST(TracedPictures, FirstPictureOfNewObjectsIsCoarseEvenIfTheCameraRests) {
+    Driver driver(kThirtyTwo, timed());
+    driver.portionMs = 4 * FrameBudget{}.ms;  // a slow processor
+    double now = 0;
+    const auto rest = [&](int frames) {
+        for (int i = 0; i < frames; ++i) {
+            driver.look(20, Timestamp::fromSeconds(now += 0.5));
+            driver.step();
+        }
+    };
+    rest(400);
+    ASSERT_EQ(driver.shown.back().camera.size, kTracedSize);
+    driver.pictures.setScene(preparedStillLife(2, 2));
+    const std::size_t before = driver.shown.size();
+    rest(400);
+    ASSERT_GT(driver.shown.size(), before);
+    EXPECT_LT(driver.shown.at(before).camera.size.width, kTracedSize.width);
+    EXPECT_EQ(driver.shown.back().camera.size, kTracedSize);
+}
+
+TEST(TracedPictures, FinishedCoarsePictureIsReplacedByAFinerOne) {
+    for (const int samples : {2, 3}) {
+        SliceOptions few = kThirtyTwo;
+        few.samples = samples;
+        Driver driver(few, timed());
+        driver.portionMs = 4 * FrameBudget{}.ms;
+        // The camera trembles, so it never counts as resting.
+        for (int i = 0; i < 300; ++i) {
+            driver.look(20 + 0.4 * (i % 2), Timestamp::fromSeconds(i / 30.0));
+            driver.step();
+            driver.step();
+        }
+        EXPECT_EQ(driver.shown.back().camera.size, kTracedSize) << samples;
+    }
+}
+
+TEST(TracedPictures, ChangeOfLightDoesNotLowerTheResolution) {
+    const auto widthAfter = [](bool relit) {
+        Driver driver(kThirtyTwo, timed());
+        driver.portionMs = 4 * FrameBudget{}.ms;
+        driver.look(20);
+        driver.settle();
+        driver.look(20, Timestamp::fromSeconds(0.6));
+        driver.step();
+        driver.look(20, Timestamp::fromSeconds(1.1));
+        driver.untilShown(driver.shown.size() + 1);
+        driver.look(20, Timestamp::fromSeconds(1.2));
+        driver.settle();
+        if (relit) {
+            auto scene = std::make_shared<PictureScene>(*driver.pictures.scene());
+            scene->light = 2;
+            driver.pictures.setScene(scene);
+        }
+        const double azimuth = relit ? 20 : 26;
+        driver.look(azimuth, Timestamp::fromSeconds(4));
+        driver.step();
+        driver.look(azimuth + 0.1, Timestamp::fromSeconds(4.1));
+        driver.untilShown(driver.shown.size() + 1);
+        return driver.shown.back().camera.size.width;
+    };
+    EXPECT_EQ(widthAfter(true), widthAfter(false));
+}
+
 }  // namespace
 }  // namespace mfar

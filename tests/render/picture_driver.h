@@ -17,6 +17,7 @@ inline constexpr Size kTracedSize{48, 36};
 prepared(const std::shared_ptr<const Scene>& scene, std::uint64_t objects, std::uint64_t light) {
     auto out = std::make_shared<PictureScene>();
     out->tracer = std::make_shared<PathTracer>(scene);
+    out->source = scene;
     out->balls = objectBalls(*scene);
     out->shaded = catcherBall(*scene);
     out->objects = objects;
