@@ -195,8 +195,7 @@ void Session::apply(const Tunables& wanted) {
     drawing_->pipeline.setMeasure(wanted.measure);
     setLearning(wanted.superres.learn);
     policy_.configure(wanted.trigger);
-    // Placing objects anew discards the estimated light, the measured shadow catcher and all
-    // path-traced pictures.
+    // Placing objects anew discards estimated light, shadow catcher and path-traced pictures.
     if (wanted.objects == config_.objects && wanted.light == config_.light) return;
     const auto before = std::pair(std::exchange(config_.objects, wanted.objects),
                                   std::exchange(config_.light, wanted.light));

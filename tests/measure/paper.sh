@@ -65,12 +65,20 @@ handheld=$(perSecond "$(median handheld)")
 paper=$(perSecond "$(median 'peer paper')")
 paperHandheld=$(perSecond "$(median 'peer paper' 2)")
 depth=$(perSecond "$(median 'depth, whole picture')")
+required=("$moving" "$handheld" "$paper" "$paperHandheld")
+[[ ${3:-} == --quick ]] || required+=("$depth") # --quick has too few frames for it
+for value in "${required[@]}"; do
+    [[ $value != "not measured" ]] || {
+        echo "a row is missing in $out/times.txt" >&2
+        exit 1
+    }
+done
 {
     cat <<END
 # The paper's claims on this machine
 
 The paper's machine: GTX 680. This machine: $(grep -m1 '^model name' /proc/cpuinfo | sed 's/.*: //' || uname -m), $(nproc) processors; $(sed -n 1p "$out/times.txt").
-Times vary by some percent from run to run. Quality figures are the same in each run on the same engine.
+Times vary by some percent from run to run. Quality figures are the same in each run on the same engine, but for virtual objects in motion: the path tracer's depend on the machine's speed.
 $note
 
 | claim | in the paper | on this machine | the paper's method with OpenCV, on this machine |

@@ -55,11 +55,14 @@ Options parse(int argc, char** argv) {
 }
 
 std::vector<Case> chosen(const Options& o) {
+    const std::vector<Case> all = allCases();
+    for (const std::string& name : o.cases)
+        if (std::ranges::find(all, name, &Case::name) == all.end())
+            throw std::invalid_argument("unknown case " + name + "; see --list-cases");
     std::vector<Case> out;
-    for (const Case& one : allCases())
+    for (const Case& one : all)
         if (o.cases.empty() || std::ranges::find(o.cases, one.name) != o.cases.end())
             out.push_back(one);
-    if (out.empty()) throw std::invalid_argument("unknown case; see --list-cases");
     return out;
 }
 

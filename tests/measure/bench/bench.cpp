@@ -27,6 +27,7 @@ constexpr std::size_t kSetStillRuns = 5;
 Workload withoutPoses(Workload work) {
     work.framePoses.clear();
     work.stillPoses.clear();
+    if (work.before) work.before->stillPose = work.before->framePose = std::nullopt;
     return work;
 }
 
@@ -151,12 +152,25 @@ std::shared_ptr<const FilterBank> learnedFrom(const Workload& work) {
     Timestamp time;
     for (const Lesson& lesson : work.lessons) {
         time = time + std::chrono::seconds(1);
-        eval::PipelineShot({lesson.still, time, lesson.stillPose}).giveAsStill(pipeline);
-        eval::PipelineShot({lesson.frame, time, lesson.framePose}).run(pipeline);
+        show(lesson, time, pipeline);
     }
     learning.report("mfar-bench");
     return learning.filters();
 }
+
+namespace {
+
+// Has a pipeline of its own: its second still becomes a copy of the newest one.
+Summary measureSetStill(const Workload& work, SuperResMode mode, EngineKind engine) {
+    PipelineRun ours(work, mode, engine);
+    ours.setStill(0);
+    std::vector<double> setStill(kSetStillRuns);
+    for (double& ms : setStill)
+        ms = ours.setStill(0);
+    return summarise(std::move(setStill));
+}
+
+}  // namespace
 
 BenchResult runBench(const Workload& moving, const Workload& posed, SuperResMode mode,
                      EngineKind engine, const std::string& renderer, const ProgressPart& progress) {
@@ -170,12 +184,7 @@ BenchResult runBench(const Workload& moving, const Workload& posed, SuperResMode
     out.video = moving.rig.video.size;
     out.still = moving.rig.still.size;
     out.output = ours.pipeline().outputSize();
-    ours.setStill(0);
-    std::vector<double> setStill(kSetStillRuns);
-    for (double& ms : setStill)
-        ms = ours.setStill(0);
-    out.setStill = summarise(std::move(setStill));
-
+    out.setStill = measureSetStill(blind, mode, engine);
     measureAgainstPeers("moving", ours, blind, out, progress.part(0, kParts, "moving"));
     if (!posed.frames.empty()) {
         PipelineRun handheld(posed, mode, engine);

@@ -115,11 +115,12 @@ nlohmann::json toJson(const BenchResult& result) {
                          {"ratio", peer.ratio},
                          {"ratio_p10", peer.low},
                          {"ratio_p90", peer.high}});
-    for (const ScalingResult& s : result.scaling)
-        scaling.push_back({{"threads", s.threads},
-                           {"output", json(s.output)},
-                           {"moving", json(s.moving)},
-                           {"handheld", json(s.handheld)}});
+    for (const ScalingResult& s : result.scaling) {
+        nlohmann::json one = {
+            {"threads", s.threads}, {"output", json(s.output)}, {"moving", json(s.moving)}};
+        if (s.handheld.runs > 0) one["handheld"] = json(s.handheld);
+        scaling.push_back(std::move(one));
+    }
     return {{"workload", result.workload},
             {"posed", result.posed},
             {"renderer", result.renderer},
@@ -162,10 +163,10 @@ std::string toTable(const BenchResult& result) {
                            "{:.2f} (10th percentile) to {:.2f} (90th)\n",
                            peer.of, peer.ratio, peer.low, peer.high);
     for (const ScalingResult& s : result.scaling)
-        out += fmt::format("{} thread{}, output {:>4}x{:<4}  frame time: moving {:>7.2f} ms  "
-                           "handheld {:>7.2f} ms\n",
-                           s.threads, s.threads == 1 ? " " : "s", s.output.width, s.output.height,
-                           s.moving.median, s.handheld.median);
+        out += fmt::format(
+            "{} thread{}, output {:>4}x{:<4}  frame time: moving {:>7.2f} ms{}\n", s.threads,
+            s.threads == 1 ? " " : "s", s.output.width, s.output.height, s.moving.median,
+            s.handheld.runs > 0 ? fmt::format("  handheld {:>7.2f} ms", s.handheld.median) : "");
     if (result.depth.whole.runs > 0)
         out += line("depth, tenth of the picture", result.depth.tenth) + '\n' +
                line("depth, whole picture", result.depth.whole) + '\n';

@@ -2,6 +2,7 @@
 #include "tests/measure/bench/bench.h"
 #include "tests/measure/bench/pareto_stages.h"
 #include "tests/measure/bench/pareto_timing.h"
+#include "tests/measure/bench/pipeline_run.h"
 #include "tests/measure/eval/metrics/luma.h"
 #include "tests/measure/eval/metrics/psnr.h"
 #include "tests/measure/eval/paper_pipeline.h"
@@ -68,6 +69,8 @@ public:
     [[nodiscard]] SequenceWay way(const Quality& quality) {
         return {[this, quality] {
                     pipeline_.setQuality(quality);
+                    pipeline_.dropStill();
+                    if (work_.before) show(*work_.before, {}, pipeline_);
                     pipeline_.setStill(eval::viewOf(still_), {}, work_.stillPoses[0]);
                 },
                 [this](std::size_t i) {

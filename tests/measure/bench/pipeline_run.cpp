@@ -1,6 +1,7 @@
 #include "tests/measure/bench/pipeline_run.h"
 
 #include "tests/measure/eval/picture.h"
+#include "tests/measure/eval/pipeline_shot.h"
 #include "tests/measure/eval/stopwatch.h"
 
 #include <chrono>
@@ -23,6 +24,11 @@ PipelineOptions optionsFor(SuperResMode mode, EngineKind engine, int threads, Si
 
 }  // namespace
 
+void show(const Lesson& lesson, Timestamp time, Pipeline& pipeline) {
+    eval::PipelineShot({lesson.still, time, lesson.stillPose}).giveAsStill(pipeline);
+    eval::PipelineShot({lesson.frame, time, lesson.framePose}).run(pipeline);
+}
+
 PipelineRun::PipelineRun(const Workload& work, SuperResMode mode, EngineKind engine, int threads,
                          Size output)
     : work_(work), engine_(engine), pipeline_(work.rig, optionsFor(mode, engine, threads, output)) {
@@ -31,6 +37,7 @@ PipelineRun::PipelineRun(const Workload& work, SuperResMode mode, EngineKind eng
         stills_.push_back(eval::toRgba(still));
     for (const cv::Mat& frame : work.frames)
         frames_.push_back(eval::toRgba(frame));
+    if (work.before) show(*work.before, nextTime(), pipeline_);
 }
 
 double PipelineRun::run(std::size_t i) {

@@ -9,7 +9,11 @@
 
 namespace mfar::bench {
 
+/// Gives the still and then the frame to the pipeline.
+void show(const Lesson& lesson, Timestamp time, Pipeline& pipeline);
+
 /// Runs mfar's pipeline on the frames of a workload. Setting a still is not part of a frame's time.
+/// First, the older still is set and a frame is matched with it.
 class PipelineRun {
 public:
     /// `work` must outlive this object. `threads` and `output`: see PipelineOptions.

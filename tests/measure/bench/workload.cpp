@@ -96,6 +96,7 @@ Workload syntheticWorkload(Size video, Size still, int frames, int lessons) {
     };
     for (int k = -kLessonEvery * lessons; k < 0; k += kLessonEvery)
         out.lessons.push_back({viewAt(world, stillSize, k - 2), frameAt(k)});
+    if (lessons > 0) out.before = out.lessons.back();
     for (int k = 0; k < frames; ++k) {
         out.frames.push_back(frameAt(k));
         out.stillOf.push_back(0);
@@ -146,6 +147,7 @@ Workload handheldWorkload(SyntheticBoard& board, Size video, Size still, int fra
         for (int i = 1; i < kLessonEvery; ++i)
             (void)nextFrame();
     }
+    if (lessons > 0) out.before = out.lessons.back();
     const Frame taken = nextStill();
     out.stills.push_back(pictureOf(taken, still));
     out.stillPoses.emplace_back(board.pose(taken.time()));
@@ -179,6 +181,7 @@ Workload recordedWorkload(const std::filesystem::path& folder, int frames) {
             out.stills.push_back(eval::loadPicture(reference.file));
             out.stillPoses.push_back(poses.still);
             out.lessons.push_back({out.stills.back(), out.frames.back(), poses.still, poses.frame});
+            if (out.stills.size() > 1) out.before = out.lessons.back();
         }
         out.stillOf.push_back(loaded.at(*still));
     }

@@ -21,7 +21,9 @@ constexpr const char* kTracedHelp =
     "mean square over the square root of two; pictures: number of traced pictures shown so\n"
     "far; first_s: time of the frame in which the first of them became ready; warp_ms: time of\n"
     "drawing the layer; hdrvdp_q: HDR-VDP-2's quality of the whole frame, 100 if it equals the\n"
-    "truth. Frames of the first half second are not compared.";
+    "truth. Frames of the first half second are not compared.\n"
+    "The figures of product depend on the speed of the processor, so they differ a little from\n"
+    "run to run.";
 
 constexpr const char* kTruthHelp =
     "folder that keeps the truth for later runs; if another version of mfar-eval has made its "
