@@ -66,7 +66,7 @@ void readLine(TomlReader& file, double stillTimeoutS, TriggerLineConfig& line) {
     file.boolean("cameras.trigger.active_low", line.activeLow);
     file.number("cameras.trigger.pulse_ms", line.pulseMs,
                 [&](double ms) -> std::optional<std::string> {
-                    if (ms < 1e3 * stillTimeoutS) return std::nullopt;
+                    if (line.line.empty() || ms < 1e3 * stillTimeoutS) return std::nullopt;
                     return fmt::format("must be shorter than trigger.timeout_s, which is {} s",
                                        stillTimeoutS);
                 });

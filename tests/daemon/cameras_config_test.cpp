@@ -91,7 +91,7 @@ TEST(CamerasConfig, TheChipOfTheTriggerLineIsAlsoThatOfTheLoopback) {
 }
 
 TEST(CamerasConfig, APulseLongerThanTheTimeoutOfStillsIsRefused) {
-    const std::string pulse = "[cameras.trigger]\npulse_ms = 5000\n";
+    const std::string pulse = "[cameras.trigger]\npulse_ms = 5000\nline = \"GPIO17\"\n";
     EXPECT_EQ(configFaults(pulse),
               "test.toml:2:12: cameras.trigger.pulse_ms = 5000: must be shorter than "
               "trigger.timeout_s, which is 3 s");
