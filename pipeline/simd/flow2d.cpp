@@ -89,12 +89,16 @@ void Flow2d::chooseTiles(const TileWork& work, bool keepsUnchanged, int margin) 
 
 // Marks the tiles of the still in which the backward flow is needed. Each wanted forward vector
 // needs the backward cells around its end, because the two-way error is interpolated between them.
-// Clean-up and propagation read three more cells on each side.
-void Flow2d::chooseBackward() {
+// Clean-up and propagation read three more cells on each side. With `ofAllMatched`, the vectors of
+// unchanged tiles need them, too, because the last frame had no backward flow.
+void Flow2d::chooseBackward(const TileWork& work, bool ofAllMatched) {
     std::ranges::fill(ends_.flags, std::uint8_t{0});
     for (int y = 0; y < videoCells_.height; ++y)
         for (int x = 0; x < videoCells_.width; ++x) {
-            if (wanted_.at(x / kCellsPerTile, y / kCellsPerTile) == 0) continue;
+            const int column = x / kCellsPerTile, row = y / kCellsPerTile;
+            const bool reads =
+                ofAllMatched ? work.at(column, row).matched != 0 : wanted_.at(column, row) != 0;
+            if (!reads) continue;
             const FlowCell& cell = forward_[static_cast<std::size_t>(y) * videoCells_.width + x];
             const auto tileAt = [](int at, float by, int tiles) {
                 const float end = (static_cast<float>(kCell * at) + by) / kTileSize;
@@ -199,7 +203,7 @@ void Flow2d::searchLevel(Ways ways, int level) {
 void Flow2d::run(const Luma& luma, const TileWork& work, bool usePrior) {
     searched_.clear();
     if (work.matched == 0) return;
-    errorsGiven_ = false;
+    const bool lacksBackward = std::exchange(errorsGiven_, false);
     const Way forward{forwards_,  luma.video, luma.still,
                       luma.words, usePrior,   options_.propagations};
     const Way backward{backwards_, luma.still, luma.video,
@@ -216,10 +220,10 @@ void Flow2d::run(const Luma& luma, const TileWork& work, bool usePrior) {
     }
     cleanUpForward(work, keepsUnchanged);
     if (!wantsAll_) {
-        chooseBackward();
+        chooseBackward(work, keepsUnchanged && lacksBackward);
         searchLevel(backwardAlone, backwardLevel_);
     }
-    cleanUpBackward(keepsUnchanged);
+    cleanUpBackward(keepsUnchanged && !lacksBackward);
 }
 
 void Flow2d::alignRow(const AlignStep& step, const TileWork& work, int row) {

@@ -99,7 +99,7 @@ private:
     }
 
     void chooseTiles(const TileWork& work, bool keepsUnchanged, int margin);
-    void chooseBackward();
+    void chooseBackward(const TileWork& work, bool ofAllMatched);
     /// Returns the tiles to search at a pyramid level; null: all tiles.
     [[nodiscard]] const TileMask* maskOf(const Direction& direction, int level) const;
     [[nodiscard]] int roundsAt(const Way& way, int level) const;
