@@ -147,7 +147,9 @@ bool Session::mayDraw() {
 }
 
 void Session::showNext(std::optional<CapturedFrame>& captured) {
-    if (const std::optional<Tunables> change = changes_.tryTake()) apply(*change);
+    if (std::optional<Tunables> next = changes_.tryTake()) change_ = std::move(next);
+    if (change_) apply(*change_);
+    change_.reset();
     calls_.runAll(*this);
     checkRecording();
     if (!captured) return showFault();
@@ -181,15 +183,14 @@ FileDisplayPolicy Session::displayPolicy() {
 }
 
 void Session::apply(const Tunables& wanted) {
-    // The governor keeps what it has measured, unless it gets other levels.
     const bool isOtherMode = wanted.superres.mode != config_.superres.mode;
     config_.superres = wanted.superres;
     config_.trigger = wanted.trigger;
     config_.status.measure = wanted.measure;
-    if (isOtherMode) {
+    if (isOtherMode) {  // else, the governor keeps what it has measured
         drawing_->pipeline.setMode(wanted.superres.mode);
-        useStill();
         setUpQuality(wanted.superres.mode);
+        useStill();
     }
     drawing_->pipeline.setSkipUnchanged(wanted.superres.skipUnchanged);
     drawing_->pipeline.setMeasure(wanted.measure);
@@ -303,9 +304,9 @@ void Session::useStill() {
         takeFilters();
     }
     keepUsedStill(still);
-    // If the GPU is lost in setStill(), this still is set again later, from its copy.
     stillTime_ = still.frame.time();
     stats_.stillUsed();
+    // If the GPU is lost here, this still is set again later, from its copy.
     drawing_->pipeline.setStill(still.frame.view(), still.frame.time(), still.pose);
     keepSecondStill();
 }
@@ -320,8 +321,7 @@ ScreenPicture Session::snapshot(bool ofScreen) const {
 
 void Session::askForStill() {
     if (rig_.trigger() == nullptr)
-        throw std::runtime_error(
-            "stills cannot be requested, because the source has no trigger line");
+        throw std::runtime_error("stills cannot be requested: the source has no trigger line");
     policy_.ask();
 }
 

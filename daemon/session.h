@@ -148,6 +148,8 @@ private:
     Stats& stats_;
     Heartbeat* heart_ = nullptr;  ///< the picture thread's heartbeat; null: no pictures are made
     Mailbox<Tunables>& changes_;
+    /// A change is applied anew if the GPU was lost meanwhile.
+    std::optional<Tunables> change_;
     CallQueue<Session>& calls_;
     StopTokens stop_;
     Config config_;

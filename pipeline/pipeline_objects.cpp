@@ -42,6 +42,7 @@ void Pipeline::setScene(Scene scene, const TracedLayerOptions& options,
     State& s = *state_;
     s.sceneFollower.reset();
     s.lightFollower = std::move(light);
+    s.newLight.reset();
     if (scene.objects.empty()) {
         // Destroys the view. Otherwise, the last picture of the removed objects would be shown
         // until the next scene has its first picture.
@@ -66,15 +67,19 @@ void Pipeline::setScene(Scene scene, const TracedLayerOptions& options,
 
 void Pipeline::State::followScene(const VideoFrame& frame, const std::optional<Pose>& pose,
                                   Timestamp time) {
-    if (!sceneFollower || !pose || !inView()) return;
+    if (!sceneFollower || !pose) return;
     const RigidTransform& T_world_video = pose->T_world_video;
+    // Light is learned from all frames. Frames without virtual objects may be the only ones that
+    // show the lamps.
+    if (lightFollower)
+        if (auto light = lightFollower->follow(frame.view, rig.video, T_world_video, time))
+            newLight = std::move(light);
+    if (!inView()) return;
     const SceneFollower::RealDepth real{depth->snap.field(), depth->snap.where(), rig.video,
                                         T_world_video, time};
     if (auto scene = sceneFollower->follow(real, objects->region()))
         objects->setScene(std::move(scene));
-    if (!lightFollower) return;
-    if (auto light = lightFollower->follow(frame.view, rig.video, T_world_video, time))
-        objects->setScene(sceneFollower->relight(*std::move(light)));
+    if (newLight) objects->setScene(sceneFollower->relight(*std::exchange(newLight, {})));
 }
 
 PixelRect Pipeline::objectsRegion() const {

@@ -139,6 +139,7 @@ struct Pipeline::State {
     TracedLayerOptions traced;
     std::optional<SceneFollower> sceneFollower;
     std::optional<LightFollower> lightFollower;
+    std::optional<Lighting> newLight;  // for the next frame with objects in view
     Quality quality;
     std::shared_ptr<const FilterBank> filters, nextFilters;  // null means the built-in filters
     MatchListener* matchListener = nullptr;

@@ -77,13 +77,12 @@ struct PathTracer::Parts {
     Parts(std::shared_ptr<const Scene> sound, const PathTracerOptions& o)
         : options(o), scene(std::move(sound), o.buildThreads),
           light(std::make_shared<const DistantLight>(scene.scene())),
-          integrator(scene, options, light),
-          reach(o.shadowReach * static_cast<float>(glowReach(scene.scene()))),
+          integrator(scene, options, light), glow(glowDistance(scene.scene())),
           mirrors(std::make_shared<const MirrorLight>(integrator.mirrorLight())),
           moving(movingObjects(scene.scene())) {}
     Parts(const Parts& other, std::shared_ptr<const Scene> posed)
         : options(other.options), scene(other.scene, std::move(posed)), light(other.light),
-          integrator(other.integrator, scene, options), reach(other.reach), mirrors(other.mirrors),
+          integrator(other.integrator, scene, options), glow(other.glow), mirrors(other.mirrors),
           moving(other.moving) {
         const std::scoped_lock lock(other.lensMutex);
         lenses = other.lenses;
@@ -111,7 +110,7 @@ struct PathTracer::Parts {
     TracedScene scene;
     std::shared_ptr<const DistantLight> light;
     PathIntegrator integrator;
-    float reach;  ///< (side of the cube in bounds()) / (diagonal of the objects' box)
+    double glow;  ///< see glowDistance()
     std::shared_ptr<const MirrorLight> mirrors;
     std::vector<MovedLight::Object> moving;  ///< moving objects; their poses are not set
     mutable std::mutex lensMutex;
@@ -300,7 +299,9 @@ PixelRect PathTracer::bounds(const RenderView& view) const {
     Eigen::AlignedBox3f box = parts_->scene.objects().box();
     if (box.isEmpty()) return {};
     const Eigen::AlignedBox3f& real = parts_->scene.catcher().box();
-    const float reach = 0.5F * parts_->reach * box.diagonal().norm();
+    const float diagonal = box.diagonal().norm();
+    const float reach = 0.5F * parts_->options.shadowReach * diagonal *
+                        static_cast<float>(glowReach(parts_->glow, diagonal));
     const Eigen::Vector3f side = Eigen::Vector3f::Constant(reach);
     const auto shaded =
         Eigen::AlignedBox3f(box.center() - side, box.center() + side).intersection(real);

@@ -54,16 +54,23 @@ double irradianceOf(const Lighting& lighting) {
 
 }  // namespace
 
-double glowReach(const Scene& scene) {
+double glowDistance(const Scene& scene) {
     double intensity = 0;
     for (const SceneObject& object : scene.objects)
         intensity += intensityOf(object);
-    if (!(intensity > 0)) return 1;
-    const double seen = std::sqrt(intensity / (kVisible * irradianceOf(scene.lighting)));
+    if (!(intensity > 0)) return 0;
+    return std::sqrt(intensity / (kVisible * irradianceOf(scene.lighting)));
+}
+
+double glowReach(double glowDistance, double diagonal) {
     // Shadows are expected up to about one diagonal of the objects' common box away from the box's
     // centre.
-    const double reach = seen / boundsOf(scene).diagonal().norm();
+    const double reach = glowDistance / diagonal;
     return reach >= 1 ? std::min(reach, kMostGlowReach) : 1;
+}
+
+double glowReach(const Scene& scene) {
+    return glowReach(glowDistance(scene), boundsOf(scene).diagonal().norm());
 }
 
 }  // namespace mfar

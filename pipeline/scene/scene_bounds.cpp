@@ -2,6 +2,7 @@
 
 #include "pipeline/scene/scene_parts.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -24,6 +25,9 @@ std::vector<double> timesOf(const RigidPath& path) {
                 // repeats. The last pose of the motion is found just before.
                 out.push_back(std::nextafter(time, 0.0));
             }
+    // The tracks of most files have the same times.
+    std::ranges::sort(out);
+    out.erase(std::ranges::unique(out).begin(), out.end());
     return out;
 }
 

@@ -302,6 +302,19 @@ TEST(Emission, BoundsContainTheGroundThatALampLights) {
     EXPECT_GT(lit.x1 - lit.x0, 2 * (shaded.x1 - shaded.x0));
 }
 
+TEST(Emission, AMovingLampLightsAsMuchGroundAsOneAtRest) {
+    const RenderView view = lookingAt({0, 0, 6}, {0, 0, 0}, {200, 200}, 200);
+    auto scene = lampOverGround(0.1F, 0.3F, {2, 2, 2});
+    const PixelRect atRest = PathTracer(scene).bounds(view);
+    RigidPath path;
+    path.length = 2;
+    path.joints.resize(1);
+    path.joints[0].translation = {
+        MotionTrack::Between::Linear, {0, 1, 2}, {{0, 0, 0, 0}, {50, 0, 0, 0}, {0, 0, 0, 0}}};
+    scene->objects[0].path = std::make_shared<const RigidPath>(path);
+    EXPECT_EQ(PathTracer(scene).bounds(view), atRest);
+}
+
 TEST(Emission, GroundThatNoLampLightsIsUnchanged) {
     // In the scene `above`, the ground is above the lamp and hides it.
     auto scene = lampOverGround(0.2F, 0.8F, {3, 2, 1});
