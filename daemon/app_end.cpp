@@ -78,7 +78,8 @@ void App::endUnfinished(int signal) {
                              "last pictures, the summary or the report may be missing",
                              signalName(signal), Seconds(kLastResort).count()),
                  {}, {message::kEnded});
-    endProcess(static_cast<int>(ExitCode::Ok));
+    const bool isLost = stats_.count().lostRecording.has_value();
+    endProcess(static_cast<int>(isLost ? ExitCode::OutputFailed : ExitCode::Ok));
 }
 
 void App::onDeadline() {

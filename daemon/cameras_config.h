@@ -55,7 +55,7 @@ struct CamerasConfig {
     bool operator==(const CamerasConfig&) const = default;
 };
 
-/// `stillTimeoutS`: the key trigger.timeout_s, which a trigger pulse must not exceed.
+/// `stillTimeoutS`: the key trigger.timeout_s. Pulses of a trigger line must be shorter.
 void readCameras(TomlReader& file, double stillTimeoutS, CamerasConfig& cameras);
 
 }  // namespace mfar

@@ -30,7 +30,8 @@ namespace mfar {
 }
 
 /// Validator of an option whose value is an unsigned integer of 64 bits. Without it, CLI11 turns
-/// negative and too large numbers into other ones, for example -1 and 2^64 into 2^64 - 1.
+/// negative and too large numbers and those with leading zeros into other ones, for example -1 and
+/// 2^64 into 2^64 - 1, and 010 into 8.
 [[nodiscard]] inline CLI::Validator unsigned64() {
     return CLI::Validator(
         [](const std::string& text) {

@@ -30,10 +30,6 @@ constexpr double kNominalBaseline = 0.014;             // [m]
 constexpr double kSilentPeriods = 4.5, kStalledPeriods = 20;
 constexpr double kUnknownPeriodMs = 500;
 
-std::chrono::nanoseconds nanoseconds(double ms) {
-    return std::chrono::nanoseconds(static_cast<std::int64_t>(ms * 1e6));
-}
-
 /// A trigger whose GPIO line may not exist yet. If the line is not open, each fire() tries to open
 /// it, and between pulses, rest() tries to open it once a second.
 class WaitingTrigger final : public Trigger {
@@ -53,7 +49,7 @@ public:
         } catch (const std::runtime_error& error) {
             if (open_) missedBefore_ += open_->missedEdges();
             open_.reset();
-            // Keeps the fault until fault() has been called: rest() opens the line a second later.
+            // So rest() does not open the line, and clear the fault, before the fault was read.
             tried_ = Timestamp::now();
             fault_ = "trigger: " + std::string(error.what());
             throw;
@@ -189,7 +185,7 @@ CamerasSource::CamerasSource(const CamerasConfig& config, Heartbeats& hearts)
     const RigCalibration calibration = calibrationOf(config);
     hasSensors = true;
     geometry_ = calibration.rig;
-    stillTimeOffset = nanoseconds(calibration.stillTimeOffset * 1e3);
+    stillTimeOffset = std::chrono::nanoseconds(std::llround(1e9 * calibration.stillTimeOffset));
     auto still = waitingCamera(
         config.still, [this] { return openStill(); }, "still camera",
         {&hearts, "still camera opener", budget::kOpener, ThreadRole::Helper},

@@ -169,8 +169,6 @@ public:
     void gpu(const std::optional<std::string>& fault);
     void gpuFailed(const std::optional<std::string>& fault);
     void rendering(const Rendering& changed);
-    /// Must be called after the last picture was shown again with a banner, because no frames
-    /// arrived.
     /// Reports that there is no new picture for a known reason: instead of a new frame, a banner
     /// about a faulty device was shown, or mfard waits for something that is not faulty.
     void excused(Timestamp now);

@@ -119,11 +119,11 @@ void StillMatcher::learn(std::int64_t sinceEdge) {
 // Remembers a still that missed the window, as evidence that the camera's clock has stepped, or
 // that the first estimate of the delay was wrong. The still must be within wideWindow of the
 // nearest pulse's expected time. But if that pulse still waits for its still (and does not count as
-// lost), it must be within kLongest: the reported time may be wrong by more than wideWindow, e.g.
-// by an exposure time that the camera chose itself.
+// lost), or nothing is learned yet, it must be within kLongest: the reported time may be wrong by
+// more than wideWindow, e.g. by an exposure time that the camera chose itself.
 void StillMatcher::misfit(const Nearest& still) {
     const bool isWaiting = pulses_[still.index].state == State::Waiting;
-    const nanoseconds window = isWaiting ? kLongest : options_.wideWindow;
+    const nanoseconds window = isWaiting || !learned_ ? kLongest : options_.wideWindow;
     const std::int64_t wide = reach(still.index, window.count());
     if (std::abs(still.sinceEdge - centre()) > wide) return;
     misfits_.push_back(still.sinceEdge);

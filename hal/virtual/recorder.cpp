@@ -58,7 +58,7 @@ Recorder::Recorder(const fs::path& root, const StereoRig& rig, double videoRateH
     : root_(emptyFolder(root, videoRateHz)), options_(options),
       video_(root / "cam0", rig.video.size, options.videoBuffers),
       still_(root / "cam1", rig.still.size, options.stillBuffers),
-      poses_{root / "state_groundtruth_estimate0"}, syncer_(1, options.writer),
+      poses_{root / "state_groundtruth_estimate0"}, syncer_(1, options.syncer),
       writer_(1, options.writer) {
     beginCamera(video_.folder, {rig.video, {}, videoRateHz, 0},
                 "video sensor; its coordinates are the body coordinates");

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <utility>
 
 namespace mfar::simd {
@@ -70,9 +71,9 @@ Flow2d::Flow2d(Size video, const Flow2dOptions& options, std::shared_ptr<Workers
       stillCells_(backwards_.stages[static_cast<std::size_t>(backwardLevel_)].areas[0].cells()),
       forward_(static_cast<std::size_t>(videoCells_.width) * videoCells_.height),
       backward_(static_cast<std::size_t>(stillCells_.width) * stillCells_.height),
-      errors_(forward_.size()), wanted_(tilesOf(video)), fine_(wanted_.size), next_(wanted_.size),
-      ends_(wanted_.size), endsAround_(wanted_.size), between_(wanted_.size),
-      searched_(videoCells_, static_cast<int>(forwards_.stages.size())) {}
+      errors_(forward_.size()), errorsBefore_(errors_), wanted_(tilesOf(video)),
+      fine_(wanted_.size), next_(wanted_.size), ends_(wanted_.size), endsAround_(wanted_.size),
+      between_(wanted_.size), searched_(videoCells_, static_cast<int>(forwards_.stages.size())) {}
 
 void Flow2d::chooseTiles(const TileWork& work, bool keepsUnchanged, int margin) {
     for (std::size_t i = 0; i < wanted_.flags.size(); ++i) {
@@ -247,6 +248,7 @@ void Flow2d::refine(const Luma& luma, const TileWork& work, Cells forward, Cells
     if (work.matched == 0) return;
     const bool keepsUnchanged = usePrior && errorsGiven_ && !work.drawsWhole();
     errorsGiven_ = true;
+    if (keepsUnchanged) std::ranges::copy(errors_, errorsBefore_.begin());
     // Width of the margin around the wanted tiles in which vectors are also needed [tiles]. The
     // clean-up reads neighbouring vectors, and TileSearch needs them to choose the searched tiles.
     constexpr int kMargin = 2;
@@ -257,14 +259,20 @@ void Flow2d::refine(const Luma& luma, const TileWork& work, Cells forward, Cells
     forRows(workers_.get(), 0, field.rows, 1, [&](int row) {
         alignRow(step, work, row);
         const std::size_t first = static_cast<std::size_t>(row) * videoCells_.width;
-        for (int column = 0; column < videoCells_.width; ++column)
-            if (!keepsUnchanged || !isKept(work, column / kCellsPerTile, row / kCellsPerTile))
-                errors_[first + column].error = errors[first + column][0];
+        for (std::size_t i = first; i < first + static_cast<std::size_t>(videoCells_.width); ++i)
+            errors_[i].error = errors[i][0];
     });
     searched_.find(field, errors_, work.noise);
     if (searched_.count() > 0)
         searchListed({forwards_, luma.video, luma.still, luma.words, false, 0});
     cleanUpForward(work, keepsUnchanged);
+    // Neighbours of wanted tiles were searched with the errors of this frame's vectors.
+    if (!keepsUnchanged) return;
+    for (std::size_t i = 0; i < errors_.size(); ++i) {
+        const auto [row, column] = std::div(static_cast<int>(i), videoCells_.width);
+        if (isKept(work, column / kCellsPerTile, row / kCellsPerTile))
+            errors_[i] = errorsBefore_[i];
+    }
 }
 
 // Searches the listed groups of cells from coarse to fine. There is no propagation, because not all

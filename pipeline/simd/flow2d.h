@@ -123,7 +123,7 @@ private:
     int backwardLevel_;
     Size videoCells_, stillCells_;
     std::vector<FlowCell> forward_, backward_;
-    std::vector<ErrorCell> errors_;
+    std::vector<ErrorCell> errors_, errorsBefore_;
     bool errorsGiven_ = false;
     bool wantsAll_ = false;
     TileMask wanted_;       // tiles whose results are read

@@ -110,7 +110,7 @@ TEST_F(HealthTest, WithoutPicturesMfardIsAliveOnlyIfItHasJustDrawnABannerForAFau
     EXPECT_FALSE(look().isAlive());
     fault = "video camera: is not there";
     EXPECT_FALSE(look().isAlive())
-        << "mfard must not count as alive if it no longer draws the excuse";
+        << "mfard must not count as alive if it no longer draws the banner";
 }
 
 TEST_F(HealthTest, TheFirstPictureMayTakeLongerThanLaterPictures) {

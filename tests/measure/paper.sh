@@ -54,12 +54,6 @@ section() {
 }
 
 measured times.txt "$bench" "${times[@]}"
-measured slicing.txt "$eval" slicing --svg "$out/slicing.svg" "${slicing[@]}"
-measured warp.txt "$eval" warp --svg "$out/warp.svg" "${warp[@]}"
-measured occlusion.txt "$eval" occlusion "${occlusion[@]}"
-measured traced.txt "$eval" traced "${traced[@]}"
-measured figure7.txt "$eval" figure7 --svg "$out/figure7.svg" "${figure7[@]}"
-
 moving=$(perSecond "$(median moving)")
 handheld=$(perSecond "$(median handheld)")
 paper=$(perSecond "$(median 'peer paper')")
@@ -73,6 +67,12 @@ for value in "${required[@]}"; do
         exit 1
     }
 done
+measured slicing.txt "$eval" slicing --svg "$out/slicing.svg" "${slicing[@]}"
+measured warp.txt "$eval" warp --svg "$out/warp.svg" "${warp[@]}"
+measured occlusion.txt "$eval" occlusion "${occlusion[@]}"
+measured traced.txt "$eval" traced "${traced[@]}"
+measured figure7.txt "$eval" figure7 --svg "$out/figure7.svg" "${figure7[@]}"
+
 {
     cat <<END
 # The paper's claims on this machine

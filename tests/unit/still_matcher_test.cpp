@@ -197,6 +197,19 @@ TEST(StillMatcher, AFirstEstimateThatIsWrongByMoreThanTheWindowIsCorrected) {
     EXPECT_EQ(matcher.counters().relearned, 0U) << "nothing was learned before";
 }
 
+TEST(StillMatcher, AFirstEstimateIsCorrectedEvenIfStillsArriveAfterTheTimeout) {
+    StillMatcher matcher({});
+    int matched = 0;
+    for (int i = 0; i < 20; ++i) {
+        const Timestamp pulse = kStart + i * 4s;
+        matcher.pulseFired(pulse);
+        (void)matcher.poll(pulse + 850ms);
+        matched += matcher.stillArrived(pulse + 900ms).has_value();
+    }
+    EXPECT_EQ(matched, 15);
+    EXPECT_EQ(matcher.constant(), 900ms);
+}
+
 TEST(StillMatcher, AStepOfSeveralTriggerPeriodsIsNotLearned) {
     StillMatcher matcher({});
     for (int i = 0; i < 60; ++i) {

@@ -28,9 +28,8 @@ std::vector<std::string> namesOf(const Values& values) {
 CLI::Validator decimal() {
     return CLI::Validator(
         [](const std::string& text) {
-            return text.size() > 1 && text[0] == '0'
-                       ? text + ": ids are written without leading zeros"
-                       : std::string();
+            return hasLeadingZero(text) ? text + ": ids are written without leading zeros"
+                                        : std::string();
         },
         "");
 }

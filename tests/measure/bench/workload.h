@@ -35,8 +35,8 @@ struct Workload {
     /// Poses of the video camera at each frame and at each still. An unknown pose is an empty
     /// entry. If all are unknown, the vector may be empty.
     std::vector<std::optional<Pose>> framePoses{}, stillPoses{};
-    /// An older still. Like a running mfard, the pipeline uses it where the newest one shows
-    /// nothing.
+    /// The still before the first one, with its frame. Like a running mfard, the pipeline uses it
+    /// where the newest still shows nothing. In a recording, it is the last other still.
     std::optional<Lesson> before{};
     std::vector<Lesson> lessons{};  ///< pairs from which filters are learned before the first frame
     std::shared_ptr<const FilterBank> filters{};  ///< learned from `lessons`; null: shipped filters
