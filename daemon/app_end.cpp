@@ -195,9 +195,8 @@ ExitCode App::finish(std::future<std::string>& end) {
         }
         return code;
     } catch (const std::exception& error) {
-        // If the reader of the display's pipe was too slow, missing output after a signal is not a
-        // failure of mfard. Then mfard has cancelled the writing (first condition), or the reader
-        // had stopped reading before the signal (second condition).
+        // If the reader of the display's pipe is too slow, mfard cancels the writing, or the reader
+        // had stopped reading before the signal. Then missing output is no failure of mfard.
         const bool isLost = dynamic_cast<const RecordingLost*>(&error) != nullptr;
         if (!isLost && (cancel_.stop_requested() || (stopSignal_ && counted.displayFault))) {
             log_.warning(fmt::format("not all output was written: {}", error.what()), {},
