@@ -35,11 +35,9 @@ constexpr milliseconds kOpener{20'000};
 // If one of the following threads hangs, pictures can still be made.
 /// Reload thread: reading the configuration and models from files.
 constexpr milliseconds kReload{60'000};
-/// Waiting until a slow disk has all that was written.
-constexpr milliseconds kDisk{600'000};
 /// Answer thread: answering one request of mfarctl. The longest wait is at the beginning or end of
 /// a recording, for the disk. mfarctl waits as long.
-constexpr milliseconds kAnswer = kDisk;
+constexpr milliseconds kAnswer{600'000};
 /// Time that one picture may wait for the disk, or for the reader of the display's pipe. A longer
 /// wait is reported as a fault of the display.
 constexpr milliseconds kTaken{2000};

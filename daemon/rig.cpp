@@ -115,7 +115,6 @@ Rig::Rig(const Config& config, Heartbeats& hearts)
     recording_.leastFreeBytes = bytes(config.record.leastFreeMb);
     recording_.mostBytes = bytes(config.record.mostMb);
     recording_.writer = {&hearts, "recorder", budget::kWriter, ThreadRole::Helper};
-    recording_.syncer = {&hearts, "disk synchronisation", budget::kDisk, ThreadRole::Helper};
     // A source that waits for mfard can also wait for a slow disk, so that no picture is lost.
     if (handOver() == HandOver::Lossless) recording_.patience = budget::kWriter;
 }

@@ -58,14 +58,14 @@ Recorder::Recorder(const fs::path& root, const StereoRig& rig, double videoRateH
     : root_(emptyFolder(root, videoRateHz)), options_(options),
       video_(root / "cam0", rig.video.size, options.videoBuffers),
       still_(root / "cam1", rig.still.size, options.stillBuffers),
-      poses_{root / "state_groundtruth_estimate0"}, syncer_(1, options.syncer),
+      poses_{root / "state_groundtruth_estimate0"}, syncer_(1, options.writer),
       writer_(1, options.writer) {
     beginCamera(video_.folder, {rig.video, {}, videoRateHz, 0},
                 "video sensor; its coordinates are the body coordinates");
     beginCamera(still_.folder, {rig.still, rig.T_still_video.inverse(), 0, options.stillTimeOffset},
                 "still sensor");
     // Does not wait for the disk, which may have much unwritten data of other programs.
-    writer_.post([this] { sync(); });
+    syncer_.post([this] { syncFileSystem(root_); });
 }
 
 Recorder::~Recorder() {

@@ -33,7 +33,6 @@ struct RecorderOptions {
     /// clock offset that it finds.
     double stillTimeOffset = 0;
     WatchedThread writer{};
-    WatchedThread syncer{};  ///< may wait long for a disk with much unwritten data
     /// Least interval between two synchronisations of the disk. What was recorded before a
     /// synchronisation is safe from a power cut. A new picture or pose starts a synchronisation if
     /// the last one began at least this long ago.
