@@ -130,7 +130,7 @@ constexpr Option kLine[] = {
     text("chip", R"("")",
          "Label, name or path of the line's GPIO chip. Empty: any chip with a line of this name."),
     flag("active_low", "false", "The line is active when its level is low."),
-    number("pulse_ms", {0.001, 10000, "ms"}, "1.0", "Length of a trigger pulse, below timeout_s."),
+    number("pulse_ms", {0.001, 10000, "ms"}, "1.0", "Length of a pulse, below trigger.timeout_s."),
     flag("pulse_is_exposure", "false", "The sensor exposes as long as the pulse lasts."),
     text("loopback", R"("")",
          "Number or name of a GPIO input that is wired to the trigger line, to measure the times "

@@ -22,7 +22,7 @@ constexpr int kFlatFrom = 768, kChangedFrom = 832;  // columns of the still
 constexpr int kShift = 24;                          // motion of the video camera [px of the still]
 constexpr int kComparedCells = 40;  // columns of cells; 48 are left of the flat part
 
-/// What changes between two frames at the right side of the picture.
+/// How the right side of the second frame differs from that of the first one.
 enum class Change { None, Flat, Discs };
 
 /// Keeps the look-ups with which the last frame was drawn.
